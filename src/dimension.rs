@@ -1,4 +1,4 @@
-//! The dimension ladder: turns a number of space dimensions into a constant that types can use.
+//! Converts a number of space dimensions to a constant that types can use.
 
 /// Evaluates `$work` with the constant `$D` for `$dimension`, which is 1, 2 or 3 (larger values
 /// count as 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`. Space-time code uses
@@ -23,8 +23,8 @@ macro_rules! with_dimension {
 }
 pub(crate) use with_dimension;
 
-/// Declares the trait `$every` of all types that implement `$contract<D>` in every dimension. An
-/// object of this trait converts to any of these dimensions.
+/// Declares the trait `$every`, which all types implement that implement `$contract<D>` in every
+/// dimension. An object of `$every` converts to `$contract<D>` for any D.
 macro_rules! in_every_dimension {
     ($(#[$meta:meta])* $every:ident: $contract:ident) => {
         $(#[$meta])*
@@ -33,7 +33,7 @@ macro_rules! in_every_dimension {
         impl<T: $contract<1> + $contract<2> + $contract<3> + ?Sized> $every for T {}
 
         impl dyn $every {
-            /// This object as an implementation in D dimensions (1, 2 or 3).
+            /// Converts this object to an implementation in D dimensions (1, 2 or 3).
             pub(crate) fn in_dimension<const D: usize>(
                 self: std::sync::Arc<Self>,
             ) -> Option<std::sync::Arc<dyn $contract<D>>> {

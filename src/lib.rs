@@ -37,15 +37,15 @@
 //! The modules, in the order of the data flow:
 //!
 //! ```text
-//! suite    checks the file; every error has its line; inserts the stated solution into the
-//!          equation of motion
+//! suite    checks the file, and reports each error with its line; inserts the stated solution
+//!          into the equation of motion
 //! study    makes one case per combination of listed values; sets up and runs the solvers
 //! verify   computes errors on every level, compares observed and formal order, gives a verdict
-//! report   writes text (the snapshot), JSON, figures and an HTML page; compares two runs
+//! report   writes text (the snapshot), JSON, drawings and an HTML page; compares two runs
 //! ```
 //!
 //! Dependencies: the solvers [`mpm`] and [`fem`] import only [`subject`], the interface of solvers.
-//! So does [`external`], which passes problems to external solvers. [`exact`] has the exact
+//! So does [`external`], which passes problems to external solvers. [`exact`] contains the exact
 //! solutions and imports no solver. [`verify`] judges results of any solver. [`suite`] describes
 //! what [`study`] runs, and [`report`] uses results only.
 //!

@@ -1,5 +1,5 @@
-//! Lists the members of families whose files are in two modules, one line per member. Each module
-//! declares its own files from these lines and does not name files of the other module.
+//! Lists the members of families whose files are in two modules, with one line for each member.
+//! Each module declares its own files from these lines and does not name files of the other module.
 
 /// Calls the macro `declare` with every material. A line
 ///
@@ -93,7 +93,7 @@ macro_rules! each_effect {
 }
 pub(crate) use each_effect;
 
-/// The key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
+/// Returns the key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
 pub(crate) fn key(field: &'static str) -> &'static str {
     field.trim_start_matches("r#")
 }

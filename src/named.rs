@@ -1,4 +1,4 @@
-//! Enums for choices by name in suites.
+//! Enums whose members suites choose by name.
 
 /// Declares an enum whose members have the same spelling in YAML, reports and messages.
 ///
@@ -18,10 +18,10 @@ macro_rules! named {
         }
 
         impl $names {
-            /// Every member, in declaration order.
+            /// All members, in declaration order.
             pub const ALL: &[Self] = &[$(Self::$member),+];
 
-            /// The name in suites and reports.
+            /// Returns the name of the member in suites and reports.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+

@@ -1,20 +1,21 @@
-//! The nearest known name to a misspelt one.
+//! Finds the known name that is most similar to a misspelt one.
 
 use strsim::damerau_levenshtein;
 
-/// Maximum length of names. Longer names are not typing errors, and the cost of the distance is
-/// proportional to the product of both lengths.
+/// Maximum length of names that are compared. Longer names are not typing errors, and the cost of a
+/// comparison is proportional to the product of both lengths.
 const LONGEST: usize = 64;
 
-/// Letters per allowed typing error.
+/// Number of letters for which one typing error is allowed.
 const LETTERS: usize = 3;
 
-/// The nearest of the `known` names, if close enough; the first name in a tie.
+/// Returns the nearest of the `known` names, if it is close enough. The first one is returned if
+/// several are equally near.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     by_nearness(name, known).into_iter().next().filter(|known| is_near(name, known))
 }
 
-/// The `known` names, nearest first.
+/// Sorts the `known` names by their distance from `name`, nearest first.
 pub(crate) fn by_nearness<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str>,
@@ -31,7 +32,8 @@ fn is_near(name: &str, known: &str) -> bool {
     name.len() <= LONGEST && distance(name, known) <= letters / LETTERS
 }
 
-/// Number of typing errors between two names; capitals, spaces and hyphens do not count.
+/// Counts the typing errors between two names. Differences in capitals, spaces and hyphens do not
+/// count.
 fn distance(name: &str, known: &str) -> usize {
     let plain = |name: &str| name.to_lowercase().replace(['-', ' '], "_");
     damerau_levenshtein(&plain(name), &plain(known))

@@ -1,4 +1,4 @@
-//! Names for authors of solvers in Rust: `use mpm_verify::prelude::*`.
+//! Names that authors of solvers in Rust need: `use mpm_verify::prelude::*`.
 
 pub use crate::external::{
     BodyForceField, Capabilities, FieldName, FieldPlaces, LevelProblem, ProblemFields,

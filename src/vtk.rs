@@ -1,7 +1,7 @@
-//! VTK files in XML format for ParaView: points and grids with data, and time series of such files
-//! (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because text readers
-//! stop at the first NaN. This crate has its own implementation because the existing crate depends
-//! on parsers that future Rust versions will reject.
+//! Writes VTK files in XML format for ParaView: points and grids with data, and time series of such
+//! files (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because text
+//! readers stop at the first NaN. The existing VTK crate is not used, because it depends on parsers
+//! that future Rust versions will reject.
 
 use crate::subject::StateField;
 use std::fmt::Write;
@@ -9,8 +9,8 @@ use std::fmt::Write;
 /// VTK number of the cell type "vertex": a cell that is a point.
 const VERTEX: u8 = 1;
 
-/// Tensor rank of a field entry. In one dimension the number of components does not determine the
-/// rank.
+/// Tensor rank of an entry of a field. In one dimension the number of components does not determine
+/// the rank.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TensorRank {
     Scalar,
@@ -19,7 +19,7 @@ pub(crate) enum TensorRank {
 }
 
 impl TensorRank {
-    /// Tensor rank of a field in `d` dimensions; a single number is a scalar.
+    /// Returns the tensor rank of a field in `d` dimensions; a single number is a scalar.
     fn of(field: &StateField, d: usize) -> Self {
         match field.components {
             1 => Self::Scalar,
@@ -29,7 +29,7 @@ impl TensorRank {
     }
 }
 
-/// A file of points, each with a vertex cell; each position (m) has `d` numbers.
+/// Creates a file of points, each with a vertex cell. A position (m) has `d` numbers.
 pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateField)]) -> Vec<u8> {
     let n = positions.len() / d.max(1);
     let mut file = VtkFile::default();
@@ -46,13 +46,13 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     file.written("UnstructuredGrid", "")
 }
 
-/// Fields of a body with their tensor ranks, which follow from the numbers of components.
+/// Adds the tensor ranks to the fields of a body. They follow from the numbers of components.
 pub(crate) fn ranked(d: usize, fields: Vec<StateField>) -> Vec<(TensorRank, StateField)> {
     fields.into_iter().map(|field| (TensorRank::of(&field, d), field)).collect()
 }
 
-/// A file of grid nodes with spacing `h` (m). `counts` has the number of nodes along each axis,
-/// `origin` is the lowest node (m), and the first axis varies fastest.
+/// Creates a file of grid nodes with spacing `h` (m). `counts` has the number of nodes along each
+/// axis, `origin` is the lowest node (m), and the first axis varies fastest.
 pub(crate) fn grid(
     origin: &[f64],
     h: f64,
@@ -70,8 +70,8 @@ pub(crate) fn grid(
     file.written("ImageData", &place)
 }
 
-/// A time series. Each entry has a time (s), a part (one for each body and one for its grid) and
-/// the file path relative to the series file.
+/// Creates a time series. Each entry has a time (s), a part (one for each body and one for its
+/// grid), and the path of a file relative to the series file.
 pub(crate) fn series(files: &[(f64, usize, String)]) -> String {
     let mut xml = head("Collection", "");
     for (t, part, file) in files {
@@ -88,7 +88,7 @@ fn head(kind: &str, attributes: &str) -> String {
     )
 }
 
-/// The XML text of a file, and the appended numbers.
+/// The XML text of a file, and the numbers that are appended to it.
 #[derive(Default)]
 struct VtkFile {
     xml: String,
@@ -104,8 +104,8 @@ impl VtkFile {
         self.xml += "</PointData>\n</Piece>\n";
     }
 
-    /// Vectors are extended to three components and tensors to nine; components beyond the
-    /// dimension are zero.
+    /// Appends numbers. Vectors are extended to three components and tensors to nine; components
+    /// above the dimension are zero.
     fn numbers(&mut self, name: &str, (rank, d): (TensorRank, usize), numbers: &[f64]) {
         let (rows, deep, wide) = match rank {
             TensorRank::Scalar => (1, 1, 1),

@@ -102,7 +102,7 @@ pub(super) enum Format {
     Json,
 }
 
-/// Error of a value parser: the values that it accepts.
+/// Error of a value parser. It describes the accepted values.
 #[derive(Debug, Error)]
 #[error("expected {0}")]
 pub(super) struct Expected(pub(super) Cow<'static, str>);
@@ -113,7 +113,7 @@ impl Expected {
     }
 }
 
-/// Parses a time with its unit, in seconds.
+/// Parses a time with its unit, and converts it to seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {

@@ -27,7 +27,7 @@ pub(super) struct CheckArgs {
     solver: SolverArgs,
 }
 
-/// Arguments for the extent of the findings that `check` prints.
+/// Arguments that determine how many findings `check` prints.
 #[derive(Debug, Args)]
 pub(super) struct CheckPrintArgs {
     /// Print nothing about sound suites, and no notes
@@ -38,7 +38,7 @@ pub(super) struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Prints for each suite its errors, or that it is valid. Warns of runs that cannot meet their
+/// Prints the errors of each suite, or that it is valid. Warns of runs that cannot meet their
 /// expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
@@ -100,29 +100,29 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
     diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
 }
 
-/// Findings so far. Text is printed immediately, JSON at the end.
+/// Collected findings. Text is printed immediately, JSON at the end.
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
-    /// Whether the texts of notes are printed.
+    /// Whether notes are printed in full, instead of only counted.
     has_notes: bool,
     suites: Vec<Value>,
-    /// Suites that an external solver can run; `None` without an external solver.
+    /// Summary of the suites that the external solver can run; `None` without an external solver.
     applicable: Option<ApplicableSuites>,
 }
 
-/// Suites that an external solver can run, and its missing capabilities for other suites.
+/// Suites that an external solver can run, and the capabilities that it lacks for other suites.
 #[derive(Default)]
 struct ApplicableSuites {
     names: Vec<String>,
-    /// Number of suites for each missing capability.
+    /// Number of suites that require each missing capability.
     lacking: BTreeMap<String, usize>,
     /// Number of suites that the solver cannot run.
     others: usize,
 }
 
 impl ApplicableSuites {
-    /// Summary in a few lines.
+    /// Summarises the suites in a few lines.
     fn text(mut self) -> String {
         self.names.sort_unstable();
         let (count, all) = (self.names.len(), self.names.len() + self.others);
@@ -144,8 +144,8 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Starts the findings about `count` suites. Notes are printed if every target is a single
-    /// suite.
+    /// Starts the findings about `count` suites. Notes are printed in full if every target names a
+    /// single suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
         let is_named = count <= args.targets.targets.len();
@@ -193,8 +193,8 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// Adds a suite that can run. With an external solver, the expectation is the requirement of
-    /// `run --gate`.
+    /// Adds a suite that can run. If there is an external solver, the expectation is the
+    /// requirement of `run --gate`.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,

@@ -44,10 +44,10 @@ pub(super) enum Page {
 /// File name of the overview snapshot.
 const OVERVIEW: &str = "OVERVIEW.snap";
 
-/// File name of the results in a folder of `run --out`.
+/// File name of the JSON results in a folder of `run --out`.
 const REPORT: &str = "report.json";
 
-/// Results on one side of the comparison.
+/// Results on one side of the comparison, before or after.
 enum ComparedResults {
     /// Results of a run, with all levels.
     Run(ReportDocument),
@@ -55,8 +55,7 @@ enum ComparedResults {
     Snapshots(ReportDocument),
 }
 
-/// Prints the changes between two runs. Both sides are read first, so that errors on both sides are
-/// reported.
+/// Prints the changes between two runs. Both sides are read first, and errors in both are reported.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {
@@ -131,7 +130,7 @@ fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedR
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))
 }
 
-/// Text of a file in a commit.
+/// Returns the text of a file in a commit.
 fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
         return Err(io::Error::other("a commit does not begin with a dash"));
@@ -165,7 +164,7 @@ fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     })
 }
 
-/// Byte at a line and a column, where columns are counted in bytes.
+/// Converts a line and a column, which is counted in bytes, to a byte range.
 fn bytes(text: &str, line: usize, column: usize) -> Range<usize> {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let at = (start + column - 1).min(text.len());

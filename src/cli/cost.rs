@@ -52,7 +52,7 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     Ok(if refused.is_empty() { found } else { Status::BadInput })
 }
 
-/// Finds the most accurate setting within the budget for each suite.
+/// Finds and prints the most accurate setting within the budget for each suite.
 fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     let mut found: Vec<(String, BestCandidate)> = Vec::new();
     let mut code = Status::Passed;
@@ -76,7 +76,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     code
 }
 
-/// Measures errors and seconds of every level of each convergence study. Other studies have no
+/// Measures errors and times (s) of every level of each convergence study. Other studies have no
 /// errors.
 fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     let solvers = solver::greet_all(&args.programs)?;
@@ -114,7 +114,7 @@ fn one(runs: &SuiteRuns, solvers: &[SolverProgram], args: &CostArgs) -> Option<T
         plan.map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len())
     };
     let levels: usize = runs.parts().iter().map(|part| levels(&part.suite)).sum();
-    // Each level runs once for its error and once to measure its time.
+    // Each level runs once to measure its error and once to measure its time.
     let bar = ProgressBar::with_draw_target(Some(2 * levels as u64), ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} levels  {msg}") {
         bar.set_style(style);

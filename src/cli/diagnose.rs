@@ -1,4 +1,4 @@
-//! `mpm-verify diagnose`: finds out why a case does not have the theoretical order.
+//! `mpm-verify diagnose`: determines why a case does not have the theoretical order.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets, seconds};
 use super::output::{CommandError, Status};
@@ -51,18 +51,18 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     Ok(all.code)
 }
 
-/// Diagnoses so far.
+/// Collected diagnoses.
 struct Diagnoses<'a> {
     args: &'a DiagnoseArgs,
     solver: Option<&'a dyn SolverFactory>,
     code: Status,
-    /// Number of diagnosed cases.
+    /// Number of cases that were diagnosed.
     diagnosed: usize,
     json: Vec<Value>,
 }
 
 impl Diagnoses<'_> {
-    /// Adds the cases of a suite.
+    /// Diagnoses the cases of a suite.
     fn suite(&mut self, source: &Source, suite: &Suite) {
         let names = suite.case_names().into_iter().enumerate();
         for (index, case) in names.filter(|(_, case)| case.contains(self.args.case.as_str())) {

@@ -28,7 +28,7 @@ const LONGEST: u64 = 1 << 20;
 
 const FORMAT_HELP: &str = "each line has a spacing and a value, such as `0.125 1.0625`";
 
-/// Prints the estimate for a series, or the reason why there is none.
+/// Prints the estimate for a series, or the reason why the series has none.
 pub(super) fn estimate(args: &EstimateArgs) -> Result<Status, CommandError> {
     let (name, text) = read(args.file.as_deref())?;
     let lines = parse(&name, &text)?;
@@ -62,7 +62,7 @@ fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     Ok((name, text))
 }
 
-/// A level, with the position of its spacing in the text.
+/// A level in the input, with the position of its spacing in the text.
 struct InputLine {
     point: SeriesPoint,
     spacing: Range<usize>,
@@ -121,7 +121,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     if lines.is_empty() {
         return Err(Diagnostic::about(file, "there is no level").with_help(FORMAT_HELP));
     }
-    // A program may omit trailing zeros, so the value with the most digits determines the
+    // A program may omit trailing zeros. The value with the most digits therefore determines the
     // resolution.
     let units = lines.iter().map(|line| line.point.resolution);
     let unit = units.fold(f64::INFINITY, f64::min);
@@ -131,8 +131,9 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     Ok(lines)
 }
 
-/// Ranges of the fields of a line that begins at byte `start` of the text. A comma or semicolon
-/// with spaces around it is one separator. Two in succession have an empty field between them.
+/// Splits a line that begins at byte `start` of the text into the ranges of its fields. A comma or
+/// semicolon with spaces around it is one separator. Between two separators in succession there is
+/// an empty field.
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');
     let range = |part: &str| {
@@ -148,8 +149,8 @@ fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     line.split_whitespace().map(range).collect()
 }
 
-/// One unit of the last printed digit of a number; zero if the number has at least the 16 digits of
-/// double precision.
+/// Returns one unit of the last printed digit of a number; zero if the number has at least the 16
+/// digits of double precision.
 fn resolution(number: &str) -> f64 {
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let digits = mantissa.chars().filter(char::is_ascii_digit).collect::<String>();
@@ -179,8 +180,8 @@ fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusa
     rows.collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// The limit and its interval, rounded to two digits of the half-width:
-/// `1.2346 +- 0.0012 [1.2334, 1.2358]`.
+/// Formats the limit and its interval, rounded to two digits of the half-width, such as `1.2346 +-
+/// 0.0012 [1.2334, 1.2358]`.
 fn limit_shown(limit: &Interval) -> String {
     let half_width = limit.half_width();
     let size = limit.value.abs().max(half_width);

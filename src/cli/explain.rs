@@ -40,7 +40,7 @@ pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     Ok(show::each(targets, |suite| explanation(suite, without)))
 }
 
-/// Writes the sketch of the only requested suite into `file`.
+/// Writes the sketch of the requested suite, which must be the only one, into `file`.
 fn draw(args: &ExplainArgs, file: &Path) -> Result<Status, CommandError> {
     let mut suites = select::suites(&args.targets.targets);
     let suite = match (suites.pop(), suites.is_empty()) {
@@ -68,7 +68,7 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
     Err(CommandError::option("--without", name, reason))
 }
 
-/// How the solver integrates linear elasticity. The small-strain equation does not determine this.
+/// Describes how the solver integrates linear elasticity, because the equation does not show this.
 const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
                           objective rate";
 
@@ -104,7 +104,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page + "\n"
 }
 
-/// The levels, listed once for all cases that have them in common.
+/// Lists the levels. Cases with the same levels share one list.
 fn levels(suite: &Suite) -> String {
     let mut page = String::new();
     let planned = planned_levels(suite);
@@ -178,7 +178,7 @@ fn line(key: &str, value: &str) -> String {
     format!("  {key:17} {value}\n")
 }
 
-/// Cost of a step of the case, and the lines that change without an effect.
+/// Describes the cost of a step of the case, and the lines that change without an effect.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =

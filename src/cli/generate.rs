@@ -1,5 +1,5 @@
-//! Texts that the program generates from its own definitions: JSON Schemas, shell completions and
-//! manual pages.
+//! Generates texts from definitions of the program: JSON Schemas, shell completions and manual
+//! pages.
 
 use super::output;
 use super::output::{CommandError, Status};
@@ -79,7 +79,7 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> 
     Ok(Status::Passed)
 }
 
-/// The command with the name of its manual page, `mpm-verify-run`.
+/// Gives a command the name of its manual page, such as `mpm-verify-run`.
 fn titled(command: &Command, name: &str) -> Command {
     command.clone().display_name(format!("mpm-verify-{name}"))
 }

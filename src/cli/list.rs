@@ -59,7 +59,8 @@ pub(super) struct StepsArgs {
     format: FormatArgs,
 }
 
-/// Prints the time steps of each suite. The status states whether all are within the tolerance.
+/// Prints the time steps of each suite. The status shows whether all steps are within the
+/// tolerance.
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);

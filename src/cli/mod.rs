@@ -115,9 +115,9 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
             cli.color.write_global();
             run_command(cli.command)
         }
-        // Help and version, which are printed to standard output, are errors for `clap` too.
+        // `clap` also returns help and version as errors. They are printed to standard output.
         Err(mut answer) => {
-            // The suggestion `-- -1` would pass a negative number as a suite.
+            // The suggestion of `clap`, `-- -1`, would pass a negative number as a suite.
             let unknown = answer.get(ContextKind::InvalidArg).map(ToString::to_string);
             let is_number = |text: &str| text.parse::<f64>().is_ok();
             if unknown.is_some_and(|text| text.starts_with('-') && is_number(&text)) {
@@ -151,10 +151,10 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
     }
 }
 
-/// Inserts `run` into the arguments if they contain no command.
+/// Inserts the command `run` into the arguments if they contain no command.
 ///
 /// # Errors
-/// If the first argument is neither a command nor a suite, but is most similar to a command.
+/// If the first argument is neither a command nor a suite, but is similar to a command.
 fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsString>, CommandError> {
     let at = first(&words);
     let word = words.get(at).map(|word| word.to_string_lossy());
@@ -181,7 +181,7 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
     Ok(words)
 }
 
-/// Index of the first argument after the program name and the global options.
+/// Returns the index of the first argument after the program name and the global options.
 fn first(words: &[OsString]) -> usize {
     let mut at = words.len().min(1);
     while let Some(word) = words.get(at).and_then(|word| word.to_str()) {

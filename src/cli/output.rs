@@ -1,6 +1,6 @@
-//! Standard output and standard error. All output goes through this module, so that a failure to
-//! write is reported at the end. Verdicts and errors are coloured; the streams remove colours
-//! unless they are terminals.
+//! Standard output and standard error. All output uses this module, so a failure to write is
+//! reported at the end. Verdicts and errors are coloured. The streams remove the colours unless
+//! they are terminals.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;
@@ -25,7 +25,7 @@ pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
-/// Message about the first failure to print; `None` without a failure.
+/// Returns a message about the first failure to print; `None` without a failure.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)
 }
@@ -59,7 +59,7 @@ const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
 const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Coloured beginnings of lines, after leading spaces.
+/// Beginnings of lines that are coloured, after leading spaces.
 const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
@@ -71,10 +71,10 @@ const FIRST: [(&str, Style); 8] = [
     ("n/a ", DOUBTFUL),
 ];
 
-/// Coloured texts in the line with the result of a case.
+/// Texts that are coloured in the line with the result of a case.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
-/// The text with coloured verdicts.
+/// Colours the verdicts in a text.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
@@ -114,7 +114,7 @@ impl From<Status> for ExitCode {
     }
 }
 
-/// An error that ends a command with [`Status::BadInput`]. Hints in the text are on separate lines.
+/// An error that ends a command with [`Status::BadInput`]. Hints in its text are on separate lines.
 #[derive(Debug, Error)]
 pub(super) enum CommandError {
     #[error("error: {0}")]

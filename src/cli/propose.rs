@@ -1,4 +1,4 @@
-//! `mpm-verify propose`: proposes entries of `expect` that a run supports.
+//! `mpm-verify propose`: proposes entries of `expect` that agree with the results of a run.
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::output::{CommandError, Status};
@@ -57,7 +57,8 @@ fn of_suite(
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
-    // Findings about the amplitude, the grid and the steps. Expectations cannot avoid these errors.
+    // These findings are about the amplitude, the grid and the steps. No expectation can compensate
+    // for such errors.
     let found = preflight(&exploring, source);
     let remarks = found.iter().map(|found| {
         let help = found.help().map(|help| format!("; {help}"));

@@ -12,18 +12,18 @@ use std::path::{Path, PathBuf};
 /// Default folder of suites.
 const FOLDER: &str = "verification";
 
-/// Target that means standard input.
+/// Name of the target that is standard input.
 const STDIN: &str = "-";
 
-/// Suites that `targets` name, each loaded or with a diagnostic about the failure.
+/// Loads the suites that `targets` name. An element is a suite, or a diagnostic about the failure.
 ///
-/// Without targets: all suites in `verification/`, or the embedded suites if there is no such
+/// Without targets, loads all suites in `verification/`, or the built-in suites if there is no such
 /// folder.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// Suites that `targets` name, each with its source, or with a diagnostic.
+/// Loads the suites that `targets` name, each with its source, or returns a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
@@ -46,8 +46,9 @@ fn everything() -> Sources {
     }
 }
 
-/// Names of the suites that `targets` name individually: as a file, by name or on standard input,
-/// instead of by a folder, a group or a pattern. `suites` are all suites that the targets select.
+/// Returns the names of the suites that `targets` name individually: by a file, by name or on
+/// standard input, instead of by a folder, a group or a pattern. `suites` are all suites that the
+/// targets select.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
     #[derive(serde::Deserialize)]
     struct Name {
@@ -66,18 +67,19 @@ pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<St
     sources.filter_map(|source| name(source.ok()?)).collect()
 }
 
-/// Whether `target` refers to existing suites, or looks like a path.
+/// Whether `target` names existing suites, or looks like a path.
 pub(super) fn is_known(target: &str) -> bool {
     let path = Path::new(target);
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether the target is a pattern of names instead of a file name.
+/// Whether the target is a pattern of suite names instead of a file name.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
 
-/// File or folder that `target` names, whether or not it exists; `None` for a plain name.
+/// Returns the file or folder that `target` names, whether or not it exists; `None` for a plain
+/// name.
 fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
     if name == STDIN || is_pattern(target) {
@@ -111,7 +113,7 @@ fn sources(target: &Path) -> Sources {
     }
 }
 
-/// The built-in suite with this name, or else the suites of the group with this name.
+/// Returns the built-in suite with this name, or else the suites of the group with this name.
 fn named(name: &str) -> Option<Sources> {
     if let Some(suite) = embedded::source(name) {
         return Some(vec![suite]);
@@ -121,7 +123,7 @@ fn named(name: &str) -> Option<Sources> {
     Some(group).filter(|group| !group.is_empty())
 }
 
-/// Suites whose name, or group and name, match a pattern.
+/// Returns the suites whose name, or group and name, match a pattern.
 fn fitting(glob: &str) -> Sources {
     let fits = |path: &Path| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -143,7 +145,8 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Suggestion for the path of a missing file: a file in the same folder, or a suite with this name.
+/// Suggests a file or suite for the path of a missing file: a file in the same folder with a
+/// similar name, or a suite with this name.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));
@@ -171,7 +174,7 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Names of local and embedded suites and groups.
+/// Returns the names of local and built-in suites and groups.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));
@@ -183,7 +186,7 @@ pub(super) fn suite_names() -> Vec<String> {
     names
 }
 
-/// All suites in a folder.
+/// Returns all suites in a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {

@@ -1,4 +1,4 @@
-//! Starts external solvers, and replaces the methods of suites by them.
+//! Starts external solvers, and replaces the methods of suites by external solvers.
 
 use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
 use super::output;
@@ -13,7 +13,7 @@ use std::time::Duration;
 /// Starts the solver that the command line names, if any.
 ///
 /// # Errors
-/// If the solver cannot be used.
+/// If the solver does not start or violates the protocol.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
@@ -21,7 +21,7 @@ pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, Comman
 /// Starts all solvers of the command line, with their names.
 ///
 /// # Errors
-/// If a solver cannot be used, or if their names are not unique.
+/// If a solver does not start or violates the protocol, or if two solvers have the same name.
 pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, CommandError> {
     let mut names = BTreeSet::new();
     for one in &args.solver {
@@ -45,7 +45,7 @@ pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, Comman
 /// Starts a solver and requests its capabilities.
 ///
 /// # Errors
-/// If the solver cannot be used.
+/// If the solver does not start or violates the protocol.
 pub(super) fn greet(
     command: &str,
     limits: &SolverLimitArgs,
@@ -64,8 +64,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// The suite with the solver instead of its methods, if there is a solver. `None`, with a note, if
-/// external solvers cannot run the suite because it examines the inside of a method.
+/// Replaces the methods of the suite by the solver, if there is one. Prints a note and returns
+/// `None` if external solvers cannot run the suite, because it tests internals of a method.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
@@ -89,8 +89,8 @@ fn suite_of_solver(
     judged
 }
 
-/// The suites with the solver instead of their methods, each gated on its `terms`, if any. Also
-/// returns the names of skipped suites, which examine the inside of a method.
+/// Replaces the methods of the suites by the solver. A suite for which `terms` returns terms gets a
+/// gate. Also returns the names of skipped suites, which test internals of a method.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,

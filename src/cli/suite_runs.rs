@@ -5,13 +5,13 @@ use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
 
-/// One suite with all its runs: by its own methods, by external solvers, or by both.
+/// One suite with all its runs, which use its own methods, external solvers, or both.
 pub(super) struct SuiteRuns {
     /// One run by the methods of the suite, and one by each solver.
     parts: Vec<SuitePart>,
 }
 
-/// A suite, and what runs it: its methods or a solver.
+/// A suite, and the methods or the solver that runs it.
 pub(super) struct SuitePart {
     pub(super) suite: Suite,
     /// Index of the solver; `None` for the methods of the suite.
@@ -35,7 +35,8 @@ impl SuiteRuns {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
-            // Several suites may have the same name. They are matched in order.
+            // Several suites may have the same name. The order determines which ones belong
+            // together.
             let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
                 *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
             };
@@ -81,12 +82,12 @@ impl SuiteRuns {
         &self.parts
     }
 
-    /// Statement of the problem, which is common to all parts.
+    /// Returns the suite, whose statement is common to all parts.
     pub(super) fn suite(&self) -> &Suite {
         &self.parts[0].suite
     }
 
-    /// The first name that occurs twice among the cases.
+    /// Returns the first name that two of the cases have.
     fn twice(&self) -> Option<String> {
         let mut names = BTreeSet::new();
         let all = self.parts.iter().flat_map(|part| part.suite.case_names());
@@ -94,10 +95,10 @@ impl SuiteRuns {
     }
 }
 
-/// Checks that no solver has the name of another case.
+/// Checks that the name of a solver differs from the names of all cases.
 ///
 /// # Errors
-/// The first name that occurs twice.
+/// The first name that two cases have.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
     let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
     else {

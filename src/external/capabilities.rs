@@ -1,4 +1,4 @@
-//! Capabilities of solvers, requirements of problems, and their common names.
+//! Capabilities of solvers, requirements of problems, and the names that both use.
 
 use crate::members::{each_effect, each_material};
 use crate::nearest::nearest;
@@ -48,7 +48,7 @@ pub struct Capabilities {
     pub binary: bool,
 }
 
-/// Requirements of a problem, with the names used in suites and capabilities.
+/// Requirements of a problem. Names are those in suites and capabilities.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[expect(clippy::struct_excessive_bools, reason = "independent needs, each with its ability")]
@@ -61,7 +61,7 @@ pub struct ProblemNeeds {
     pub conditions: Vec<&'static str>,
     /// Loads and effects.
     pub loads: Vec<&'static str>,
-    /// The judged column, if it is optional.
+    /// Column of the judged quantity, if it is optional.
     pub column: Option<&'static str>,
     /// Parameters with respect to which the study needs gradients.
     pub gradients: Vec<&'static str>,
@@ -87,13 +87,13 @@ pub struct ProblemNeeds {
     pub loaded_rims: bool,
     /// Whether the load is applied in load steps.
     pub load_steps: bool,
-    /// Parts of the scene that the protocol does not support yet.
+    /// Parts of the scene that the protocol does not support.
     pub beyond: Vec<&'static str>,
 }
 
 impl Capabilities {
-    /// Capabilities with names as in suites: numbers of dimensions, laws, conditions on faces,
-    /// loads.
+    /// Creates capabilities from numbers of dimensions, laws, conditions on faces and loads. Names
+    /// are those in suites.
     pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         Self {
@@ -105,7 +105,8 @@ impl Capabilities {
         }
     }
 
-    /// Missing capabilities, each as the entry that the solver would have to add to its list.
+    /// Lists the missing capabilities. Each is the entry that the solver would have to add to its
+    /// list.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -137,7 +138,7 @@ impl Capabilities {
 }
 
 impl Capabilities {
-    /// Boolean capabilities, in the order of [`ProblemNeeds::flags`].
+    /// Returns the boolean capabilities, in the order of [`ProblemNeeds::flags`].
     fn flags(&self) -> [bool; 11] {
         [
             self.manufactured,
@@ -156,7 +157,8 @@ impl Capabilities {
 }
 
 impl Capabilities {
-    /// Warnings, one line for each unknown name in the lists and each unknown key in `keys`.
+    /// Returns warnings, one line for each unknown name in the lists and each unknown key in
+    /// `keys`.
     #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -185,7 +187,7 @@ impl Capabilities {
 }
 
 impl ProblemNeeds {
-    /// Boolean requirements, with the names of the capabilities.
+    /// Returns the boolean requirements, with the names of the corresponding capabilities.
     fn flags(&self) -> [(&'static str, bool); 11] {
         [
             ("manufactured", self.manufactured),
@@ -202,7 +204,7 @@ impl ProblemNeeds {
         ]
     }
 
-    /// Requirements that version 1 of the protocol does not pass as numbers, each as the
+    /// Lists the requirements that version 1 of the protocol cannot pass as numbers. Each is the
     /// corresponding entry of the capabilities.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
@@ -251,11 +253,11 @@ const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction",
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
-/// Names of the parameters for gradients.
+/// Names of the parameters that gradients may refer to.
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
 
-/// Keys of the capabilities.
+/// Keys of the capabilities in `hello`.
 #[cfg(feature = "external-programs")]
 const KEYS: &[&str] = &[
     "dimensions",
@@ -278,7 +280,7 @@ const KEYS: &[&str] = &[
     "binary",
 ];
 
-/// Names that the list `capability` may contain.
+/// Lists the names that the list `capability` may contain.
 fn known(capability: &str) -> &'static [&'static str] {
     match capability {
         "laws" => LAWS,
@@ -289,7 +291,7 @@ fn known(capability: &str) -> &'static [&'static str] {
     }
 }
 
-/// The unknown name in `stated` that is most similar to `name`.
+/// Returns the unknown name in `stated` that is most similar to `name`.
 fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'a str> {
     let known = known(capability);
     let unknown = stated.iter().map(String::as_str).filter(|stated| !known.contains(stated));

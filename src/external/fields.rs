@@ -1,4 +1,4 @@
-//! Quantities of a problem, as numbers or as functions of place and time.
+//! Quantities of a problem, as numbers or as functions of position and time.
 
 use serde::{Serialize, Serializer};
 #[cfg(feature = "schemas")]
@@ -43,7 +43,7 @@ pub(super) fn as_map<V: Serialize, S: Serializer>(
     to.collect_map(all.iter().map(|(key, value)| (key, value)))
 }
 
-/// A quantity of a problem that has a value at every place of a body or a face.
+/// A quantity of a problem that has a value at every point of a body or a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FieldName {
@@ -83,21 +83,21 @@ impl FieldName {
     }
 }
 
-/// Places of one problem at which values are requested.
+/// Points of one problem at which values are requested.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct FieldPlaces<'a> {
     /// Reference positions (m), D numbers each.
     pub labels: &'a [f64],
-    /// Index of the body at each place.
+    /// Index of the body at each point.
     pub bodies: &'a [usize],
     /// Displacements (m), D numbers each, if the request contains them.
     pub displacement: Option<&'a [f64]>,
 }
 
 impl<'a> FieldPlaces<'a> {
-    /// Creates places from their reference positions (m, D numbers each) and the body at each
-    /// place.
+    /// Creates points from their reference positions (m, D numbers each) and the body at each
+    /// point.
     pub fn new(labels: &'a [f64], bodies: &'a [usize]) -> Self {
         Self { labels, bodies, displacement: None }
     }
@@ -129,41 +129,42 @@ pub(crate) trait FieldSource: Send + Sync {
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
 }
 
-/// Initial state, loads and face conditions of a problem, at places and times that a solver
+/// Initial state, loads and face conditions of a problem, at points and times that a solver
 /// chooses.
 #[derive(Clone)]
 pub struct ProblemFields(pub(crate) Arc<dyn FieldSource>);
 
 impl ProblemFields {
-    /// Index of the body that contains each of the reference positions (m, D numbers each).
+    /// Returns the index of the body that contains each of the reference positions (m, D numbers
+    /// each).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place that is outside all bodies or on the common boundary of
-    /// two bodies.
+    /// [`FieldError::Request`] for a point outside all bodies or on the common boundary of two
+    /// bodies.
     pub fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         self.0.bodies(labels)
     }
 
-    /// Index of a body that contains the reference position `label` (m), or of the first body if
-    /// none does.
+    /// Returns the index of a body that contains the reference position `label` (m), or of the
+    /// first body if no body contains it.
     pub fn nearest_body(&self, label: &[f64]) -> usize {
         self.0.nearest_body(label)
     }
 
-    /// Checks that each place is in its stated body, within rounding.
+    /// Checks that each point is in its stated body, within rounding.
     ///
     /// # Errors
-    /// [`FieldError::Request`] for the first place that is outside.
+    /// [`FieldError::Request`] for the first point outside its body.
     pub fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
         self.0.check_places(places)
     }
 
-    /// Values at places of a body, place by place. Vectors have D numbers, tensors D^2, row by row.
-    /// The body force is available from
+    /// Returns values at points of a body, point by point. Vectors have D numbers, tensors D^2, row
+    /// by row. The body force is available from
     /// [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
-    /// [`FieldError::Request`] for a place that is not on its face, [`FieldError::Undefined`] if
+    /// [`FieldError::Request`] for a point that is not on its face, [`FieldError::Undefined`] if
     /// the problem does not define the value.
     pub fn values(
         &self,
@@ -197,13 +198,13 @@ pub(crate) trait ForceSource: Send + Sync {
     }
 
     /// Implements [`BodyForceField::at_places`], if this is cheaper than evaluation at single
-    /// places.
+    /// points.
     fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         None
     }
 }
 
-/// A body force at fixed places: writes the components (m/s2) at each place for a time (s).
+/// A body force at fixed points: writes the components (m/s2) at each point for a time (s).
 pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 
 /// A body force per unit of mass, as a function of the reference position and time.
@@ -211,8 +212,8 @@ pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
 
 impl BodyForceField {
-    /// Force (m/s2) at the reference position `label` (m, D numbers) of body number `body` at time
-    /// `t` (s). Components beyond the dimension are zero.
+    /// Returns the force (m/s2) at the reference position `label` (m, D numbers) of body number
+    /// `body` at time `t` (s). Components above the dimension are zero.
     pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
         self.0.at(body, label, t)
     }
@@ -222,12 +223,13 @@ impl BodyForceField {
         self.0.depends_on_displacement()
     }
 
-    /// Force (m/s2) as in [`at`](Self::at), for a place with the displacement `u` (m).
+    /// Returns the force (m/s2) like [`at`](Self::at), for a point with the displacement `u` (m).
     pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         self.0.at_displaced(body, label, t, u)
     }
 
-    /// The force at fixed places, with the body at each place; much cheaper for many times.
+    /// Returns the force at fixed points of the given bodies. This is much cheaper than
+    /// `at` for many times.
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
         self.0.at_places(bodies, labels).unwrap_or_else(|| {
             let (force, places) = (self.clone(), owned(bodies, labels));
@@ -240,7 +242,7 @@ impl BodyForceField {
     }
 }
 
-/// Copies places together with their bodies.
+/// Copies points together with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

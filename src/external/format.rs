@@ -1,4 +1,4 @@
-//! Writes a problem to a file, for manual comparison and for viewers.
+//! Writes a problem to a file, for comparison by hand and for viewers.
 
 use super::problem::LevelProblem;
 use crate::named::named;
@@ -11,9 +11,9 @@ use zip::result::ZipResult;
 use zip::write::SimpleFileOptions;
 
 named! {
-    /// Formats of a problem.
+    /// File formats for a problem.
     pub enum ProblemFormat {
-        /// A table, one particle a line.
+        /// A table with one particle per line.
         Csv = "csv",
         /// One document with the keys of the protocol.
         Json = "json",
@@ -45,7 +45,7 @@ impl LevelProblem {
         }
     }
 
-    /// The protocol message, in lines.
+    /// Formats the protocol message in several lines.
     fn document(&self) -> String {
         let mut document = json!(self);
         let columns = self.particles.columns();
@@ -56,7 +56,7 @@ impl LevelProblem {
 }
 
 impl LevelProblem {
-    /// Number of components per particle of a column.
+    /// Returns the number of components per particle of a column.
     fn width(&self, column: &[f64]) -> usize {
         column.len() / self.particles.len().max(1)
     }
@@ -74,8 +74,8 @@ fn is_tensor(column: &str) -> bool {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A table with one particle per line. The header contains the column names: `position_x`,
-/// `stress_xy`.
+/// Formats a table with one particle per line. The header contains the column names, such as
+/// `position_x` or `stress_xy`.
 fn csv_table(problem: &LevelProblem) -> String {
     let (d, columns) = (problem.dimension, problem.particles.columns());
     let mut head = Vec::new();
@@ -108,9 +108,9 @@ fn csv_table(problem: &LevelProblem) -> String {
 /// Alignment of the header of an npy file (bytes).
 const ALIGNED: usize = 64;
 
-/// A zip file with `npy` arrays (NumPy Enhancement Proposal 1, version 1.0 of the format). Each
-/// column becomes an array with n rows and one array column for each component. The other arrays
-/// are `grid_origin`, `h`, `dt` and `until`.
+/// Creates a zip file with `npy` arrays (NumPy Enhancement Proposal 1, version 1.0 of the format).
+/// Each column becomes an array with n rows and one array column for each component. The other
+/// arrays are `grid_origin`, `h`, `dt` and `until`.
 fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     let mut file = ZipWriter::new(Cursor::new(Vec::new()));
     let mut add = |name: &str, shape: &str, numbers: &[f64]| -> ZipResult<()> {
@@ -132,7 +132,7 @@ fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     Ok(file.finish()?.into_inner())
 }
 
-/// An array of doubles in the `npy` format.
+/// Creates an array of doubles in the `npy` format.
 fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     let mut head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     let magic = b"\x93NUMPY\x01\x00";
@@ -147,7 +147,7 @@ fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Points with data for ParaView: one vertex at the position of each particle.
+/// Creates points with data for ParaView: one vertex at the position of each particle.
 fn vtu_file(problem: &LevelProblem) -> Vec<u8> {
     let rank = |name: &str| match name {
         name if is_scalar(name) => TensorRank::Scalar,

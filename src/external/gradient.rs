@@ -9,9 +9,9 @@ use thiserror::Error;
 /// Request for the value of a functional and its gradient after all steps of a problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientRequest {
-    /// The functional.
+    /// Functional to evaluate.
     pub of: Functional,
-    /// Parameters, in the order of the gradient entries.
+    /// Parameters of the derivatives, in the order of the gradient entries.
     pub with_respect_to: Vec<GradientParameter>,
 }
 
@@ -46,7 +46,7 @@ impl From<SubjectError> for GradientError {
 }
 
 impl LevelProblem {
-    /// Nominal value of a parameter; `None` if the problem lacks the parameter or has several
+    /// Returns the value of a parameter; `None` if the problem lacks the parameter or has several
     /// materials.
     pub fn parameter(&self, parameter: GradientParameter) -> Option<f64> {
         let [material] = self.materials.as_slice() else { return None };
@@ -64,7 +64,7 @@ impl LevelProblem {
         }
     }
 
-    /// The problem with a changed parameter. Initial velocities, steps, loads and the other
+    /// Changes a parameter of the problem. Initial velocities, steps, loads and the other
     /// parameters do not change. A changed density changes all masses.
     #[must_use]
     pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
@@ -102,9 +102,9 @@ impl LevelProblem {
 }
 
 impl Functional {
-    /// Value for `samples` of particles with the masses `mass` (kg), and the size of its rounding
-    /// error: displacements are differences of positions. NaN if the particle or axis does not
-    /// exist.
+    /// Computes the value for `samples` of particles with the masses `mass` (kg), and the size of
+    /// its rounding error. This size depends on the positions, because displacements are their
+    /// differences. NaN if the particle or axis does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
@@ -137,7 +137,7 @@ impl Functional {
     }
 }
 
-/// Largest magnitude; NaN if a number is NaN.
+/// Returns the largest magnitude; NaN if a number is NaN.
 fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
     numbers.map(f64::abs).fold(0.0, larger)

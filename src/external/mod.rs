@@ -1,12 +1,12 @@
-//! External solvers: the trait for creating them, their problem, and the protocol for programs.
+//! External solvers: the trait that creates them, their problem, and the protocol for programs.
 //!
 //! ```text
 //! problem        initial state of one level: particles, grid, faces, materials, loads, steps
-//! fields         quantities of a problem at any place and time
+//! fields         quantities of a problem at any point and time
 //! capabilities   capabilities of solvers, requirements of problems, and their names
 //! gradient       derivatives of functionals, and problems with a changed parameter
-//! format         a problem as a file
-//! program/       solvers in programs that implement the protocol (docs/protocol.md)
+//! format         writes a problem to a file
+//! program/       runs solvers in programs that implement the protocol (docs/protocol.md)
 //! ```
 
 mod capabilities;
@@ -35,12 +35,12 @@ pub use problem::{
 #[cfg(feature = "external-programs")]
 pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, read_answers};
 
-/// Creates a solver for any level of a suite.
+/// Creates an external solver for any level of a suite.
 pub trait SolverFactory: Sync {
-    /// Name of the solver and of its case.
+    /// Returns the name of the solver and of its cases in reports.
     fn name(&self) -> &str;
 
-    /// Theoretical order in h of the displacements on a smooth solution.
+    /// Returns the theoretical order in h of the displacement error for a smooth solution.
     fn formal_order(&self) -> f64 {
         2.0
     }
@@ -50,25 +50,26 @@ pub trait SolverFactory: Sync {
         Precision::Double
     }
 
-    /// Settings for reports, as rows of name and value.
+    /// Returns the settings for reports, as rows of name and value.
     fn settings(&self) -> Vec<(String, String)> {
         Vec::new()
     }
 
-    /// Hash of all inputs of the results except the problem: the program and its arguments. Later
-    /// runs of a solver with the same hash use cached results. `None` (the default): results are
-    /// not cached.
+    /// Returns the hash of all inputs that affect the results, except the problem: the program and
+    /// its arguments. Later runs of a solver with the same hash use cached results. `None` (the
+    /// default): results are not cached.
     fn identity(&self) -> Option<u64> {
         None
     }
 
-    /// Capabilities that a problem requires and the solver lacks; empty if it can run the problem.
+    /// Lists the capabilities that a problem requires and the solver lacks; empty if it can run the
+    /// problem.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()
     }
 
-    /// Creates the solver in the initial state of `problem`. Its labels are the reference positions
-    /// of the particles, or its own sample points.
+    /// Creates the solver in the initial state of `problem`. The labels of the solver are the
+    /// reference positions of the particles, or its own sample points.
     ///
     /// # Errors
     /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
@@ -76,7 +77,7 @@ pub trait SolverFactory: Sync {
     /// fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
-    /// Value of a functional after all steps of `problem`, and its gradient. The default is for
+    /// Computes a functional after all steps of `problem`, and its gradient. The default is for
     /// solvers that are not differentiable.
     ///
     /// # Errors

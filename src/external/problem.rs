@@ -1,4 +1,4 @@
-//! Problem of one level for any solver.
+//! Problem of one level, in a form for any solver.
 
 use super::fields::{BodyForceField, HandedValues, ProblemFields, as_map};
 use crate::subject::PlaneState;
@@ -23,7 +23,8 @@ pub struct LevelProblem {
     pub materials: Vec<ProblemMaterial>,
     /// Shapes of the bodies in the reference configuration, in the order of `materials`.
     pub bodies: Vec<ProblemBody>,
-    /// State of the bodies across the plane of two dimensions; plane strain in one and three.
+    /// State of two-dimensional bodies across their plane; plane strain in one and three
+    /// dimensions.
     pub plane: PlaneState,
     /// Contact between the bodies; without it, bodies that touch move together.
     pub contact: Option<ProblemContact>,
@@ -31,8 +32,8 @@ pub struct LevelProblem {
     pub loads: Vec<ProblemLoad>,
     /// Particles per cell.
     pub particles_per_cell: Option<u64>,
-    /// Number of load steps, the same as `steps`, if the load grows in quasi-static steps without
-    /// time.
+    /// Number of load steps if the load grows in quasi-static steps without time. It equals
+    /// `steps`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_steps: Option<u64>,
     /// Number of steps.
@@ -41,15 +42,15 @@ pub struct LevelProblem {
     pub dt: f64,
     /// End of the run (s).
     pub until: f64,
-    /// Numbers of the steps after which the state is compared.
+    /// Numbers of the steps after which the state is compared with the exact solution.
     pub instants: Vec<u64>,
     /// The particles.
     #[serde(skip)]
     pub particles: ProblemParticles,
-    /// Body force, stated and manufactured; `None` without force.
+    /// Body force, stated and manufactured; `None` without a body force.
     #[serde(skip)]
     pub body_force: Option<BodyForceField>,
-    /// Initial state, loads and conditions on faces at any place of the bodies.
+    /// Initial state, loads and conditions on faces at any point of the bodies.
     #[serde(skip)]
     pub fields: Option<ProblemFields>,
     /// Body force (m/s2), D numbers, if it is constant in space and time.
@@ -57,13 +58,13 @@ pub struct LevelProblem {
     pub constant_body_force: Option<Vec<f64>>,
 }
 
-/// Initial values of n particles, one column per quantity.
+/// Initial values of n particles, with one column for each quantity.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ProblemParticles {
     /// Reference positions X (m), n D numbers.
     pub reference_position: Vec<f64>,
-    /// Positions (m), n D numbers.
+    /// Current positions (m), n D numbers.
     pub position: Vec<f64>,
     /// Velocities (m/s), n D numbers.
     pub velocity: Vec<f64>,
@@ -71,7 +72,7 @@ pub struct ProblemParticles {
     pub mass: Vec<f64>,
     /// Reference volumes (m^D), n numbers.
     pub reference_volume: Vec<f64>,
-    /// Volumes (m^D), n numbers.
+    /// Current volumes (m^D), n numbers.
     pub volume: Vec<f64>,
     /// Deformation gradients F, n D^2 numbers, row after row.
     pub deformation_gradient: Vec<f64>,
@@ -89,7 +90,7 @@ impl ProblemParticles {
     /// Names of the optional columns.
     pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
 
-    /// Number of particles.
+    /// Returns the number of particles.
     pub fn len(&self) -> usize {
         self.mass.len()
     }
@@ -99,8 +100,8 @@ impl ProblemParticles {
         self.mass.is_empty()
     }
 
-    /// All columns with their names, in the order of the protocol. Empty optional columns are
-    /// excluded.
+    /// Returns all columns with their names, in the order of the protocol. Empty optional columns
+    /// are excluded.
     pub fn columns(&self) -> Vec<(&'static str, &[f64])> {
         let mut columns: Vec<(&'static str, &[f64])> = vec![
             ("reference_position", &self.reference_position),
@@ -211,7 +212,8 @@ pub struct ProblemMaterial {
 }
 
 impl ProblemMaterial {
-    /// Value of the parameter with this key (SI units); NaN if the law does not have it.
+    /// Returns the value of the parameter with this key (SI units); NaN if the law does not have
+    /// it.
     pub fn parameter(&self, key: &str) -> f64 {
         let found = self.parameters.iter().find(|(name, _)| *name == key);
         found.map_or(f64::NAN, |(_, value)| *value)

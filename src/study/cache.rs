@@ -1,10 +1,10 @@
-//! Stores the results of finished levels on disk, so that an interrupted run continues with the
+//! Stores the results of finished levels on disk. An interrupted run can then continue with the
 //! remaining levels.
 //!
 //! The result of a level is written as soon as the level ends. The file name contains a hash of all
-//! inputs: the program, the suite text, the case and the level. So results of another program or
-//! text are never used, and a resumed run prints the same bytes as an uninterrupted one. Files are
-//! written atomically, by renaming.
+//! inputs: the program, the suite text, the case and the level. Results of another program or text
+//! are therefore never used, and a resumed run prints the same bytes as an uninterrupted one. Files
+//! are written atomically, by renaming.
 
 use crate::subject::SubjectError;
 use crate::suite::model::fingerprint::fingerprint;
@@ -16,18 +16,18 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a file. Without it a truncated file could be accepted: the last keys are optional,
-/// and a number without its last digits is still a number.
+/// Last line of a file, which detects truncated files: the last keys are optional, and a number
+/// without its last digits is still a number.
 const END: &str = "# end\n";
 
-/// A folder with the results of finished levels.
+/// A folder that stores the results of finished levels.
 #[derive(Debug)]
 pub struct ResultCache {
     folder: PathBuf,
     /// Additional folders, which are only read. If there are any, no level runs.
     others: Vec<PathBuf>,
     program: u64,
-    /// The first error of writing a result.
+    /// First error that occurred when a result was written.
     first_error: OnceLock<io::Error>,
 }
 
@@ -57,8 +57,8 @@ impl ResultCache {
         Ok(Self { others: folders.to_vec(), ..cache })
     }
 
-    /// Returns the result of a level, from the folder or from `run`. `key` contains all inputs of
-    /// the result except the program. `name` is the name of the level in messages.
+    /// Returns the result of a level: the stored one, or else the one from `run`. `key` contains
+    /// all inputs of the result except the program. `name` is the name of the level in messages.
     pub(crate) fn level<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -83,7 +83,7 @@ impl ResultCache {
         Ok(result)
     }
 
-    /// The first error of writing a result, if any.
+    /// Returns the first error that occurred when a result was written, as text.
     pub fn diagnostic(&self) -> Option<String> {
         Some(format!("{}: {}", self.folder.display(), self.first_error.get()?))
     }
@@ -94,13 +94,13 @@ fn save(path: &Path, key: &str, level: &impl Serialize) -> io::Result<()> {
     write_whole(path, &unfinished, text(key, level)?.as_bytes())
 }
 
-/// Contents of a file.
+/// Formats the contents of a file.
 fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }
 
-/// Writes a file so that it is complete or absent, even if the machine stops. The bytes are written
-/// to `unfinished`, which is renamed to `path`.
+/// Writes a file such that it is complete or absent, even if the machine stops. The bytes are
+/// written to `unfinished`, which is then renamed to `path`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
     file.write_all(bytes)?;
@@ -108,7 +108,7 @@ fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::rename(unfinished, path)
 }
 
-/// Reads a result; `None` if the text belongs to another level, or is incomplete or invalid.
+/// Parses a result; `None` if the text belongs to another level, or is incomplete or invalid.
 fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
     let rest = text.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix('\n')?;
     read_again(rest.strip_suffix(END)?)
@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// Text of a result, which makes NaN equal to itself and distinguishes -0 from 0.
+    /// Formats a result such that NaN equals NaN, and -0 differs from 0.
     fn shown(run: &RunResult) -> String {
         format!("{run:?}")
     }

@@ -1,15 +1,15 @@
-//! Sizes of an exact motion: amplitude, extremes, and the residual of a linearised solution.
+//! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are computed at regular points of the body and the run, and at the places and times of
-//! the problem's survey, which resolve a narrow pulse.
+//! Extremes are computed at regular points of the body and the run. The points and times of the
+//! problem's survey, which resolve a narrow pulse, are included.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
 use crate::suite::evaluator::shown;
 use crate::suite::model::{ConvergencePlan, Suite};
 
-/// Largest displacement and displacement gradient of the exact solution, at regular points of the
-/// body and the run.
+/// Describes the largest displacement and displacement gradient of the exact solution, at regular
+/// points of the body and the run.
 pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
     const GOLDEN: usize = 8;
@@ -18,7 +18,8 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
-    // Regular times would miss a motion with a whole number of periods in each interval.
+    // At regular times, a motion with a whole number of periods in each interval would appear to be
+    // at rest.
     let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
     for share in even.chain(golden) {
         motion.set_time(problem.until * share);
@@ -31,8 +32,8 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Points of the body on a regular lattice over its bounding box, with `intervals` intervals along
-/// each axis.
+/// Returns the points of the body on a regular lattice over its bounding box, with `intervals`
+/// intervals along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let point = |mut rest: usize| {
         let corners = problem.from.iter().zip(&problem.to);
@@ -53,7 +54,7 @@ const ALONG: [usize; 3] = [16, 8, 4];
 /// Number of sampling intervals over the run.
 const OVER: usize = 8;
 
-/// The largest values of a motion.
+/// Largest values of a motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
     /// Largest |u| (m) along each axis.
@@ -68,12 +69,12 @@ pub(crate) struct Extremes {
     pub(crate) acceleration: f64,
     /// Largest component of the initial stress (Pa).
     pub(crate) initial_stress: f64,
-    /// Lowest and highest position (m) that the body reaches along each axis.
+    /// Lowest and highest position (m) of the body along each axis.
     pub(crate) reach: [(f64, f64); 3],
 }
 
 impl Extremes {
-    /// Extremes of the motion that `problem` states.
+    /// Computes the extremes of the motion that `problem` states.
     pub(crate) fn of(problem: &Problem) -> Self {
         let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
         let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
@@ -109,24 +110,24 @@ impl Extremes {
         self.acceleration = self.acceleration.max(size(&now.acceleration));
     }
 
-    /// Largest absolute coordinate (m) that a point of the body reaches during the run.
+    /// Returns the largest absolute coordinate (m) that a point of the body reaches during the run.
     pub(crate) fn largest_coordinate(&self) -> f64 {
         let ends = self.reach.iter().flat_map(|(low, high)| [low.abs(), high.abs()]);
         ends.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Largest displacement (m) along an axis.
+    /// Returns the largest displacement (m) along an axis.
     pub(crate) fn largest_displacement(&self) -> f64 {
         self.displacement.iter().fold(0.0, |a, b| a.max(*b))
     }
 }
 
-/// Angle (rad) of the motion during the time in which a wave crosses the body, below which the body
-/// responds quasi-statically. The second harmonic of the motion is then a fifth of the body's
-/// lowest mode.
+/// Maximum angle (rad) of the motion, during the time in which a wave crosses the body, for which
+/// the body responds quasi-statically. The second harmonic of the motion then has at most a fifth
+/// of the frequency of the body's lowest mode.
 const SLOW: f64 = 0.3;
 
-/// The residual of a linearised solution, and its error.
+/// Residual of a linearised solution, and the error that it causes.
 #[derive(Debug, Clone, Copy)]
 pub struct Linearisation {
     /// Residual of the equation of motion and of tractions, relative to their terms.
@@ -137,18 +138,18 @@ pub struct Linearisation {
 }
 
 impl Linearisation {
-    /// Linearisation of `problem` after a time `t` (s), if its solution is linearised. `motion`
-    /// contains the extremes of the problem.
+    /// Computes residual and error of the solution of `problem` after a time `t` (s), if it is
+    /// linearised. `motion` contains the extremes of the problem.
     ///
-    /// For motions along one axis the error is the root mean square of the first correction, if it
-    /// is computed ([`Problem::first_correction`]). For other motions it is estimated from the
-    /// residual, within about a factor of ten:
+    /// For motions along one axis the error is the root mean square of the first correction, if
+    /// this correction is available ([`Problem::first_correction`]). For other motions the error is
+    /// estimated from the residual, within about a factor of ten:
     ///
     /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
     /// is therefore a force 2 r a per unit mass. Its error is r a t^2 at first. Later it is r a
     /// t/omega if the force is in resonance with a mode, like the second harmonic of a wave without
     /// dispersion. A stiff body that responds quasi-statically is displaced at most like a fixed
-    /// bar of its length L, by r a L^2/c^2. At rest the error is about a share r of u.
+    /// bar of its length L, by r a L^2/c^2. At rest the error is about r u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());
@@ -167,14 +168,14 @@ impl Linearisation {
     }
 }
 
-/// Linearisation of the exact solution of a suite, over its run, if the solution is linearised.
+/// Computes residual and error over the run of a suite, if its exact solution is linearised.
 pub fn linearisation(suite: &Suite) -> Option<Linearisation> {
     let plan = suite.plan::<ConvergencePlan>()?;
     let problem = plan.exact.as_ref()?;
     Linearisation::of(problem, &Extremes::of(problem), problem.until, plan.norm)
 }
 
-/// Row of a report with residual, tolerance, error and reason.
+/// Returns the row of a report with residual, tolerance, error and reason.
 pub(crate) fn row(problem: &Problem, norm: NormName) -> String {
     let Some(stated) = &problem.linearised else { return String::new() };
     let left = Linearisation::of(problem, &Extremes::of(problem), problem.until, norm);

@@ -1,5 +1,5 @@
-//! The internal-force study: computes the force on a node for every position of a particle, and
-//! judges it.
+//! The internal-force study: computes and judges the force on a node for every position of a
+//! particle.
 
 use crate::study::describe::statement::{Rows, push};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
@@ -34,7 +34,7 @@ impl CaseRunner for ForceRunner<'_> {
     }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &ForcePlan) -> Rows {
     let mut rows = Rows::new();
     push(&mut rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));
@@ -44,7 +44,7 @@ fn rows(plan: &ForcePlan) -> Rows {
     rows
 }
 
-/// Computes the force for every position, and judges it.
+/// Computes and judges the force for every position.
 fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     let rows = internal_force::rows(plan, case);
     let seen = [ForceExpectation::AgreesWithin(0.0), ForceExpectation::StepsBelow(0.0)];
@@ -67,7 +67,8 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     }
 }
 
-/// Whether the force meets the expectation, with the verdict and the figure that led to it.
+/// Returns whether the force meets the expectation, the verdict, and the measured value that led to
+/// it.
 fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
     let largest = largest(rows.iter().map(|row| row.predicted));
     match expected {
@@ -95,7 +96,7 @@ fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'stati
     }
 }
 
-/// Largest magnitude; NaN if any value is NaN.
+/// Returns the largest magnitude; NaN if any value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(f64::abs).fold(0.0, verify::larger)
 }

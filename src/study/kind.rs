@@ -1,4 +1,4 @@
-//! The interface of all kinds of study, and their list.
+//! The interface of all kinds of study, and the list of kinds.
 
 use super::cache::ResultCache;
 use super::describe::Dispensable;
@@ -17,22 +17,22 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::any::Any;
 
-/// Callback after each finished unit of work: a level, a row or a case.
+/// Callback that is called after each finished unit of work: a level, a row or a case.
 pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
 /// A plan whose cases can be described and run.
 pub(crate) trait Study: StudyPlan {
-    /// Rows of name and value that describe the study.
+    /// Returns the rows of name and value that describe the study.
     fn statement(&self) -> Rows;
 
-    /// Capabilities that the study requires of an external solver; `None` if no external solver can
-    /// run it.
+    /// Returns the capabilities that the study requires of an external solver; `None` if no
+    /// external solver can run it.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
-    /// Profile of a step of the case with this index on the coarsest level, optionally without one
-    /// effect. `None` for a study without levels, or if the subject has no profile.
+    /// Returns the profile of a step of case number `_case` on the coarsest level, optionally
+    /// without one effect. `None` for a study without levels, or if the subject has no profile.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
@@ -41,15 +41,15 @@ pub(crate) trait Study: StudyPlan {
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
-/// Warning about the time step of a level, before anything runs.
+/// Warning about the time step of a level. It is found before anything runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StepWarning {
     /// Index of the case.
     pub case: usize,
     /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long. A suite may do this deliberately, with a corresponding
-    /// expectation.
+    /// Whether the step is too long. A suite may use such a step deliberately, and expect
+    /// the result.
     pub is_too_long: bool,
 }
 
@@ -58,16 +58,17 @@ pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), Seri
 
 /// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
-    /// Number of progress units of all cases.
+    /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;
 
-    /// Warnings that require no run, without the name of the suite.
+    /// Returns the warnings that are found without a run. Their texts do not contain the name of
+    /// the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 
-    /// Calls `then` with the most informative run of a case: the first one that failed or grew in
-    /// `outcome`, or otherwise the last one.
+    /// Calls `then` with the most informative run of a case. This is the first run that failed or
+    /// grew in `outcome`, or the last run if there is none.
     ///
     /// # Errors
     /// The errors of `then`, or the reason why there is no such run.
@@ -86,20 +87,21 @@ pub(crate) struct RunContext<'a> {
     pub(crate) suite: &'a str,
     /// Hash of the suite text.
     pub(crate) fingerprint: u64,
-    /// Extent of the levels that run.
+    /// Whether usual levels or all levels run.
     pub(crate) extent: Extent,
-    /// Results of earlier runs.
+    /// Cache with the results of earlier runs.
     pub(crate) cache: Option<&'a ResultCache>,
     /// Number of times that each level of a convergence study runs.
     pub(crate) repeat: usize,
-    /// Solver for cases with an external method.
+    /// Solver for the cases whose method is external.
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
 impl RunContext<'_> {
-    /// The cached result of `key`, or the result of `run`, which is then cached. Messages call it
-    /// `name`. A result of an external solver is not cached if it is `broken`, because a solver
-    /// that fails or times out may succeed the next time.
+    /// Returns the cached result of `key`. If there is none, caches and returns the result of
+    /// `run`. `name` is the name of the result in messages. A result of an external solver is not
+    /// cached if it is `broken`, because a solver that fails or times out may succeed the next
+    /// time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -111,7 +113,7 @@ impl RunContext<'_> {
         let solver = match self.solver.map(SolverFactory::identity) {
             None => String::new(),
             Some(Some(identity)) => format!(" {identity:016x}"),
-            // A solver without an identity may have changed before the next run.
+            // A solver without an identity may have changed since the result was cached.
             Some(None) => return run(),
         };
         let mut uncached = None;
@@ -131,7 +133,7 @@ impl RunContext<'_> {
 /// Downcasts a plan to one kind of study.
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
-/// All kinds of study.
+/// All kinds of study, as functions that downcast a plan.
 const KINDS: [AsStudy; 5] = [
     of::<ConvergencePlan>,
     of::<ForcePlan>,
@@ -145,7 +147,7 @@ fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study
     plan.downcast_ref::<P>().map(|plan| plan as &dyn Study)
 }
 
-/// The study of a suite.
+/// Returns the study of a suite.
 ///
 /// # Panics
 /// If the kind of the plan is not in [`KINDS`].
@@ -154,15 +156,15 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
 }
 
-/// Rows of name and value that describe the problem of a suite, for reports.
+/// Returns the rows of name and value that describe the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);
     rows.extend(study(suite).statement());
     rows
 }
 
-/// Profile of a step of the case `name` on the coarsest level, optionally without one effect.
-/// `None` for a case without levels, or if the subject has no profile.
+/// Returns the profile of a step of the case `name` on the coarsest level, optionally without one
+/// effect. `None` for a case without levels, or if the subject has no profile.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

@@ -1,7 +1,7 @@
-//! Studies: run and judge the contents of a suite.
+//! Studies run and judge the cases of a suite.
 //!
 //! ```text
-//! setup            model -> Subject: converts names to types
+//! setup            converts the model, which contains names, to subjects
 //! convergence      errors over a refinement plan, and their verdict
 //! internal_force   the internal force on a node while a particle crosses it
 //! gradient         derivatives that a differentiable solver reports
@@ -12,9 +12,9 @@
 //! describe         the rows that describe a problem in reports
 //! diagnosis        causes of a wrong order, from runs with single changes
 //! exact_motion     amplitude, extremes and linearisation of an exact motion
-//! handover         a level as a problem for any solver
+//! handover         converts a level to a problem for any solver
 //! preflight        warnings about a suite before anything runs
-//! time_series      a case as files for ParaView: particles and grid over time
+//! time_series      writes particles and grid of a case over time as files for ParaView
 //! ```
 
 pub(crate) mod cache;

@@ -1,4 +1,4 @@
-//! Runs a suite with any kind of study.
+//! Runs a suite with a study of any kind.
 
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
@@ -22,7 +22,7 @@ pub struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// Creates a runner of the gate levels, without starting any run.
+    /// Creates a runner of the usual levels ([`Extent::Usual`]), without starting any run.
     pub fn new(suite: &'a Suite) -> Self {
         Self::over(suite, Extent::Usual)
     }
@@ -34,7 +34,7 @@ impl<'a> Runner<'a> {
         Self::with(suite, RunContext { suite: name, fingerprint, extent, cache, repeat, solver })
     }
 
-    /// Sets the solver for the cases of [`Suite::of_external`].
+    /// Sets the solver for the cases of [`Suite::of_external`], whose method is external.
     #[must_use]
     pub fn judging(self, solver: &'a dyn SolverFactory) -> Self {
         Self::with(self.suite, RunContext { solver: Some(solver), ..self.context })
@@ -58,13 +58,13 @@ impl<'a> Runner<'a> {
         Self { suite, context, cases: study(suite).runner(context) }
     }
 
-    /// Number of progress units of the whole suite.
+    /// Returns the number of progress units of all cases together.
     pub fn units(&self) -> u64 {
         self.cases.units()
     }
 
-    /// Warnings that require no run: steps that are longer than the predicted stable time step, or
-    /// differ from the requested ones.
+    /// Returns the warnings that are found without a run. They are about steps that are longer than
+    /// the predicted stable time step or differ from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
@@ -95,9 +95,9 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Runs a case again and passes its particles and its grid over time to `write`, as files for
-    /// ParaView. The level (or row) is the first one that failed or grew in `outcome`, or otherwise
-    /// the finest.
+    /// Runs a case again and passes its particles and grid over time to `write`, as files for
+    /// ParaView. The level (or row) is the first one that failed or grew in `outcome`. If there is
+    /// none, it is the finest level (or last row).
     ///
     /// # Errors
     /// [`SeriesError`] if the case has no run to write, or `write` returns an error.
@@ -112,19 +112,19 @@ impl<'a> Runner<'a> {
         self.cases.shown(index, outcome, &mut |run| time_series(&name, run, write))
     }
 
-    /// Runs the case with the given index.
+    /// Runs the case number `index`.
     ///
     /// # Panics
-    /// If there is no such case.
+    /// If there is no case with this index.
     pub fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         self.cases.case(index, progress)
     }
 }
 
-/// Maximum number of parts of a run.
+/// Maximum number of parts into which a run can be divided.
 const MOST: usize = 10_000;
 
-/// Predicted time (s) of a case in addition to its steps.
+/// Predicted time (s) of a case, excluding its steps.
 const SET_UP: f64 = 1e-3;
 
 /// One of several parts of a run, such as `2/5`.
@@ -154,10 +154,10 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// The cases of `suites` in this part; suites without such a case are excluded. The most
-    /// expensive remaining case is always assigned to the part with the lowest cost so far (Graham
-    /// 1969, SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). All parts
-    /// compute the same assignment.
+    /// Returns the cases of `suites` in this part; suites without such a case are excluded. The
+    /// most expensive remaining case is always assigned to the part with the lowest cost so far
+    /// (Graham 1969, SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). All
+    /// parts compute the same assignment.
     pub fn of(self, suites: &[Suite], extent: Extent) -> Vec<Suite> {
         let costs: Vec<Vec<f64>> = suites.iter().map(|suite| seconds(suite, extent)).collect();
         let mut all: Vec<(usize, usize)> = Vec::new();
@@ -179,7 +179,7 @@ impl Shard {
     }
 }
 
-/// Predicted time (s) of each case.
+/// Predicts the time (s) of each case.
 fn seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let predicted = estimates(suite, extent).into_iter();
     predicted.map(|cost| SET_UP + cost.map_or(UNKNOWN, |cost| cost.seconds)).collect()

@@ -21,10 +21,10 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Relative phase error for which a report states the wavelength.
+/// Relative phase error. Reports state the wavelength at which it is reached.
 const ONE_PERCENT: f64 = 0.01;
 
-/// Capabilities that a run requires.
+/// Returns the capabilities that a run requires of a solver.
 fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
     of_scene(&plan.scene)
 }
@@ -37,8 +37,8 @@ struct WaveRun<'a> {
 }
 
 impl WaveRun<'_> {
-    /// Number of cells per wavelength with a phase error of 1 %, at the Courant number of each
-    /// wave.
+    /// Returns the number of cells per wavelength for which the phase error is 1 %, at the Courant
+    /// number of each wave.
     fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
         let mut known: Vec<(f64, Option<f64>)> = Vec::new();
         let of = |wave: &Wave| {
@@ -55,7 +55,7 @@ impl WaveRun<'_> {
         self.plan.waves.iter().map(of).collect()
     }
 
-    /// Result row of one wave.
+    /// Returns the result row of one wave.
     fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
         let (cells, courant) = (wave.cells, wave.courant);
         let predicted = self.case.curve.map(|curve| {
@@ -80,7 +80,7 @@ impl WaveRun<'_> {
         }
     }
 
-    /// Number of steps in the run of a wave.
+    /// Returns the number of steps in the run of `wave`.
     fn steps(&self, wave: &Wave) -> u64 {
         let log_kept = self
             .case
@@ -104,7 +104,7 @@ impl WaveRun<'_> {
         self.context.cached(&key, &name, |_| false, run)
     }
 
-    /// The subject at the start of a run of `wave` in `scene`.
+    /// Creates the subject at the start of a run of `wave` in `scene`.
     fn subject(
         &self,
         scene: &Scene,
@@ -139,7 +139,7 @@ impl WaveRun<'_> {
         solver.subject(problem(self.context.suite, scene, None, level, run))
     }
 
-    /// The run of a wave for output as files.
+    /// Prepares the run of a wave for output as files.
     fn shown(&self, wave: &Wave) -> Result<ShownRun<'static>, SubjectError> {
         let steps = self.steps(wave);
         Ok(ShownRun {
@@ -152,7 +152,7 @@ impl WaveRun<'_> {
     }
 }
 
-/// Capabilities that the study requires and `solver` lacks.
+/// Lists the capabilities that the study requires and `solver` lacks.
 fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
     let mut lacks = solver.lacks(&needs(plan));
     if solver.precision() == Precision::Single {
@@ -216,7 +216,7 @@ impl CaseRunner for SpectrumRunner<'_> {
     }
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOutcome {
     let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
     // A periodic row has no walls.
@@ -251,7 +251,7 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
     }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &SpectrumPlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);

@@ -1,5 +1,5 @@
-//! Writes a run as files for ParaView: particles and grid nodes at instants, and a list of these
-//! files.
+//! Writes a run as files for ParaView: particles and grid nodes at several instants, and a list of
+//! these files.
 
 use crate::exact::Truth;
 use crate::subject::{BodyFields, Samples, StateField, Subject, SubjectError};
@@ -11,11 +11,11 @@ use thiserror::Error;
 /// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
 
-/// A run for output as files.
+/// A run that is written as files.
 pub(crate) struct ShownRun<'a> {
-    /// Name of the run in its case: `64 cells`.
+    /// Name of the run in its case, such as `64 cells`.
     pub(crate) name: String,
-    /// The solver at t = 0.
+    /// Subject at t = 0.
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
@@ -28,8 +28,8 @@ pub(crate) struct ShownRun<'a> {
 /// A file of a time series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesFile {
-    /// Path below the folder of all series. The file name ends in `.vtu` (particles), `.vti` (grid
-    /// nodes) or `.pvd` (list of all files).
+    /// Path relative to the folder of all series. The file name ends in `.vtu` (particles), `.vti`
+    /// (grid nodes) or `.pvd` (list of all files).
     pub path: String,
     /// Contents of the file.
     pub bytes: Vec<u8>,
@@ -45,7 +45,7 @@ pub enum SeriesError {
     /// A file could not be written.
     #[error("{path}: {error}")]
     Write {
-        /// Path below the folder of all series.
+        /// Path relative to the folder of all series.
         path: String,
         /// Error of the operating system.
         error: io::Error,
@@ -59,7 +59,7 @@ impl From<&str> for SeriesError {
 }
 
 /// Runs `run` until its end or failure. Writes its state at the start, at up to [`INSTANTS`]
-/// instants and at a failure. The list of the files, `NAME.RUN.pvd`, comes last.
+/// instants and at a failure. The list of the files, `NAME.RUN.pvd`, is written last.
 ///
 /// # Errors
 /// [`SeriesError::Write`] with the first error of `write`.
@@ -90,7 +90,7 @@ pub(super) fn time_series(
     for step in 1..=steps {
         let dt = *lengths.next().unwrap_or(&f64::NAN);
         let failed = subject.step(dt).is_err();
-        // The time is computed without accumulated rounding errors if steps are equal.
+        // If steps are equal, the time is computed without accumulated rounding errors.
         t = if equal { dt * step as f64 } else { t + dt };
         if failed || is_instant(step, steps, INSTANTS) {
             number += 1;
@@ -104,8 +104,8 @@ pub(super) fn time_series(
     write(format!("{name}.pvd"), list.into_bytes())
 }
 
-/// Files of one instant, with `#` in place of its number: for each body the particles, then the
-/// grid.
+/// Creates the files of one instant: the particles of each body, then the grid. The names contain
+/// `#` in place of the number of the instant.
 fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(String, Vec<u8>)> {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
@@ -139,7 +139,7 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
     files
 }
 
-/// Fields of the particles of all bodies that solvers do not store: u and the errors.
+/// Returns fields of the particles of all bodies that solvers do not store: u and the errors.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
@@ -151,7 +151,8 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(fields.filter_map(error)).collect()
 }
 
-/// Fields of a subject that reports only samples. The names are those of the built-in solver.
+/// Returns the fields of a subject that reports only samples. Their names are those of the built-in
+/// solver.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [
         ("X", &samples.label),
@@ -168,14 +169,14 @@ fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     all.into_iter().filter_map(field).collect()
 }
 
-/// Values of a field for a range of particles.
+/// Returns the values of a field for a range of particles.
 fn part(field: &StateField, particles: std::ops::Range<usize>) -> StateField {
     let n = field.components;
     let numbers = field.numbers[particles.start * n..particles.end * n].to_vec();
     StateField { name: field.name.clone(), components: n, numbers }
 }
 
-/// Converts the name of a run to a file name: `dt = 0.001 s` becomes `dt-0.001-s`.
+/// Converts the name of a run to a file name, such as `dt = 0.001 s` to `dt-0.001-s`.
 fn file_name(run: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '.';
     run.split(|c| !plain(c)).filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")

@@ -1,12 +1,12 @@
-//! State of a subject during a run as bytes, recorded and restored bit for bit.
+//! Records the state of a subject during a run as bytes, and restores it bit for bit.
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
-//! Numbers are stored as eight bytes in little-endian order on any machine, without names. The
+//! Numbers are stored without names, as eight bytes in little-endian order on any machine. The
 //! bytes are therefore valid only for the same program and set-up, which the caller must ensure.
 
 use super::{Samples, Totals};
 
-/// State that a checkpoint can hold.
+/// State that a checkpoint can record and restore.
 pub trait Memory {
     /// Passes each number to `checkpoint`, which records or replaces it.
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>);
@@ -29,24 +29,25 @@ pub struct Checkpoint<'a>(Way<'a>);
 #[derive(Debug)]
 enum Way<'a> {
     Out(Vec<u8>),
-    /// Bytes that remain to be read.
+    /// Bytes that have not been read yet.
     In(&'a [u8]),
     /// Reading has failed; later visits replace nothing.
     Misfit,
 }
 
 impl<'a> Checkpoint<'a> {
-    /// An empty checkpoint for recording.
+    /// Creates an empty checkpoint that records a state.
     pub fn empty() -> Self {
         Self(Way::Out(Vec::new()))
     }
 
-    /// A checkpoint that is read from the bytes of [`Checkpoint::into_bytes`] by the same visits.
+    /// Creates a checkpoint from the bytes of [`Checkpoint::into_bytes`]. The same visits must read
+    /// it.
     pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
 
-    /// The bytes that were written.
+    /// Returns the recorded bytes.
     pub fn into_bytes(self) -> Vec<u8> {
         match self.0 {
             Way::Out(bytes) => bytes,
@@ -64,7 +65,8 @@ impl<'a> Checkpoint<'a> {
         memory.visit(self);
     }
 
-    /// Records a number that the set-up determines. Restoring fails if the number differs.
+    /// Records a number that the set-up determines. If it differs on restoring, the checkpoint is
+    /// invalid.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -73,7 +75,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Marks the value that has just been read as invalid.
+    /// Marks the last value that was read as invalid.
     pub fn refuse(&mut self) {
         self.0 = Way::Misfit;
     }
@@ -112,7 +114,8 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// Visits all entries in one call, because analyses restore a state before each of many steps.
+    /// Visits all entries in one call. Analyses restore a state before each of many steps, so speed
+    /// matters.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -139,7 +142,7 @@ impl Memory for bool {
     }
 }
 
-/// Slices have a fixed length.
+/// The length of a slice is fixed, so it is not stored.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -257,7 +260,7 @@ mod tests {
         checkpoint.into_bytes()
     }
 
-    /// Restores `memory` from `bytes`, and returns whether they fitted.
+    /// Restores `memory` from `bytes`, and returns whether the bytes fitted.
     fn taken_back(memory: &mut (impl Memory + ?Sized), bytes: &[u8]) -> bool {
         let mut checkpoint = Checkpoint::from_bytes(bytes);
         checkpoint.visit(memory);
@@ -277,7 +280,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// All bits are restored, including NaN and -0, for any previous state.
+        /// All bits are restored, including those of NaN and -0, for any previous state.
         #[test]
         fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
             let bytes = written(&mut some(x, n));

@@ -1,18 +1,18 @@
-//! Columns of the state of a subject, with their size in memory and their numbers. The cost of a
-//! step: its passes, the visited particles and the columns.
+//! Columns of the state of a subject, with their numbers and their size in memory. Also the cost of
+//! a step: its passes, the visited particles and the columns.
 
-/// Owner of the entries of a column.
+/// Owner of the entries of a column: particles or nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holder {
-    /// Particles.
+    /// Each entry belongs to a particle.
     Particle,
-    /// Nodes of the grid.
+    /// Each entry belongs to a node of the grid.
     Node,
 }
 
-/// Entry of a column: a number, a vector, a tensor, or an entry without numbers.
+/// Entry of a column: a number, a vector, a tensor, or a value without numbers.
 pub trait Entry {
-    /// Appends the numbers of the entry; a tensor row by row.
+    /// Appends the numbers of the entry; a tensor is written row by row.
     fn write(&self, _numbers: &mut Vec<f64>) {}
 }
 
@@ -26,10 +26,10 @@ impl Entry for usize {}
 impl<T> Entry for (usize, T) {}
 impl<T, const N: usize> Entry for [T; N] {}
 
-/// Size of a column, which has an entry for each particle or node, or for some of them.
+/// Size of a column. A column has an entry for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnSize {
-    /// Name of the field in the column.
+    /// Name of the column in its struct.
     pub name: &'static str,
     /// Owner of the entries.
     pub holder: Holder,
@@ -50,12 +50,12 @@ pub struct Column<'a> {
 type WriteNumbers<'a> = Box<dyn Fn(&mut Vec<f64>) + 'a>;
 
 impl<'a> Column<'a> {
-    /// A column with entries for particles.
+    /// Creates a column with entries for particles.
     pub fn of_particles<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
         Self::with_holder(name, Holder::Particle, entries)
     }
 
-    /// A column with entries for nodes.
+    /// Creates a column with entries for nodes.
     pub fn of_nodes<T: Entry>(name: &'static str, entries: &'a [T]) -> Self {
         Self::with_holder(name, Holder::Node, entries)
     }
@@ -68,7 +68,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// The numbers of the column; `None` for a column without numbers.
+    /// Returns the numbers of the column; `None` if its entries have no numbers.
     pub fn field(&self) -> Option<StateField> {
         let mut numbers = Vec::new();
         (self.write)(&mut numbers);
@@ -81,7 +81,7 @@ impl<'a> Column<'a> {
 /// Numbers at particles or nodes, one entry after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateField {
-    /// Name.
+    /// Name of the field.
     pub name: String,
     /// Numbers per entry: 1 for a scalar, D for a vector, `D * D` for a tensor, row by row.
     pub components: usize,
@@ -109,23 +109,23 @@ pub struct BodyFields {
 /// Cost of one step of a subject: its passes and its memory.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
-    /// Active effects, in order.
+    /// Active effects, in the order in which they are applied.
     pub effects: Vec<&'static str>,
     /// Number of particles.
     pub particles: usize,
     /// Number of grid nodes.
     pub nodes: usize,
-    /// Memory, without empty columns.
+    /// Columns of the memory, without empty ones.
     pub columns: Vec<ColumnSize>,
     /// Passes of one step in order, from [`Subject::passes`](super::Subject::passes).
     pub passes: Vec<String>,
-    /// Names of the parts of the passes of one step, with the number of particles that each visits.
-    /// A part that is computed twice counts twice.
+    /// Names of the parts of the passes of one step, each with the number of particles that it
+    /// visits. A part that runs twice counts twice.
     pub visits: Vec<(&'static str, u64)>,
 }
 
 impl Profile {
-    /// Number of particles or nodes.
+    /// Returns the number of particles or nodes.
     pub fn holders(&self, holder: Holder) -> usize {
         match holder {
             Holder::Particle => self.particles,

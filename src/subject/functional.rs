@@ -4,7 +4,7 @@ use crate::named::named;
 use serde::Serialize;
 
 named! {
-    /// Parameters of a problem that a functional can be differentiated with respect to.
+    /// Parameters of a problem for which a functional has derivatives.
     pub enum GradientParameter {
         /// Young's modulus (Pa).
         Young = "young",
@@ -51,7 +51,7 @@ impl Functional {
     pub const NAMES: [&'static str; 4] =
         ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
 
-    /// Name in suites and messages.
+    /// Returns the name of the functional in suites and messages.
     pub fn name(self) -> &'static str {
         let index = match self {
             Self::MeanDisplacement { .. } => 0,
@@ -63,12 +63,12 @@ impl Functional {
     }
 }
 
-/// Value of a functional.
+/// Value of a functional, and the size of its rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FunctionalValue {
     /// The value.
     pub value: f64,
-    /// Magnitude of the rounding error, in units of the machine epsilon.
+    /// Rounding error of the value, in units of the machine epsilon.
     pub scale: f64,
 }
 

@@ -1,11 +1,11 @@
 //! Interface between the judge and a solver.
 //!
 //! A [`Subject`] is a solver at one refinement level, whose errors are measured: the MPM or FEM
-//! solver of this crate, or an external solver. The trait is object-safe and uses only `f64`
-//! slices, no linear-algebra types, so that it can wrap a solver in another language.
+//! solver of this crate, or an external solver. The trait is object-safe and uses only slices of
+//! `f64`, no linear-algebra types. It can therefore wrap a solver in another language.
 //!
-//! The module also defines conserved sums of a body, wall reactions, the identity of a solver (name
-//! and claimed order), and the out-of-plane state of a two-dimensional body.
+//! The module also defines sums over a body, wall reactions, the rules for the name and the claimed
+//! order of a solver, and the out-of-plane state of a two-dimensional body.
 
 mod checkpoint;
 mod column;
@@ -31,49 +31,51 @@ pub trait Subject {
     /// and their order must not change during a run.
     fn sample(&self, samples: &mut Samples);
 
-    /// Counters of the run so far.
+    /// Returns the counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Names of the passes of a step in order, for reports (`P2G(mass, momentum)`); empty by
-    /// default.
+    /// Returns the names of the passes of a step in order, for reports, such as `P2G(mass,
+    /// momentum)`; empty by default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Fields of each body, for viewer files; empty if the subject has only its samples.
+    /// Returns the fields of each body, for viewer files; empty if the subject reports only
+    /// samples.
     fn fields(&self) -> Vec<BodyFields> {
         Vec::new()
     }
 
-    /// Conserved sums over the body; `None` by default.
+    /// Returns the conserved sums over the body; `None` by default.
     fn totals(&self) -> Option<Totals> {
         None
     }
 
-    /// Reaction of all fixed walls, or of one face. A face is given by the axis of its normal and
-    /// whether it is at the high end. `None` by default, and before the first step.
+    /// Returns the reaction of all fixed walls, or of one face. The face is given by the axis of
+    /// its normal, and `true` if it is at the high end. `None` by default, and before the first
+    /// step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
 
-    /// Passes to `checkpoint` all state that later steps depend on and that the set-up does not
+    /// Passes all state to `checkpoint` that affects later steps and that the set-up does not
     /// restore. A subject with an equal set-up can then resume with identical bits. Returns false
     /// if the subject does not support checkpoints.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
 
-    /// Kinetic energy (J) of the part of the velocities that the discretisation does not resolve:
-    /// for particles, the part in the null space of the map to the grid. The computation may cost
-    /// as much as tens of steps, so callers request this energy only for reports. `None` by
-    /// default.
+    /// Returns the kinetic energy (J) of the part of the velocities that the discretisation does
+    /// not resolve. For particles, this part is in the null space of the map to the grid. The
+    /// computation may cost as much as tens of steps, so callers request this energy only for
+    /// reports. `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
 }
 
-/// A subject with a step that maps a state to a state on a fixed configuration, for linear
-/// stability analysis.
+/// A subject whose step can be run on a fixed configuration, for linear stability analysis. The
+/// step then maps a vector of numbers, the state, to another one.
 pub trait Perturbable: Subject {
     /// Fixes the configuration (positions and domains) in all later steps. All other quantities
     /// continue to advance.
@@ -86,8 +88,8 @@ pub trait Perturbable: Subject {
     /// Sets the state from numbers in the order of [`Perturbable::state`].
     fn set_state(&mut self, state: &[f64]);
 
-    /// Writes a natural scale of each state number to `sizes`, for velocities of scale `speed`
-    /// (m/s) and stresses of scale `modulus` (Pa).
+    /// Writes a natural scale of each state number to `sizes`. `speed` (m/s) is the scale of
+    /// velocities, `modulus` (Pa) that of stresses.
     fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>);
 }
 
@@ -105,8 +107,8 @@ named! {
     }
 }
 
-/// State at reference labels: `n` labels in `dimension` dimensions, one point after another. A
-/// subject without stress, F or temperature leaves that column empty, and this quantity is not
+/// State at reference labels: `n` labels in `dimension` dimensions, one label after another. If a
+/// subject does not have stress, F or temperature, this column is empty and the quantity cannot be
 /// judged.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
@@ -121,7 +123,7 @@ pub struct Samples {
     pub velocity: Vec<f64>,
     /// Reference volume of each label, `n` numbers (m^D): the weight in L1 and L2.
     pub weight: Vec<f64>,
-    /// Mass of each label, `n` numbers (kg): the weight in `mass_l2`; may be empty.
+    /// Mass of each label, `n` numbers (kg): the weight in the mass-weighted norms; may be empty.
     pub mass: Vec<f64>,
     /// Cauchy stresses, `n * D * D` numbers, row by row (Pa); may be empty.
     pub stress: Vec<f64>,
@@ -132,7 +134,7 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Number of labels, `n`.
+    /// Returns the number of labels, `n`.
     pub fn len(&self) -> usize {
         self.weight.len()
     }
@@ -142,13 +144,13 @@ impl Samples {
         self.weight.is_empty()
     }
 
-    /// Removes all points and sets the number of dimensions.
+    /// Removes all labels and sets the number of dimensions.
     pub fn restart(&mut self, dimension: usize) {
         self.clear();
         self.dimension = dimension;
     }
 
-    /// Adds a point: reference position (m), displacement (m) and velocity (m/s), D numbers each,
+    /// Adds a label: reference position (m), displacement (m) and velocity (m/s), D numbers each,
     /// and reference volume (m^D).
     pub fn push(&mut self, label: &[f64], displacement: &[f64], velocity: &[f64], weight: f64) {
         self.dimension = label.len();
@@ -171,8 +173,8 @@ impl Samples {
     }
 }
 
-/// Deterministic counts and values of a run that describe its cost and explain its error. `None` if
-/// the subject does not have a value.
+/// Deterministic counts and values of a run. They describe its cost and help to explain its error.
+/// `None` if the subject does not have a value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunCounters {
@@ -190,14 +192,14 @@ pub struct RunCounters {
 }
 
 impl RunCounters {
-    /// Counters of a subject that counts only `transfers`.
+    /// Creates the counters of a subject that counts only `transfers`.
     pub fn new(transfers: u64) -> Self {
         let (particles, crossings, left_domain) = (None, None, None);
         Self { particles, transfers, crossings, left_domain, min_j: f64::NAN }
     }
 }
 
-/// Location of a failure.
+/// Location of a failure in the discretisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum Site {
@@ -232,10 +234,10 @@ pub enum Failure {
         /// The determinant of the deformation gradient.
         j: f64,
     },
-    /// A body starts deformed, and its law does not define a stress for the initial deformation.
+    /// A body starts deformed, but its law does not define the stress of the initial deformation.
     #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
-    /// A particle is outside all cells.
+    /// A particle is outside all cells of the grid.
     #[error("{site} left the domain at x = {position:?}")]
     LeftDomain {
         /// The particle.
@@ -254,10 +256,10 @@ pub enum Failure {
         /// Index of the node with this residual.
         node: usize,
     },
-    /// A linear system could not be solved.
+    /// A linear system could not be solved, for the given reason.
     #[error("{0}")]
     Solve(String),
-    /// An external solver stopped, or violated the protocol.
+    /// An external solver stopped, or violated the protocol; with a description.
     #[error("the solver {0}")]
     External(String),
 }
@@ -266,8 +268,8 @@ pub enum Failure {
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SubjectError {
-    /// The solver does not support the problem, or the problem does not exist: one line with the
-    /// reason.
+    /// The solver does not support the problem, or the problem does not exist; with the reason in
+    /// one line.
     #[error("{0}")]
     Unsupported(String),
     /// The solver failed before its first step.
@@ -287,8 +289,8 @@ impl From<&str> for SubjectError {
     }
 }
 
-/// Sums over the particles p that a motion without external forces conserves. Components beyond the
-/// dimension are zero.
+/// Sums over the particles p, which a motion without external forces conserves. Components above
+/// the dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
@@ -343,7 +345,7 @@ impl Totals {
         self.strain_energy.map(|stored| self.kinetic_energy + stored)
     }
 
-    /// Sums of two bodies together.
+    /// Adds the sums of two bodies.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         let sum = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] + b[i]);
@@ -364,11 +366,11 @@ impl Totals {
     }
 }
 
-/// Force of walls on the body at the beginning of the last step. The forces at its end are computed
-/// only in the next step.
+/// Force of walls on the body at the beginning of the last step. The force at the end of the step
+/// is computed only in the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reaction {
-    /// Time of the force (s).
+    /// Time (s) at which the force acts.
     pub time: f64,
     /// The force (N); components beyond the dimension are zero.
     pub force: [f64; 3],
@@ -380,7 +382,7 @@ pub(crate) const LONGEST_NAME: usize = 64;
 /// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` is a valid solver name: it becomes part of case and file names.
+/// Whether `name` is a valid solver name. Names of solvers become parts of case and file names.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)

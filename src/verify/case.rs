@@ -1,4 +1,5 @@
-//! Judges a case of a convergence study: from its levels and a plan to the contents of its report.
+//! Judges a case of a convergence study: its levels and a plan determine the contents of its
+//! report.
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
@@ -19,20 +20,19 @@ use super::verdict::name::Verdict;
 /// Judgement of a case: the part of its outcome that its levels determine.
 #[derive(Debug, Clone)]
 pub struct CaseJudgement {
-    /// Text of the verdict.
+    /// Verdict, as text.
     pub verdict: String,
-    /// The figures that led to the verdict.
+    /// Explanation of the verdict, with the measured values that led to it.
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
     /// Reason why the gate requires nothing of the case; `None` if it requires something.
     pub exemption: Option<String>,
-    /// Levels, orders and figures.
+    /// Levels, orders and measured values.
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` repeats levels with other settings if the verdict depends on the
-/// results.
+/// Judges a case. If the verdict depends on it, `reruns` runs levels again with other settings.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -92,8 +92,8 @@ pub fn judge_case<R: Reruns>(
 }
 
 impl JudgePlan<'_> {
-    /// The verdict and its reason for a case without expectations: the judgement against the
-    /// theoretical order, and the drifts.
+    /// Returns the verdict and its reason for a case without expectations. The reason contains the
+    /// comparison with the theoretical order, and the drifts.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);
@@ -135,7 +135,7 @@ impl JudgePlan<'_> {
     }
 }
 
-/// Values that limits are compared with.
+/// Collects the measured values that limits are compared with.
 fn measure(levels: &[LevelOutcome]) -> Measured {
     let drifts: Option<Vec<ConservationError>> =
         counted(levels).map(|level| level.run.drift).collect();
@@ -150,8 +150,8 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// The verdict and its reason. For a case with limits only, the limited figures come first. The
-/// judgement follows if there are enough levels.
+/// Returns the verdict and its reason. For a case with limits only, the reason starts with the
+/// limited values. The judgement follows if there are enough levels.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,
@@ -167,7 +167,8 @@ fn headline(
         return (verdict.to_string(), format!("{reason}; {figures}"));
     }
     let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
-    // The judge compares the order with an expected one, which this case does not have.
+    // The judgement compares the order with an expected one. This case has none, so only the order
+    // is stated.
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
@@ -176,8 +177,8 @@ fn headline(
     (within.to_owned(), figures + &judged)
 }
 
-/// Limit of the displacement at the observed place in 1-D; `None` if fewer than two levels report
-/// this displacement.
+/// Estimates the limit of the displacement at the observed point in 1-D; `None` if fewer than two
+/// levels report this displacement.
 fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, EstimateRefusal>> {
     let point = |level: &LevelOutcome| match level.run.displacement.as_deref() {
         // One component of several does not represent the displacement.
@@ -227,7 +228,7 @@ mod tests {
         assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
     }
 
-    /// A level with a bound on its error and without an expected verdict.
+    /// The case has a bound on its error and no expected verdict.
     #[test]
     fn bounds_alone_make_the_headline() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];

@@ -1,7 +1,7 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change since t = 0, over the instants, relative to a scale. For mass and
-//! energies the scale is the largest value during the run. For the momenta, which may be zero, the
+//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
+//! mass and energies the scale is the largest value during the run. Momenta may be zero, so their
 //! scale is the largest sum of the magnitudes of their terms. The energy is NaN for a law without
 //! stored energy.
 
@@ -11,7 +11,7 @@ use crate::subject::Totals;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// A sum over the body.
+    /// A conserved sum over the body.
     pub enum Conserved {
         /// Total mass.
         Mass = "mass",
@@ -21,21 +21,21 @@ named! {
         AngularMomentum = "angular_momentum",
         /// Kinetic energy, which is conserved only in a motion without stress.
         KineticEnergy = "kinetic_energy",
-        /// Gain of kinetic energy since the start. It must be zero for a body that stores energy in
-        /// stress and releases it.
+        /// Gain of kinetic energy since the start. It must be zero if the body only stores energy
+        /// in stress and releases it.
         KineticEnergyGain = "kinetic_energy_gain",
-        /// Kinetic energy plus stored energy, if the law has an energy.
+        /// Kinetic energy plus stored energy, if the law stores energy.
         Energy = "energy",
     }
 }
 
 impl Conserved {
-    /// Name in running text.
+    /// Returns the name as written in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// Value of the sum, and the scale of its changes.
+    /// Returns the value of the sum, and the scale of its changes.
     fn of(self, totals: &Totals) -> ([f64; 3], f64) {
         match self {
             Self::Mass => ([totals.mass, 0.0, 0.0], totals.mass.abs()),
@@ -57,15 +57,15 @@ impl Conserved {
 pub struct ConservationError([f64; Conserved::ALL.len()]);
 
 impl ConservationError {
-    /// Drifts of a failed run.
+    /// Drifts of a failed run: all NaN.
     pub const NONE: Self = Self([f64::NAN; Conserved::ALL.len()]);
 
-    /// Drift of one sum.
+    /// Returns the drift of `sum`.
     pub fn of(&self, sum: Conserved) -> f64 {
         self.0[sum as usize]
     }
 
-    /// The larger of two drifts for each sum; NaN if either is NaN.
+    /// For each sum, returns the larger of the two drifts; NaN if either is NaN.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self(std::array::from_fn(|i| larger(self.0[i], other.0[i])))
@@ -88,7 +88,8 @@ impl Balance {
         balance
     }
 
-    /// Adds the totals of an instant. All drifts become NaN if the subject stops reporting totals.
+    /// Includes the totals of an instant. All drifts become NaN if the subject stops reporting
+    /// totals.
     pub(super) fn look(&mut self, now: Option<&Totals>) {
         for (i, sum) in Conserved::ALL.iter().enumerate() {
             let (before, _) = sum.of(&self.start);
@@ -102,7 +103,8 @@ impl Balance {
         }
     }
 
-    /// Largest changes relative to their scales. Zero change relative to zero is no drift.
+    /// Returns the largest changes relative to their scales. The drift is zero if change and scale
+    /// are both zero.
     pub(super) fn drift(&self) -> ConservationError {
         let relative = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
         ConservationError(std::array::from_fn(|i| relative(self.change[i], self.size[i])))

@@ -27,18 +27,18 @@ pub struct Convergence {
     pub formal_order: f64,
     /// Norm of the judged error.
     pub norm: NormName,
-    /// The judged quantity.
+    /// Quantity whose error is judged.
     pub of: Quantity,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Scale that makes errors and work of different cases comparable.
+    /// Scale for comparing errors and work between cases.
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub compared: bool,
-    /// Kind of the steps.
+    /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the case has bounds on figures only. It then has no expected order, and every usable
-    /// level counts.
+    /// Whether the case has bounds on measured values only. It then has no expected order, and
+    /// every usable level counts.
     pub bounded: bool,
     /// Reason why an external solver passes the gate, if it does.
     pub accepted: Option<Acceptance>,
@@ -46,20 +46,20 @@ pub struct Convergence {
     pub drifts: Vec<Conserved>,
     /// Whether the energy rate is reported.
     pub rated: bool,
-    /// The judgement.
+    /// Judgement of the levels.
     pub judgement: Judgement,
     /// Cause of the error floor, if it was determined.
     pub floor: Option<Floor>,
     /// The levels, coarse to fine.
     pub levels: Vec<LevelOutcome>,
-    /// Limit of the displacement (m) at the observed place in 1-D, or the reason why the levels
-    /// give none; `None` if no place is observed.
+    /// Limit of the displacement (m) at the observed point in 1-D, or the reason why the levels
+    /// give no limit; `None` if no point is observed.
     pub observed_limit: Option<Result<LimitEstimate, EstimateRefusal>>,
-    /// Observed reference position (m).
+    /// Reference position (m) of the observed point.
     pub observed_at: Option<Vec<f64>>,
 }
 
-/// One level of a refinement plan.
+/// Outcome of one level of a refinement plan.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct LevelOutcome {
@@ -67,30 +67,29 @@ pub struct LevelOutcome {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// Spacing on the refined axis: of cells (m), time (s) or particles (m).
+    /// Spacing on the refined axis: cell size (m), time step (s) or particle spacing (m).
     pub spacing: f64,
     /// Time step (s).
     pub dt: f64,
-    /// Particles per cell (MPM).
+    /// Particles per cell; `None` for FEM.
     pub ppc: Option<u64>,
     /// Results of the run.
     pub run: RunResult,
-    /// The judged error.
+    /// Error in the judged norm.
     pub error: f64,
-    /// Whether the judge may count the level.
+    /// Whether the level may count for the verdict.
     pub usable: bool,
     /// Bound on the rounding error of positions (m) in the judged norm, if a solver in single
     /// precision is judged by its displacement.
     pub rounding_bound: Option<f64>,
-    /// Whether the displacement error (m) lies below `rounding_bound`.
+    /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,
     /// Largest difference between repeated runs, in the norm and relative to the scale of the
     /// error. NaN if the runs cannot be compared; `None` if the level ran once.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
     pub order: Option<f64>,
-    /// Largest time step (s) that was predicted to be stable, if the step is automatic or exceeds
-    /// this value.
+    /// Predicted stable time step (s), if the step is automatic or exceeds the prediction.
     pub stable_time_step: Option<f64>,
 }
 
@@ -103,12 +102,12 @@ impl StudyResults for Convergence {
 }
 
 impl LevelOutcome {
-    /// Whether the time step is longer than the stable one, if the latter is known.
+    /// Whether the time step is longer than the stable time step, if the latter is known.
     pub fn is_too_long(&self) -> bool {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// The level as input of the judge, with its failure. Unusable levels are included.
+    /// Converts the level, with its failure, to input of the judge. Unusable levels are included.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {
@@ -117,7 +116,7 @@ impl LevelOutcome {
         }
     }
 
-    /// Name of the level in its study: `64 cells`, `dt = 1e-3 s`.
+    /// Returns the name of the level in its study, such as `64 cells` or `dt = 1e-3 s`.
     pub fn name(&self, axis: Axis) -> String {
         match (axis, self.ppc) {
             (Axis::Time, _) => format!("dt = {} s", format_number(self.dt)),
@@ -128,8 +127,8 @@ impl LevelOutcome {
 }
 
 impl Convergence {
-    /// Exact displacement (m) at the observed place in 1-D at the end of the run; `None` without a
-    /// place or an exact solution.
+    /// Returns the exact displacement (m) of the observed point in 1-D at the end of the run;
+    /// `None` without an observed point or an exact solution.
     pub fn observed_exact(&self) -> Option<f64> {
         let exact = self.levels.last()?.run.observed_exact.as_deref()?;
         let [u] = exact else { return None };
@@ -143,12 +142,12 @@ impl Convergence {
         self.observed_exact().map(|exact| estimate.covers(exact))
     }
 
-    /// Verdict of the judge.
+    /// Returns the verdict of the judge.
     pub fn verdict(&self) -> Verdict {
         self.judgement.verdict
     }
 
-    /// The observed place, as written in titles.
+    /// Returns the position of the observed point, as written in titles.
     pub fn place(&self) -> Option<String> {
         let coordinates: Vec<String> =
             self.observed_at.as_ref()?.iter().map(ToString::to_string).collect();
@@ -159,7 +158,7 @@ impl Convergence {
         })
     }
 
-    /// Description of the judged error, with its unit.
+    /// Describes the judged error, with its unit.
     pub fn judged(&self) -> String {
         let (norm, name, unit) =
             (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());
@@ -172,7 +171,7 @@ impl Convergence {
         }
     }
 
-    /// History at the observed label, on the finest level with a history.
+    /// Returns the velocity history at the observed label, from the finest level that has one.
     pub fn history(&self) -> Option<&History> {
         self.levels.iter().rev().find_map(|level| level.run.history.as_ref())
     }
@@ -188,7 +187,7 @@ pub(in crate::verify) mod tests {
     use crate::verify::verdict::judge::judge;
     use rstest::rstest;
 
-    /// A study with spacings 1, 1/2, 1/4, ... and these errors, judged against order 2.
+    /// Creates a study with the spacings 1, 1/2, 1/4, ... and these errors, judged against order 2.
     pub(in crate::verify) fn study(errors: &[f64]) -> Convergence {
         let spacing = |k: usize| libm::exp2(-(k as f64));
         let level = |(k, error): (usize, &f64)| LevelOutcome {
@@ -276,7 +275,7 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// At order 2 the limit is 2.04, and the interval extends to the finest value, 2.
+    /// For order 2 the limit is 2.04, and its interval extends to the finest value, 2.
     #[rstest]
     #[case(2.0, true)]
     #[case(2.079, true)]

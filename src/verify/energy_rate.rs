@@ -3,9 +3,9 @@
 //! The energy of an oscillating body oscillates too. Neighbouring instants are therefore not
 //! independent observations, and a line fitted to all of them would have too narrow an interval.
 //! Instead the run is divided into ten parts of equal length, and ln E is averaged over each part
-//! (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3).
-//! The slope of a line through the ten means is the rate, d ln E/dt (1/s), with the interval of
-//! Student's t.
+//! (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3). A
+//! line is fitted to the ten means. Its slope is the rate, d ln E/dt (1/s), and its interval
+//! follows from Student's t.
 //!
 //! The interval contains the rate with a probability of 95 % under two conditions: the parts are
 //! much longer than a period, and the deviations of the means from the line are independent noise.
@@ -14,20 +14,21 @@
 use super::order::fit::{FittedLine, Interval, LogPoint};
 use crate::subject::Totals;
 
-/// Number of parts of a run.
+/// Number of parts into which a run is divided.
 const PARTS: usize = 10;
 
 /// Minimum number of instants per part.
 const LEAST: usize = 5;
 
-/// Energy rate (1/s) of a run, from equally spaced instants. `None` if there are fewer than fifty,
-/// or if the energy is unknown or not positive at an instant.
+/// Computes the energy rate (1/s) of a run from equally spaced instants. `None` if there are fewer
+/// than fifty instants, or if the energy is unknown or not positive at one of them.
 pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
     let each = account.len() / PARTS;
     if each < LEAST {
         return None;
     }
-    // The first instants that do not fill a part are dropped.
+    // The first instants are dropped if the number of instants is not a multiple of the number of
+    // parts.
     let seen = &account[account.len() - PARTS * each..];
     let means = seen.chunks_exact(each).enumerate().map(|(level, part)| {
         let logarithm = |(t, totals): &(f64, Totals)| {
@@ -49,7 +50,8 @@ mod tests {
     use approx::{assert_abs_diff_eq, assert_relative_eq};
     use rstest::rstest;
 
-    /// `n` instants with a given energy, which alternates between kinetic and stored energy.
+    /// Creates `n` instants with a given energy, which alternates between kinetic and stored
+    /// energy.
     fn account(n: usize, energy: impl Fn(f64) -> f64) -> Vec<(f64, Totals)> {
         let at = |i: usize| {
             let (t, share) = (i as f64, (i % 3) as f64 / 2.0);
@@ -69,8 +71,8 @@ mod tests {
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// An oscillation of 10 % with a period of twenty instants hardly changes the rate if parts
-    /// contain whole periods, and otherwise widens the interval.
+    /// An oscillation of 10 % has a period of twenty instants. If each part contains whole periods,
+    /// the oscillation hardly changes the rate. Otherwise it widens the interval.
     #[test]
     fn a_swing_is_no_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);
@@ -78,7 +80,7 @@ mod tests {
         assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
         let torn = energy_rate(&account(1130, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
         assert!(torn.low < -1e-4 && -1e-4 < torn.high && torn.half_width() > 1e-7, "{torn:?}");
-        // The incomplete period of a part has little effect on its mean.
+        // An incomplete period in a part has little effect on the mean of the part.
         assert!(torn.half_width() < 1e-2 / 1000.0, "{torn:?}");
     }
 

@@ -5,7 +5,7 @@
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
 //! Both rules apply to observed orders only. Bounds on errors are checked on excluded levels too,
-//! since a small error satisfies a bound regardless of its cause.
+//! because a small error satisfies a bound regardless of its cause.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::NormName;
@@ -21,7 +21,7 @@ const MOST_SPREAD: f64 = 0.1;
 named! {
     /// Reason why a level does not count for the observed order.
     pub enum Exclusion {
-        /// Particles change their cell, which the theory does not cover.
+        /// Particles change their cell, which the theory of the method does not cover.
         Crossings = "crossings",
         /// The error lies below the bound of rounding errors.
         Rounding = "rounding",
@@ -30,18 +30,18 @@ named! {
     }
 }
 
-/// Distance (m) between the single-precision numbers at and just below `largest`, the largest
-/// absolute coordinate (m) of a particle: `2^-24` for `[0, 1]`, `2^-21` for `[7, 8]`. `None` if
-/// `largest` is zero or not a normal number in single precision.
+/// Returns the distance (m) between `largest`, the largest absolute coordinate (m) of a particle,
+/// and the next smaller single-precision number: `2^-24` for `[0, 1]`, `2^-21` for `[7, 8]`. `None`
+/// if `largest` is zero or not a normal number in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
-    // Coordinates are rounded first: a motion that reaches 1 + 1e-16 reaches 1 in single precision.
+    // Coordinates are rounded first: a position of 1 + 1e-16 is 1 in single precision.
     let largest = largest as f32;
     let is_normal = largest.is_normal() && largest > 0.0;
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
 }
 
-/// Bound (m), in `norm`, on the rounding error of positions after `steps` steps. In each step
-/// positions are rounded to a lattice with the spacing `spacing` (m).
+/// Returns the bound (m), in `norm`, on the accumulated rounding error of positions after `steps`
+/// steps. In each step positions are rounded to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
 /// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
@@ -56,7 +56,7 @@ pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
 }
 
 impl LevelOutcome {
-    /// Reason why the level does not count for the observed order; `None` if it counts.
+    /// Returns the reason why the level does not count for the observed order; `None` if it counts.
     pub fn exclusion(&self) -> Option<Exclusion> {
         let is_steady = |spread: f64| spread <= MOST_SPREAD * self.error;
         if !self.usable {
@@ -74,17 +74,17 @@ impl LevelOutcome {
     }
 }
 
-/// Levels that are excluded for the reason `by`.
+/// Returns the levels that are excluded for the reason `by`.
 fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
 
-/// Whether rounding leaves too few levels for an order.
+/// Whether too few levels remain for an order after levels are excluded by rounding.
 pub(super) fn leaves_too_few(levels: &[LevelOutcome], judgement: &Judgement) -> bool {
     judgement.verdict == Verdict::TooFewLevels && !excluded(levels, Exclusion::Rounding).is_empty()
 }
 
-/// Adds the levels excluded by rounding and spread to the reason of a judgement.
+/// Adds the levels that rounding and spread exclude to the reason of a judgement.
 pub(super) fn with_exclusions(
     judgement: Judgement,
     levels: &[LevelOutcome],
@@ -96,7 +96,8 @@ pub(super) fn with_exclusions(
     Judgement { reason: parts.join("; "), ..judgement }
 }
 
-/// `down to rounding: from 128 cells on the error lies below the rounding bound of 1.2e-6 m`
+/// Describes the excluded levels, such as `down to rounding: from 128 cells on the error lies below
+/// the rounding bound of 1.2e-6 m`.
 fn rounding_remark(levels: &[LevelOutcome], judgement: &Judgement, axis: Axis) -> Option<String> {
     let all = excluded(levels, Exclusion::Rounding);
     let (first, last) = (all.first()?, all.last()?);
@@ -140,7 +141,7 @@ fn spread_remark(levels: &[LevelOutcome], axis: Axis) -> Option<String> {
     })
 }
 
-/// A number with two digits, as text.
+/// Formats a number with two digits.
 fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), |value| format_number(rounded(value, 2)))
 }

@@ -1,17 +1,18 @@
-//! Registry of the figures that suites bound: [`CaseFigure`] for convergence studies and
-//! [`RunFigure`] for stability studies.
+//! Registry of the measured values that suites can bound: [`CaseFigure`] for convergence studies
+//! and [`RunFigure`] for stability studies.
 //!
 //! An entry states the key in suites and JSON, the documentation of the key, the text in reports
-//! (with the unit, if any) and the value. The suite grammar and its JSON Schema, the checks of a
-//! suite, the comparison with the bound, and the reports are derived from it. How to add a figure:
-//! `docs/exercises/figure.md`.
+//! (with the unit, if any) and the value. The suite grammar, its JSON Schema, the checks of a
+//! suite, the comparison with the bound, and the reports are derived from the entry. How to add a
+//! measured value: `docs/exercises/figure.md`.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::larger;
 use super::stability::Trial;
 use crate::named::named;
 
-/// Calls the macro `declare` with every bounded figure of a convergence study. The entry
+/// Calls the macro `declare` with every measured value that a convergence study can bound. The
+/// entry
 ///
 /// `RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,`
 /// `residual_speed;`
@@ -20,9 +21,9 @@ use crate::named::named;
 /// its [`FigureNeed`], and the function that computes the value from the levels of a case. The
 /// documentation of the entry becomes the documentation of the key in the JSON Schema.
 ///
-/// The grammar uses this macro to declare a field for each entry. `#[serde(flatten)]` over a map of
-/// keys would need no macro. But it excludes `deny_unknown_fields`, and errors for mistyped keys
-/// would lose their position and suggestion.
+/// The grammar uses this macro to declare a field for each entry. With `#[serde(flatten)]` over a
+/// map of keys the macro would not be needed. But `flatten` excludes `deny_unknown_fields`, and
+/// errors for mistyped keys would lose their position and suggestion.
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {
@@ -41,19 +42,19 @@ macro_rules! each_case_figure {
 }
 pub(crate) use each_case_figure;
 
-/// Side on which a bound limits a figure.
+/// Side on which a bound limits a measured value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundKind {
-    /// The figure must be at most the bound.
+    /// The value must be at most the bound.
     Maximum,
-    /// The figure must be at least the bound.
+    /// The value must be at least the bound.
     Minimum,
 }
 
-/// Part of a suite that a figure requires.
+/// Part of a suite that a measured value requires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FigureNeed {
-    /// No part: every case has the figure.
+    /// No part: every case has the value.
     Nothing,
     /// The key `observe`.
     ObservedPlace,
@@ -65,45 +66,45 @@ pub enum FigureNeed {
 macro_rules! case_figures {
     ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
         $value:ident;)+) => {
-        /// A bounded figure of a case of a convergence study.
+        /// A measured value that a convergence study can bound.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum CaseFigure {
             $($(#[$doc])* $member,)+
         }
 
         impl CaseFigure {
-            /// All figures, in the order of declaration.
+            /// All measured values, in the order of declaration.
             pub const ALL: [Self; [$(stringify!($key)),+].len()] = [$(Self::$member),+];
 
-            /// Key of the bound in suites.
+            /// Returns the key of the bound in suites.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$member => stringify!($key),)+
                 }
             }
 
-            /// Text in reports.
+            /// Returns the description for reports.
             pub fn text(self) -> &'static str {
                 match self {
                     $(Self::$member => $text,)+
                 }
             }
 
-            /// Side on which the bound limits the figure.
+            /// Returns the side on which the bound limits the value.
             pub fn bound_kind(self) -> BoundKind {
                 match self {
                     $(Self::$member => BoundKind::$bound,)+
                 }
             }
 
-            /// Part of a suite that the figure requires.
+            /// Returns the part of a suite that the value requires.
             pub fn need(self) -> FigureNeed {
                 match self {
                     $(Self::$member => FigureNeed::$need,)+
                 }
             }
 
-            /// Value for the levels of a case; `None` if they do not provide the figure.
+            /// Computes the value from the levels of a case; `None` if they do not have it.
             pub fn value(self, levels: &[LevelOutcome]) -> Option<f64> {
                 match self {
                     $(Self::$member => $value(levels),)+
@@ -114,36 +115,35 @@ macro_rules! case_figures {
 }
 each_case_figure!(case_figures);
 
-/// Largest judged error of the levels that count; NaN if one of these is NaN.
+/// Returns the largest judged error of the levels that count; NaN if one of these is NaN.
 fn largest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(larger)
 }
 
-/// Smallest judged error of the levels that count; NaN if one of these is NaN.
+/// Returns the smallest judged error of the levels that count; NaN if one of these is NaN.
 fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
 }
 
-/// Distance (m) between the observed and the exact position of the observed place, on the finest
-/// level.
+/// Returns the distance (m) between the observed point and its exact position, on the finest level.
 fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
 
-/// Largest speed near the end on the levels that count, relative to the wave speed. `None` if a
-/// level has no such speed, because the exact solution is not a state of rest.
+/// Returns the largest speed near the end on the levels that count, relative to the wave speed.
+/// `None` if a level has no such speed, because the exact solution is not a state of rest.
 fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     let speeds: Option<Vec<f64>> = counted(levels).map(|level| level.run.residual_speed).collect();
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
 }
 
-/// Levels that count.
+/// Returns the levels that count for the verdict.
 pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
     levels.iter().filter(|level| level.usable)
 }
 
-/// Declares [`RunFigure`]. An entry states the documentation of the member, its name in suites and
-/// JSON, its heading in tables, and its value in a run.
+/// Declares [`RunFigure`]. An entry states the documentation of the member, its key in suites and
+/// JSON, its heading in tables, and how the value is computed from a run.
 macro_rules! run_figures {
     ($($(#[$doc:meta])* $member:ident = $name:literal, $head:literal, $value:expr;)+) => {
         named! {
@@ -154,14 +154,14 @@ macro_rules! run_figures {
         }
 
         impl RunFigure {
-            /// Heading in tables.
+            /// Returns the heading for tables.
             pub fn head(self) -> &'static str {
                 match self {
                     $(Self::$member => $head,)+
                 }
             }
 
-            /// Value in a run.
+            /// Computes the value from the result of a run.
             pub fn of(self, trial: &Trial) -> f64 {
                 let value: fn(&Trial) -> f64 = match self {
                     $(Self::$member => $value,)+
@@ -207,19 +207,19 @@ run_figures! {
 }
 
 impl RunFigure {
-    /// The figure with the key `name` in suites.
+    /// Finds the measured value with the key `name` in suites.
     pub(crate) fn by_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
 
-    /// Whether the figure concerns the null space of the map to the grid, which is computed only on
+    /// Whether the value concerns the null space of the map to the grid, which is computed only on
     /// request.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 }
 
-/// The figure that `docs/exercises/figure.md` adds.
+/// The measured value that readers of `docs/exercises/figure.md` add.
 #[cfg(test)]
 #[path = "../../tests/exercises/steps_below.rs"]
 #[expect(unreachable_pub, reason = "the macro declares public items")]

@@ -14,7 +14,7 @@ use super::order::hypothesis::OrderHypothesis;
 use super::order::level::{Axis, Level};
 use super::verdict::judge::{Judgement, judge};
 
-/// All inputs of the judgement of a case except its levels.
+/// All inputs of the judgement of a case, except its levels.
 #[derive(Debug, Clone)]
 pub struct JudgePlan<'a> {
     /// Axis of refinement.
@@ -23,28 +23,28 @@ pub struct JudgePlan<'a> {
     pub formal_order: f64,
     /// Norm of the judged error.
     pub norm: NormName,
-    /// The judged quantity.
+    /// Quantity whose error is judged.
     pub of: Quantity,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Scale that makes errors and work of different cases comparable.
+    /// Scale for comparing errors and work between cases.
     pub error_scale: ErrorScale,
     /// Whether errors are measured against an exact solution or a reference.
     pub is_compared: bool,
-    /// Kind of the steps.
+    /// Whether steps advance time or the load.
     pub steps: StepKind,
     /// Whether to exclude levels on which particles change their cell.
     pub excludes_crossings: bool,
-    /// Distance (m) between neighbouring positions in single precision, if a solver in single
+    /// Distance (m) between neighbouring positions in single precision. Set if a solver in single
     /// precision is judged by its displacement and the exact motion is known.
     pub position_spacing: Option<f64>,
-    /// Observed reference position (m).
+    /// Reference position (m) of the observed point.
     pub observed_at: Option<&'a [f64]>,
     /// Conserved sums whose drift is reported for a case without expectations.
     pub sums: Vec<Conserved>,
     /// Expectation of the suite, if it states one.
     pub expectation: Option<&'a Expectation>,
-    /// Treatment by the gate for external solvers, if it applies.
+    /// Treatment of the case by the gate for external solvers; `None` without a gate.
     pub gating: Option<&'a Gating>,
 }
 
@@ -103,14 +103,14 @@ impl JudgePlan<'_> {
         with_exclusions(judgement, levels, self.axis)
     }
 
-    /// Judges a series of errors, with the expected bounds of the order, if any.
+    /// Judges a series of errors. `expected` contains the expected bounds of the order, if any.
     pub(super) fn judge_series(&self, levels: &[Level], expected: Option<Bounds>) -> Judgement {
         let (formal_order, axis) = (self.formal_order, self.axis);
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Reason why the gate requires nothing of a case with these levels; `None` if it requires
-    /// something.
+    /// Returns the reason why the gate requires nothing of a case with these levels; `None` if it
+    /// requires something.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
@@ -120,7 +120,7 @@ impl JudgePlan<'_> {
     }
 }
 
-/// The levels as input of the judge. Excluded levels are marked as unusable.
+/// Converts levels to input of the judge. Excluded levels are marked as unusable.
 pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();
@@ -129,8 +129,8 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// The levels as input of a comparison with an error bound. Levels that rounding or spread exclude
-/// from the order count here.
+/// Converts levels to input of a comparison with an error bound. Levels that rounding or spread
+/// exclude from the order count here.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

@@ -19,12 +19,12 @@
 //! | [`stability`](StabilityStudy) | growth in runs, amplification matrix, limits by bisection |
 //! | [`gradient`](GradientStudy) | derivatives that a solver reports |
 //! | [`expectation`](Expectation), [`limits`](Limits) | expectations of suites |
-//! | [`figure`](CaseFigure) | registry of the figures that suites bound |
+//! | [`figure`](CaseFigure) | registry of the measured values that suites can bound |
 //!
-//! Two principles hold throughout. Comparisons are written so that NaN fails: the code tests the
+//! Two rules apply everywhere. Comparisons are written so that NaN fails: the code tests the
 //! required condition (`error <= tolerance`), never its opposite. The shape of a series is
-//! recognised by ratios, never by absolute numbers, so that units of error and spacing do not
-//! change a verdict.
+//! recognised by ratios, never by absolute numbers, so units of error and spacing do not change a
+//! verdict.
 
 mod case;
 mod conservation;

@@ -17,7 +17,7 @@ pub struct SuiteOutcome {
     pub suite: String,
     /// Name of the folder of the suite file.
     pub group: String,
-    /// Headline.
+    /// Headline: the one-line title of the suite.
     pub title: String,
     /// Reference for the problem.
     pub source: String,
@@ -25,14 +25,15 @@ pub struct SuiteOutcome {
     pub about: String,
     /// The problem as rows of name and value: parameters, scene, exact solution, time step.
     pub statement: Vec<(String, String)>,
-    /// Fingerprint of the statement's meaning, independent of its notation.
+    /// Hash of the statement's meaning, independent of its notation.
     pub meaning: u64,
     /// One outcome for each case, in suite order.
     pub cases: Vec<CaseOutcome>,
 }
 
 impl SuiteOutcome {
-    /// Appends the cases of `other`, a run of the same suite with another solver, to `joined`.
+    /// Appends the cases of `other` to `joined`. `other` is a run of the same suite with another
+    /// solver.
     pub fn join(joined: &mut Option<Self>, other: Self) {
         match joined {
             None => *joined = Some(other),
@@ -53,13 +54,13 @@ pub struct CaseOutcome {
     pub settings: Vec<(String, String)>,
     /// Cost of a step on the coarsest level, if the subject has a profile.
     pub profile: Option<Profile>,
-    /// Expectation in one line; `None` for an exploring suite, which is not a gate.
+    /// Expectation in one line; `None` if the suite only explores and expects nothing.
     pub expected: Option<String>,
     /// Reason for the expectation, from the suite; empty if nothing is expected.
     pub because: String,
-    /// The verdict, as text.
+    /// Verdict, as text.
     pub verdict: String,
-    /// The figures that led to the verdict.
+    /// Explanation of the verdict, with the measured values that led to it.
     pub reason: String,
     /// Unmet expectations; empty if the case passed.
     pub unmet: Vec<String>,
@@ -88,7 +89,7 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// Results of one kind of study, with the names of their cases.
+    /// Returns the results of all studies of type `R`, with the names of their cases.
     pub fn results<'a, R: StudyResults>(&'a self) -> impl Iterator<Item = (&'a str, &'a R)> {
         let study = |case: &'a CaseOutcome| Some((case.case.as_str(), case.results()?));
         self.cases.iter().filter_map(study)
@@ -96,7 +97,7 @@ impl SuiteOutcome {
 }
 
 impl CaseOutcome {
-    /// A case without an expectation that has not run.
+    /// Creates the outcome of a case that has not run, without an expectation.
     pub fn new(case: &str, subject: &'static str, settings: Vec<(String, String)>) -> Self {
         Self {
             case: case.to_owned(),
@@ -124,12 +125,12 @@ impl CaseOutcome {
         self.lacks.is_empty() && self.exemption.is_none()
     }
 
-    /// The method's setting with this name.
+    /// Returns the value of the method's setting `name`.
     pub fn setting(&self, name: &str) -> Option<&str> {
         self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
     }
 
-    /// Whether the method fails at the problem. The failure may be expected.
+    /// Whether the method fails at the problem. Such a failure may be expected.
     pub fn fails(&self) -> bool {
         self.study.as_deref().is_some_and(StudyResults::fails)
     }
@@ -138,8 +139,8 @@ impl CaseOutcome {
     pub const RESULTS: [&'static str; 6] =
         ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
 
-    /// The result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a` if the
-    /// solver lacks a capability. With a gate also `not gated` and `excepted`.
+    /// Returns the result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a`
+    /// if the solver lacks a capability. With a gate also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";
@@ -156,8 +157,8 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that does not apply to its solver. `lacks` are the missing
-    /// capabilities; `verb` introduces them in the reason.
+    /// Converts the outcome to that of a case that does not apply to its solver. `lacks` are the
+    /// missing capabilities; `verb` introduces them in the reason.
     #[must_use]
     pub(crate) fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
         let verdict = "not applicable".to_owned();
@@ -185,7 +186,7 @@ impl CaseOutcome {
         Self { verdict, reason, unmet, ..self }
     }
 
-    /// The outcome of a case that the gate does not judge, for this reason.
+    /// Converts the outcome to that of a case that the gate does not judge, for `reason`.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
@@ -214,7 +215,7 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case whose levels have run.
+    /// Adds the judgement of the levels to the outcome.
     #[must_use]
     pub(crate) fn judged(self, judgement: CaseJudgement) -> Self {
         let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;
@@ -225,14 +226,14 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that its solver's author excepts from the gate.
+    /// Converts the outcome to that of a case that its solver's author excepts from the gate.
     #[must_use]
     pub(crate) fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));
         Self { verdict, reason, exemption, expected: None, ..self }
     }
 
-    /// The expectation and its reason in one line.
+    /// Returns the expectation and its reason in one line.
     pub fn expectation(&self) -> String {
         match &self.expected {
             _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
@@ -241,12 +242,12 @@ impl CaseOutcome {
         }
     }
 
-    /// The convergence study; `None` for other kinds of study.
+    /// Returns the convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
         self.results()
     }
 
-    /// The results, if the study is of this kind.
+    /// Returns the results of the study, if they have the type `R`.
     pub fn results<R: StudyResults>(&self) -> Option<&R> {
         let results: &dyn Any = self.study.as_deref()?;
         results.downcast_ref()

@@ -1,11 +1,11 @@
-//! Repeats levels with other settings if the verdict depends on the results.
+//! Runs levels again with other settings if the verdict depends on the results.
 //!
 //! - To find the cause of a floor, the finest level runs again with half the spacing on another
 //!   axis.
-//! - If a suite has one time step on all levels, this step limits the error of a solver that is
+//! - Some suites have one time step on all levels. This step limits the error of a solver that is
 //!   accurate in space: the order or the error stops decreasing. If an external solver then misses
 //!   the requirement of the gate, its levels run again with shorter steps. The gate checks whether
-//!   these restore the order.
+//!   shorter steps restore the order.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -22,8 +22,8 @@ pub trait Reruns: Sync {
     /// Reason why a level cannot be run.
     type Error: Display + Send;
 
-    /// Whether halving a spacing can reveal the axis of an error. It cannot if the reference is
-    /// computed by the same method, because the spacings of the reference are not halved.
+    /// Whether halving a spacing can reveal which axis causes an error. It cannot if the reference
+    /// is computed by the same method, because the spacings of the reference are not halved.
     fn can_halve(&self) -> bool;
 
     /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.
@@ -33,15 +33,15 @@ pub trait Reruns: Sync {
         axis: Axis,
     ) -> Option<Result<LevelOutcome, Self::Error>>;
 
-    /// Runs the level with the time step `dt` (s), with as many repetitions as the levels of the
-    /// case.
+    /// Runs the level with the time step `dt` (s), and repeats the run as often as for the other
+    /// levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
 
-    /// Sizes of the numbers that the solver rounds; `None` if the judged quantity has no natural
-    /// size.
+    /// Returns the sizes of the numbers that the solver rounds; `None` if the judged quantity has
+    /// no natural size.
     fn rounding(&self) -> Option<RoundingSizes>;
 }
 
@@ -50,7 +50,7 @@ pub trait Reruns: Sync {
 pub struct RoundingSizes {
     /// Largest exact value of the judged quantity.
     pub value: f64,
-    /// Largest number that the judged quantity is computed from.
+    /// Largest number from which the judged quantity is computed.
     pub number: f64,
     /// Half of the distance between 1 and the next floating-point number.
     pub unit: f64,
@@ -59,22 +59,22 @@ pub struct RoundingSizes {
 /// Number of roundings of a value per step, for the prediction of rounding errors.
 const ROUNDINGS: f64 = 8.0;
 
-/// Maximum share of the judged quantity that is attributed to rounding.
+/// Maximum fraction of the judged quantity that is attributed to rounding.
 const MOST_ROUNDING: f64 = 0.01;
 
-/// Maximum number of times that the steps are halved.
+/// Maximum number of times that the time step is halved.
 const HALVINGS: i32 = 3;
 
-/// Minimum relative decrease of the finest error, due to half the time step, for which the levels
-/// run again.
+/// Minimum relative decrease of the finest error if the time step is halved. With a smaller
+/// decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
 /// Minimum exponent of h in the time step for which the step counts as refined with the cells.
 const FOLLOWS: f64 = 0.5;
 
-/// Effect of halving the spacings of the other axes on the error of the finest level that counts.
-/// `None` if it is not needed: the error has not stopped decreasing, and the suite expects no
-/// floor.
+/// Measures the effect of halving the spacings of the other axes on the error of the finest level
+/// that counts. `None` if it is not needed: the error has not stopped decreasing, and the suite
+/// expects no floor.
 ///
 /// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(
@@ -101,7 +101,7 @@ pub(super) fn floor<R: Reruns>(
     Some(Floor { error: finest.error, probes })
 }
 
-/// Checks a requirement on levels that can test it.
+/// Checks a requirement. If shorter time steps are needed to test it, the levels run again.
 pub(super) fn gate<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
@@ -121,7 +121,8 @@ pub(super) fn gate<R: Reruns>(
     }
 }
 
-/// Meets the requirement by shorter steps, with a remark; `None` if this is not possible.
+/// Tries to meet the requirement with shorter steps. Returns the acceptance with a remark; `None`
+/// if no step meets it.
 fn shorten<R: Reruns>(
     plan: &JudgePlan<'_>,
     required: &Requirement,
@@ -165,8 +166,9 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Error due to rounding, in the judged norm and relative to the judged scale. It is a random walk
-/// with the rounding errors of the largest number in the computation of the judged quantity.
+/// Estimates the error due to rounding, in the judged norm and relative to the judged scale. The
+/// estimate is a random walk whose steps are rounding errors of the largest number from which the
+/// judged quantity is computed.
 fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);

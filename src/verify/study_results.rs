@@ -3,9 +3,9 @@
 use std::any::Any;
 use std::fmt::Debug;
 
-/// Results of one kind of study. `report::study` lists the functions that report them.
+/// Results of one kind of study. The functions that report them are listed in `report::study`.
 pub trait StudyResults: Any + Debug + Send + Sync {
-    /// Whether the method fails at the problem. The failure may be expected.
+    /// Whether the method fails at the problem. Such a failure may be expected.
     fn fails(&self) -> bool {
         false
     }
@@ -20,7 +20,7 @@ pub struct InternalForce {
     pub rows: Vec<ForceRow>,
 }
 
-/// Results for one position of the moving particle in an internal-force study.
+/// Results for one position of the moving particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceRow {
     /// Position of the moving particle, in cells from the node.
@@ -31,6 +31,6 @@ pub struct ForceRow {
     pub right: u64,
     /// Internal force on the node (N).
     pub force: f64,
-    /// Force by the formula of the suite (N).
+    /// Internal force by the formula of the suite (N).
     pub predicted: f64,
 }

@@ -1,4 +1,4 @@
-//! The hot loop allocates nothing, and what a solver says that it keeps is what the heap holds.
+//! The hot loop allocates no memory, and the memory that a solver declares equals its heap use.
 
 use crate::common::effect::add;
 use crate::common::{DT, H, free_body, in_dimension, methods};
@@ -18,7 +18,7 @@ use mpm_verify::subject::{Holder, PlaneState, Samples, Start, Subject};
 use mpm_verify::suite::EffectName;
 use rstest::rstest;
 
-/// Steps `subject` once, then counts what further steps and samples take from the heap.
+/// Steps `subject` once. Asserts that further steps and samples allocate no memory.
 fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
     subject.step(dt).unwrap();
     let stepping = measure(|| (0..20).for_each(|_| subject.step(dt).unwrap()));
@@ -31,7 +31,8 @@ fn holds_its_memory(name: &str, subject: &mut dyn Subject, dt: f64) {
     assert!(!samples.is_empty(), "{name}: there was something to sample");
 }
 
-/// The force of a small manufactured motion that has a part of every kind: of X, of t and of both.
+/// Creates the force of a small manufactured motion with terms of every kind: in X, in t and in
+/// both.
 fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     let names: Vec<&str> = ["X", "Y", "Z"][..D].iter().chain(&["t"]).copied().collect();
     let expr = Expr::parse("sum(n, 1, 3, 1e-5*sin(n*X)*cos(t))*cos(X*t)").unwrap();
@@ -62,8 +63,8 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
     Forcing::new(&problem, labels.iter().map(Vector::as_slice))
 }
 
-/// Conduction with a manufactured source and a condition of every kind, in particles of a body that
-/// may deform.
+/// Creates conduction with a manufactured source and a condition of every kind, in the particles of
+/// a body that may deform.
 fn heat<const D: usize>(
     particles: &mut Particles<D>,
     (grid, basis): (&Grid<D>, BasisName),
@@ -102,8 +103,8 @@ fn heat<const D: usize>(
         .with_source(Box::new(move |t, _, into| forcing.at(t, into)))
 }
 
-/// A heated body under gravity and a manufactured force, pulled at its far end, with a force on
-/// some particles and others driven, between walls of every kind.
+/// Runs a heated body under gravity and a manufactured force, with a load at its far end and walls
+/// of every kind. A force acts on some particles, and others have a prescribed velocity.
 fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
     for method in methods() {
         let mut setup = free_body::<D>(method, scheme);
@@ -164,7 +165,7 @@ fn an_mpm_step_after_the_first_allocates_nothing(
     in_dimension!(dimension, mpm_holds_its_memory(scheme, start));
 }
 
-/// Three bodies that touch, in contact or with one velocity field.
+/// Runs three bodies that touch. They are in contact or share one velocity field.
 fn bodies_hold_their_memory<const D: usize>(scheme: SchemeName) {
     for friction in [None, Some(0.0), Some(0.4)] {
         let body = |k: usize| {
@@ -208,8 +209,8 @@ fn a_material_allocates_in_the_first_step_only() {
     }
 }
 
-/// Bytes that a solver of `particles` particles along the first axis keeps for particles: stated,
-/// and measured on the heap, which also holds the grid.
+/// Returns the bytes that a solver with `particles` particles along the first axis stores for
+/// particles: the declared number, and the number measured on the heap, which includes the grid.
 fn kept<const D: usize>(
     method: (BasisName, TransferName),
     particles: usize,
@@ -250,8 +251,8 @@ fn kept<const D: usize>(
 }
 
 fn says_what_it_keeps<const D: usize>() {
-    // Taylor least squares is excluded: the number of its points in cells does not follow from the
-    // number of particles.
+    // Taylor least squares is excluded: it stores points in cells, whose number does not depend on
+    // the number of particles alone.
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         for effects in [false, true] {
             let (few, many) = (kept::<D>(method, 20, effects), kept::<D>(method, 100, effects));
@@ -283,7 +284,7 @@ fn a_step_of_heat_in_a_body_at_rest_allocates_nothing(#[values(1, 2, 3)] dimensi
     in_dimension!(dimension, conductor_holds_its_memory());
 }
 
-/// With a law of the whole deformation.
+/// The law uses the whole deformation.
 #[test]
 fn expansion_that_is_split_off_allocates_in_the_first_step_only() {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
@@ -314,7 +315,7 @@ fn no_scheme_is_left_out_above() {
     assert_eq!(SchemeName::ALL, [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl]);
 }
 
-/// A bar under a body force, fixed on the left and pulled on the right.
+/// Creates a bar under a body force, fixed on the left and pulled on the right.
 fn loaded_bar(element: Element, mass: Mass, start: Start, sampling: Sampling) -> Bar {
     let setup = fem::BarSetup {
         from: 0.0,

@@ -1,5 +1,5 @@
-//! Two exact solutions of one problem: the images that the suites state, against the eigenfunction
-//! series of Wobbes & Tielen (2015), and against figures worked out by hand.
+//! Compares two exact solutions of one problem: the sum of images that the suites state, with the
+//! eigenfunction series of Wobbes & Tielen (2015) and with values computed by hand.
 
 use approx::assert_abs_diff_eq;
 use mpm_verify::exact::Truth;
@@ -7,7 +7,7 @@ use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
 use rstest::rstest;
 use std::f64::consts::PI;
 
-/// Displacement of the exact solution of an embedded suite.
+/// Returns the displacement by the exact solution of an embedded suite.
 fn displacement(name: &str, x: f64, t: f64) -> f64 {
     let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
     let suite = Suite::load(&source).expect("a sound suite");
@@ -17,8 +17,8 @@ fn displacement(name: &str, x: f64, t: f64) -> f64 {
     u[0]
 }
 
-/// `u = us + sum_n a_n cos(c l_n t) sin(l_n y)`, `l_n = (2n - 1) pi/(2H)`, where the series cancels
-/// the static solution `us` at t = 0. H = 1, c = 10.
+/// Returns `u = us + sum_n a_n cos(c l_n t) sin(l_n y)`, `l_n = (2n - 1) pi/(2H)`. The series
+/// cancels the static solution `us` at t = 0. H = 1, c = 10.
 fn series(gravity: f64, load: f64, y: f64, t: f64, terms: u32) -> f64 {
     let c = 10.0;
     let still = gravity / (c * c) * (y * y / 2.0 - y) + load * y;
@@ -42,8 +42,8 @@ fn the_oedometer_agrees_with_its_series(
     assert_abs_diff_eq!(images, series(9.81, 0.0, y, t, 20_000), epsilon = 1e-10);
 }
 
-/// The talk's series has 20 terms: good to 1e-5 of the largest displacement, as benchmark pages
-/// say.
+/// The series in the talk has 20 terms. Its error is 1e-5 of the largest displacement, as benchmark
+/// pages state.
 #[test]
 fn twenty_terms_of_the_series_leave_an_error_of_one_part_in_ten_thousand_at_most() {
     let largest = 2.0 * 9.81 / 200.0;
@@ -54,7 +54,7 @@ fn twenty_terms_of_the_series_leave_an_error_of_one_part_in_ten_thousand_at_most
     }
 }
 
-/// With the wave speed of Steffen's bar, 1 m/s, its series at t is that of c = 10 at t/10.
+/// Steffen's bar has the wave speed 1 m/s, so its series at t equals that of c = 10 at t/10.
 #[rstest]
 fn steffens_bar_agrees_with_its_series(
     #[values(0.0, 0.2, 0.55, 1.0)] x: f64,
@@ -64,8 +64,8 @@ fn steffens_bar_agrees_with_its_series(
     assert_abs_diff_eq!(images, series(0.0, 0.7 / 100.0, x, t / 10.0, 20_000), epsilon = 1e-7);
 }
 
-/// Before the first wave arrives the column falls freely; after half a period all is twice the
-/// static solution.
+/// Before the first wave arrives, the column falls freely. After half a period all displacements
+/// are twice the static solution.
 #[test]
 fn free_fall_first_and_twice_the_static_solution_later() {
     assert_abs_diff_eq!(

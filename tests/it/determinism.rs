@@ -16,7 +16,7 @@ use std::thread;
 
 const STEPS: usize = 20;
 
-/// Every column of the particles, as bits: so that -0 is not 0 and NaN is itself.
+/// Returns every column of the particles as bits: -0 then differs from 0, and NaN equals NaN.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
     let (temperature, others) = columns(particles);
     temperature.iter().chain(&others).map(|value| value.to_bits()).collect()
@@ -42,7 +42,7 @@ fn a_second_run_repeats_every_bit(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, repeats());
 }
 
-/// Two solvers, made here and stepped on two threads in lockstep.
+/// Steps two solvers in lockstep, each on its own thread.
 fn ignores_its_neighbour<const D: usize>() {
     for method in methods() {
         for &scheme in SchemeName::ALL {
@@ -72,7 +72,7 @@ fn two_solvers_at_once_give_the_bits_of_one_alone(#[values(1, 2, 3)] dimension: 
     in_dimension!(dimension, ignores_its_neighbour());
 }
 
-/// So many particles that passes are shared: a step of them by `threads`.
+/// Runs a step of so many particles that `threads` threads share the passes.
 fn shared(transfer: TransferName, threads: usize) -> Vec<u64> {
     let cells = 184;
     let mut setup = free_body::<2>((BasisName::QuadraticBSpline, transfer), SchemeName::Musl);
@@ -114,8 +114,8 @@ fn an_interrupted_run_gives_the_bits_of_a_whole_one(#[values(1, 2, 3)] dimension
     in_dimension!(dimension, every_method_goes_on());
 }
 
-/// All valid combinations, in one dimension. A consistent mass matrix inverts particles with little
-/// weight on a node: such a run fails in the same step.
+/// All valid combinations in one dimension. A consistent mass matrix inverts particles with a small
+/// weight on a node; such a run must fail in the same step.
 #[test]
 fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
     let mut ends = Vec::new();
@@ -143,7 +143,7 @@ fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
     assert!(10 * broken < ends.len(), "{broken} of {} end in a failure", ends.len());
 }
 
-/// Series of any length are no registered names.
+/// Methods with a series are not registered by name, so this test covers them.
 #[test]
 fn an_interrupted_run_with_a_series_gives_the_bits_of_a_whole_one() {
     for choice in

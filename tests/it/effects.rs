@@ -1,5 +1,6 @@
-//! Only the effects that a scene lists are simulated: what is not listed is not computed and not
-//! stored, and what is listed adds what docs/effects.md says, verified by the suites that it names.
+//! Only the effects that a scene lists are simulated. Other effects are neither computed nor
+//! stored. A listed effect adds exactly the cost in docs/effects.md, and the suites named there
+//! verify it.
 
 use crate::common::columns::columns;
 use crate::common::effect::add;
@@ -15,10 +16,11 @@ use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
 use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
 use rstest::rstest;
 
-/// Every column of the particles as bits, 0 and -0 being one: `f + 0` is where they differ.
+/// Returns every column of the particles as bits. 0 and -0 have equal bits, because `f + 0` changes
+/// the sign.
 fn bits<const D: usize>(particles: &Particles<D>) -> Vec<u64> {
     let (temperature, others) = columns(particles);
-    // No heat is a temperature of zero.
+    // A missing temperature equals a temperature of zero.
     let warm = temperature.iter().filter(|value| **value != 0.0);
     warm.chain(&others).map(|v| (v + 0.0).to_bits()).collect()
 }
@@ -29,7 +31,7 @@ fn stepped<const D: usize>(setup: Setup<D>) -> Vec<u64> {
     bits(solver.particles())
 }
 
-/// A body without the effect, with the effect of no strength, and with some strength.
+/// Compares a body without the effect, with zero strength and with a positive strength.
 fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) {
     let plain = stepped(free_body::<D>(method, scheme));
     let mut setup = free_body::<D>(method, scheme);
@@ -45,7 +47,7 @@ fn is_absent_or_null<const D: usize>(method: (BasisName, TransferName), scheme: 
         let what = format!("{D}-D {method:?} {scheme:?}: `{}`", name.name());
         let (null, reads_deformation) = with(0.0);
         let without = if reads_deformation { &with_deformation } else { &plain };
-        // A velocity of zero is a velocity.
+        // For a prescribed velocity, zero strength is a velocity of zero, which changes the motion.
         if name != EffectName::PrescribedVelocity {
             assert!(&null == without, "{what} of no strength is not the same as none");
         }
@@ -66,7 +68,7 @@ fn an_effect_of_no_strength_is_none_bit_for_bit(
     in_dimension!(dimension, is_absent_or_null(method, scheme));
 }
 
-/// Profile of the second step of the free body, with linear functions, FLIP and MUSL.
+/// Returns the profile of the second step of the free body, with linear functions, FLIP and MUSL.
 fn taken(add: impl FnOnce(&mut Setup<2>)) -> Profile {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
     add(&mut setup);
@@ -118,12 +120,12 @@ fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
     assert_eq!(empty.visits, visits.map(|name| (name, 36)));
 }
 
-/// Members of `all` that are not in `some`.
+/// Returns the members of `all` that are not in `some`.
 fn added<T: PartialEq + Copy>(all: &[T], some: &[T]) -> Vec<T> {
     all.iter().filter(|one| !some.contains(one)).copied().collect()
 }
 
-/// Names of walls in suites; each is on the low face of the second axis.
+/// Names of walls in suites. Each wall is on the low face of the second axis.
 const WALLS: [&str; 4] = ["fixed", "roller", "velocity", "friction"];
 
 fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
@@ -139,12 +141,12 @@ fn wall(name: &str, grid: &Grid<2>) -> Box<dyn Boundary<2>> {
     }
 }
 
-/// Row of docs/effects.md for an effect whose requirements are in `before`.
+/// Creates the row of docs/effects.md for an effect. `before` adds the effects that it requires.
 fn row(name: &str, before: impl FnOnce(&mut Setup<2>), with: impl FnOnce(&mut Setup<2>)) -> String {
     row_of(name, &taken(before), &taken(with))
 }
 
-/// The row for what is in `with` and not in `empty`.
+/// Creates the row for the columns and passes that are in `with` and not in `empty`.
 fn row_of(name: &str, empty: &Profile, with: &Profile) -> String {
     let kept = |holder: Holder| {
         let held = |profile: &Profile| -> Vec<ColumnSize> {
@@ -177,7 +179,7 @@ fn load(suite: &str) -> Suite {
     Suite::load(&source.unwrap()).unwrap()
 }
 
-/// Whether some case of a suite has the effect: every case is gated.
+/// Whether a case of a suite has the effect. Every case is gated.
 fn lists(suite: &str, effect: EffectName) -> bool {
     let suite = load(suite);
     suite.case_names().iter().any(|case| {
@@ -186,7 +188,7 @@ fn lists(suite: &str, effect: EffectName) -> bool {
     })
 }
 
-/// Whether a suite has such a wall.
+/// Whether a suite has a wall with this name.
 fn has_wall(suite: &str, name: &str) -> bool {
     let suite = load(suite);
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return false };
@@ -225,7 +227,7 @@ fn the_page_says_what_each_effect_adds_and_which_suites_verify_it() {
     are_on_the_page(&rows, |suite, name| lists(suite, named(name)));
 }
 
-/// Profile of the second step of two bodies that overlap.
+/// Returns the profile of the second step of two bodies that overlap.
 fn taken_by_two(friction: Option<f64>) -> Profile {
     let setup = |shift: f64| {
         let method = (BasisName::Linear, TransferName::Flip);
@@ -335,10 +337,10 @@ fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
     assert!(goes_on(make, DT, "heat alone"));
 }
 
-/// The visits that a kernel counts are those that the work counter of reports is made of.
+/// The number of visits that a kernel counts equals the number of transfers in reports.
 #[test]
 fn the_visits_of_a_step_make_up_its_transfers() {
-    // Taylor least squares sums over points of cells, and counts particles.
+    // Taylor least squares sums over points in cells, while the kernel counts particles.
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         let mut setup = free_body::<2>(method, SchemeName::Musl);
         for name in [EffectName::Gravity, EffectName::BodyForce, EffectName::SetForce] {
@@ -363,7 +365,8 @@ fn an_effect_needs_others() {
     }
 }
 
-/// A plate that has moved to the right bears the pressures X of where it began, 1/2 and 3/2.
+/// A plate has moved to the right. The pressures must be those at the reference positions, X = 1/2
+/// and 3/2.
 #[test]
 fn a_pressure_is_that_of_the_reference_place() {
     let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));

@@ -1,5 +1,5 @@
-//! Runs the corpora of the fuzzer, `tests/fuzz/corpus`, except those of suites and steps: inputs
-//! that reach new code or failed in the past.
+//! Runs the corpora of the fuzzer in `tests/fuzz/corpus`, except those of suites and steps. They
+//! contain inputs that reach new code or failed in the past.
 
 #[path = "fuzz_input/compare_input.rs"]
 mod compare_input;

@@ -1,4 +1,4 @@
-//! Every test of the library and of the program from outside, in one binary.
+//! All tests of the library and of the program from outside, in one binary.
 
 mod allocation;
 mod bad_input;

@@ -1,5 +1,5 @@
-//! Motions of benchmark problems in several dimensions, as the crate's formulas state them: body
-//! forces against published figures, a wave that no force drives, and a start that is deformed.
+//! Motions of benchmark problems in several dimensions, stated by formulas: body forces compared
+//! with published values, a wave without force, and a start with a deformation.
 
 use approx::assert_relative_eq;
 use mpm_verify::exact::formula::{Expr, Formula, Scope};
@@ -12,7 +12,7 @@ use rstest::rstest;
 
 const NAMES: [&str; 3] = ["X", "Y", "Z"];
 
-/// A neo-Hookean body without faces that moves as `displacement` says, by way of `functions`.
+/// Creates a neo-Hookean body without faces with the motion `displacement`, which uses `functions`.
 fn problem(
     (young, poisson, density): (f64, f64, f64),
     functions: &[(&str, &[&str], &str)],
@@ -74,7 +74,7 @@ fn the_force_of_the_axis_aligned_motion() {
     }
 }
 
-/// Kamojjala et al. (2015): circles that turn by `alpha = sin(pi t) h(R)`.
+/// Kamojjala et al. (2015): circles rotate by `alpha = sin(pi t) h(R)`.
 #[rstest]
 #[case([0.9, 0.1], 0.3, [3.289_700_096, 3.008_206_302])]
 #[case([0.2, -1.05], 0.17, [4.325_638_55, 7.948_228_519])]
@@ -99,10 +99,9 @@ fn the_force_of_the_generalized_vortex(
     }
 }
 
-/// The nonlinear simple wave `F = F0(X - C(F) t)` needs no force and has no closed form; but along
+/// The nonlinear simple wave `F = F0(X - C(F) t)` needs no force and has no closed form. But along
 /// a characteristic `X = xi + C t` F is constant, and `x = x0(xi) + (v + F C) t`. Newton's
-/// iteration for xi, nested, is a formula like any other: it converges together with its
-/// derivatives.
+/// iteration for xi, written as nested formulas, converges together with its derivatives.
 const WAVE: [(&str, &[&str], &str); 8] = [
     ("F0", &["q"], "1 + 0.1*sin(2*pi*q)"),
     ("slope", &["q"], "0.2*pi*cos(2*pi*q)"),
@@ -118,7 +117,7 @@ const WAVE: [(&str, &[&str], &str); 8] = [
     ("u", &["x", "s", "q"], "q + 0.05/pi*(1 - cos(2*pi*q)) + s*(v(F0(q)) + F0(q)*C(F0(q))) - x"),
 ];
 
-/// Half of the time to the shock.
+/// Half of the time at which the shock forms (s).
 const HALF: f64 = 0.030_861_8 / 2.0;
 
 #[test]
@@ -143,8 +142,8 @@ fn a_simple_wave_keeps_f_along_its_characteristics(#[values(0.05, 0.4, 0.77)] pl
     assert_relative_eq!(now.velocity[0], expected, max_relative = 1e-10);
 }
 
-/// With cos for sin the bar starts displaced by 2 % of its length, at strains of 6 %, and at rest.
-/// Whoever starts without the stress, the volume or the domains of that has no order at all.
+/// With cos instead of sin, the bar starts at rest with displacements of 2 % of its length and
+/// strains of 6 %. A start without the corresponding stress, volume or domains has no order.
 #[test]
 fn a_bar_that_starts_deformed_keeps_to_its_motion() {
     let (scene, _) =

@@ -1,5 +1,5 @@
-//! The fourteen ways in which verification tools were seen to go wrong, in public code. This crate
-//! is shown immune to each: a test feeds it the bad case.
+//! Fourteen mistakes that were found in public verification tools. For each one, a test runs the
+//! critical case and shows that this crate does not make the mistake.
 
 use mpm_verify::report::drift;
 use mpm_verify::study::Runner;
@@ -19,7 +19,7 @@ fn power(order: f64) -> Vec<f64> {
     H.iter().map(|h| libm::pow(*h, order)).collect()
 }
 
-/// A quick suite with the given expectation and body force sign.
+/// Creates a quick suite with the given expectation.
 fn suite(expect: &str) -> Result<Suite, String> {
     let text = include_str!("../../verification/the-talk/vibrating-bar-small-amplitude.yaml");
     let (head, _) = text.split_once("expect:").expect("a suite expects something");
@@ -62,7 +62,7 @@ fn p02_what_is_not_finite_fails(#[case] bad: f64) {
 }
 
 /// Pitfalls 3 and 9 (9: agreement with stored results is not correctness). The theory gate does not
-/// read stored figures: it judges the present run, independently of any snapshot.
+/// read stored results: it judges the current run, independently of any snapshot.
 #[test]
 fn p03_p09_the_order_of_this_run_is_judged_and_no_stored_one() {
     let unmet = unmet("{order: [2.9, 3.1], because: a snapshot said so}");
@@ -108,8 +108,8 @@ fn p07_points_between_the_ends_count() {
     assert_ne!(verdict(&errors, OrderHypothesis::formal(2.0)), Verdict::Converging);
 }
 
-/// For any three errors the order fitted to them makes the asymptotic-range ratio one. Here the
-/// true order is 0.7: the ratio says "asymptotic", the judge says no.
+/// For any three errors, the order fitted to them makes the asymptotic-range ratio one. Here the
+/// true order is 0.7: the ratio indicates "asymptotic", but the judge does not.
 #[test]
 fn p08_no_ratio_that_is_one_by_construction() {
     let errors = power(0.7);

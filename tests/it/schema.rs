@@ -21,7 +21,7 @@ const SHAPE: [(&str, &str); 8] = [
     ("an empty list selects nothing", ""),
 ];
 
-/// The values of a text, if it is YAML of one map with no key twice.
+/// Parses a text; `None` if it is not a YAML map, or if a key occurs twice.
 fn values(text: &str) -> Option<Value> {
     yaml::read(&Source::from_text("suite.yaml", text).ok()?).ok()
 }
@@ -32,7 +32,7 @@ fn is_of_shape(complaint: &Diagnostic) -> bool {
     SHAPE.iter().any(|(start, words)| message.starts_with(start) && both.contains(words))
 }
 
-/// Demands that the schema refuses a suite too whose mistake is one of shape.
+/// Asserts that the schema also refuses a suite if its mistake is about keys, types or names.
 pub(crate) fn refuses_too(text: &str, complaint: &Diagnostic) {
     let (message, label) = (complaint.message(), complaint.label().unwrap_or_default());
     let is_shape = |(start, words)| {
@@ -52,7 +52,7 @@ fn every_suite_is_of_the_schema() {
     }
 }
 
-/// Pointers to all maps of a suite, with their keys.
+/// Lists the pointers to all maps of a suite, with their keys.
 fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
     let below: Vec<(String, &Value)> = match value {
         Value::Object(map) => {
@@ -69,7 +69,8 @@ fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
     }
 }
 
-/// Puts one word for each explanation, which is a third of a text and says nothing to a schema.
+/// Replaces each explanation by one word. Explanations are a third of a text and do not matter to a
+/// schema.
 fn shorten(value: &mut Value) {
     match value {
         Value::Object(map) => {
@@ -87,8 +88,8 @@ fn shorten(value: &mut Value) {
     }
 }
 
-/// Every key of every suite once: left out, misspelt, and with values of other types. Neither the
-/// schema nor the program is stricter than the other about keys and types.
+/// Every key of every suite is tested: left out, misspelt, and with values of other types. Neither
+/// the schema nor the program may be stricter than the other about keys and types.
 #[test]
 fn schema_and_program_agree_about_each_key() {
     let (mut tried, mut counts) = (HashSet::new(), [0, 0]);
@@ -99,8 +100,8 @@ fn schema_and_program_agree_about_each_key() {
         (name, suite)
     };
     let mut suites: Vec<(&str, Value)> = embedded::names().map(read).collect();
-    // The check of a truth takes longest in space, and the rest grows with the text: a key is tried
-    // where it costs least.
+    // Checking an exact solution takes longest in 3-D, and other costs grow with the text. Each key
+    // is therefore tested in the cheapest suite.
     suites.sort_by_cached_key(|(_, suite)| {
         let dimension = suite.pointer("/scene/dimension").and_then(Value::as_u64);
         (dimension, suite.to_string().len())
@@ -128,7 +129,7 @@ fn schema_and_program_agree_about_each_key() {
                 let text = Source::from_text("suite.yaml", mutant.to_string()).expect("JSON");
                 let loaded = Suite::load(&text);
                 counts[usize::from(refusal.is_some())] += 1;
-                // To the program a text is one without quotes too: `title: 1984`.
+                // The program accepts a number as a text without quotes: `title: 1984`.
                 let unquoted = |refusal: &String| refusal.ends_with("against `type: \"string\"`");
                 match (&loaded, &refusal) {
                     (Ok(_), Some(refusal)) if !unquoted(refusal) => {

@@ -69,7 +69,7 @@ fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     Ok(path)
 }
 
-/// All choices: options, answers to questions, and defaults.
+/// Collects all choices from options, answers to questions, and defaults.
 fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
@@ -97,7 +97,7 @@ fn setting(
     NamedChoice { value, known }
 }
 
-/// Chooses the material, which determines the exact solution.
+/// Chooses the material. It determines the exact solution.
 fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
@@ -168,18 +168,18 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice that no option states.
+/// A choice that no option determines.
 struct Question<'a> {
-    /// Subject of the question.
+    /// Name of the choice in the question.
     what: &'a str,
     choices: &'a [&'a str],
-    /// Choice for an empty answer.
+    /// Choice that an empty answer selects.
     default: &'a str,
 }
 
 impl Question<'_> {
-    /// Returns the answer from standard input if it is a terminal. Otherwise, or without
-    /// alternatives, returns the default.
+    /// Asks the question if standard input is a terminal and there are alternatives, and returns
+    /// the answer. Otherwise returns the default.
     fn ask(&self) -> String {
         let input = std::io::stdin();
         if self.choices.len() < 2 || !input.is_terminal() {

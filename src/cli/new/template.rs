@@ -1,4 +1,5 @@
-//! Text of a new suite, from a template for each kind of exact solution and one for the method.
+//! Creates the text of a new suite from templates: one for each kind of exact solution, and one for
+//! the method.
 
 use clap::ValueEnum;
 use std::path::Path;
@@ -28,7 +29,7 @@ pub(in crate::cli) enum TruthChoice {
 }
 
 impl LawChoice {
-    /// Name of the material in suites.
+    /// Returns the name of the material in suites.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::LinearElastic => "linear_elastic",
@@ -37,7 +38,7 @@ impl LawChoice {
         }
     }
 
-    /// Exact solution that is known for the material.
+    /// Returns the kind of exact solution that is known for the material.
     pub(super) fn truth(self) -> TruthChoice {
         match self {
             Self::LinearElastic => TruthChoice::StandingWave,
@@ -47,7 +48,7 @@ impl LawChoice {
 }
 
 impl TruthChoice {
-    /// Name of the solution on the command line.
+    /// Returns the name of the solution on the command line.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Manufactured => "manufactured",
@@ -55,7 +56,7 @@ impl TruthChoice {
         }
     }
 
-    /// Materials with a known solution of this kind, the default first.
+    /// Lists the materials with a known solution of this kind. The first one is the default.
     pub(super) fn laws(self) -> &'static [LawChoice] {
         match self {
             Self::Manufactured => &[LawChoice::NeoHookean, LawChoice::Hencky],
@@ -64,7 +65,7 @@ impl TruthChoice {
     }
 }
 
-/// Choices for a new suite, with names as in suites.
+/// Choices for a new suite. Their names are those in suites.
 pub(super) struct Choices {
     pub(super) name: String,
     pub(super) dimension: String,
@@ -74,7 +75,7 @@ pub(super) struct Choices {
     pub(super) scheme: NamedChoice,
 }
 
-/// Value of a method setting.
+/// Chosen value of a method setting.
 pub(super) struct NamedChoice {
     pub(super) value: String,
     /// Allowed values of the setting.
@@ -83,7 +84,7 @@ pub(super) struct NamedChoice {
 
 /// Template variables that depend on the dimension. Levels run within seconds; in 3-D they are
 /// therefore coarse. Steps divide the time between instants. The motion has a different phase along
-/// each axis, so that some parts are stretched while others are compressed.
+/// each axis, so some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [
         ("body", "bar"),
@@ -126,7 +127,7 @@ const SHAPES: [[(&str, &str); 9]; 3] = [
     ],
 ];
 
-/// Text of the suite, with a comment for each key. `path` is the path of its file.
+/// Creates the text of the suite, with a comment for each key. `path` is the path of its file.
 pub(super) fn text(choices: &Choices, path: &Path) -> String {
     let Choices { name, dimension, law, basis, transfer, scheme } = choices;
     let [bar, square, cube] = &SHAPES;

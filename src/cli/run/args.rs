@@ -35,7 +35,7 @@ pub(in crate::cli) struct RunArgs {
     pub(super) judged: JudgedSolverArgs,
 }
 
-/// Arguments of a run that is reported.
+/// Arguments that determine what a run reports.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
@@ -83,7 +83,7 @@ pub(super) enum RunFormat {
     Latex,
 }
 
-/// Arguments for the extent of the printed text.
+/// Arguments that determine how much text is printed.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PrintArgs {
     /// Print every report [default: the reports of up to five named suites; otherwise an overview
@@ -129,7 +129,7 @@ pub(in crate::cli) struct JudgedSolverArgs {
 pub(super) struct CaseLabel {
     /// Name of the case.
     pub(super) case: String,
-    /// Text in figures and tables.
+    /// Text that replaces the name in drawings and tables.
     pub(super) text: String,
 }
 

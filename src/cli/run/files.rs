@@ -16,12 +16,12 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Creates the folder of `--out` before the run, so that an invalid path fails early.
+/// Creates the folder of `--out` before the run. An invalid path therefore fails early.
 pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Writes `NAME.txt`, `NAME-table.tex` and the figures of each suite, and `report.json` and
+/// Writes `NAME.txt`, `NAME-table.tex` and the drawings of each suite, and `report.json` and
 /// `report.csv` for all suites.
 pub(super) fn write_out(
     folder: &Path,
@@ -48,7 +48,8 @@ pub(super) fn write_out(
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Creates the folder for the file of `option` before the run, so that an invalid path fails early.
+/// Creates the folder for the file of `option` before the run. An invalid path therefore fails
+/// early.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));
@@ -58,7 +59,7 @@ pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError
     made.map_err(|error| unwritable(option, file, &error))
 }
 
-/// Writes the results as JUnit XML. Untested cases of suites in `required` fail.
+/// Writes the results as JUnit XML. An untested case of a suite in `required` counts as failed.
 pub(super) fn write_junit(
     file: &Path,
     outcomes: &[SuiteOutcome],
@@ -68,8 +69,8 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the HTML page. Suites and outcomes are in the order of `sources`, which excludes refused
-/// and skipped suites.
+/// Writes the HTML page. Suites and outcomes are in the order of `sources`, except that refused and
+/// skipped suites are missing.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
@@ -95,22 +96,23 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Output of cases as time series into a folder.
+/// Writes cases as time series into a folder.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether all cases of the run are written, instead of only unexpected ones.
+    /// Whether the series of all cases in the run are written, instead of those with unexpected
+    /// results.
     all: bool,
 }
 
 impl Series {
-    /// Creates the folder before the run, so that an invalid path fails early.
+    /// Creates the folder before the run. An invalid path therefore fails early.
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
         Ok(Self { folder, all })
     }
 
-    /// Writes the time series of the selected cases of a suite, and prints their paths.
+    /// Writes the time series of the selected cases of a suite, and prints the paths of the files.
     pub(super) fn write(
         &self,
         runner: &Runner<'_>,
@@ -143,7 +145,7 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
     fs::write(path, &file.bytes)
 }
 
-/// Error about an `option` whose file or folder cannot be written.
+/// Creates the error for an `option` whose file or folder cannot be written.
 fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
     CommandError::option(option, path.display(), error)
 }

@@ -1,5 +1,5 @@
-//! `run --gate` and `--solver-config`: requirements on a solver, and the check whether it meets
-//! them.
+//! `run --gate` and `--solver-config`: determines the requirements on a solver, and checks whether
+//! it meets them.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A started solver with its gate.
+/// An external solver that has been started, and its gate.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -22,13 +22,14 @@ pub(super) struct JudgedSolver {
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.
     named: BTreeSet<String>,
-    /// Whether individually named suites may be inapplicable.
+    /// Whether the gate may pass although individually named suites are not applicable to the
+    /// solver.
     allows_not_applicable: bool,
     /// Names of suites that external solvers cannot run.
     left_out: Vec<String>,
 }
 
-/// Returns the suites with the solver instead of their methods, and the gate, if requested.
+/// Replaces the methods of the suites by the solver. Also returns the gate, if requested.
 ///
 /// # Errors
 /// The first error in the configuration file.
@@ -49,12 +50,12 @@ pub(super) fn prepare(
 }
 
 impl SolverGate {
-    /// Suites whose cases must all be tested.
+    /// Returns the suites whose cases must all be tested for the gate to pass.
     pub(super) fn required(&self) -> BTreeSet<String> {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
+    /// Prints the exceptions, and all reasons except failed cases why the solver does not pass.
     /// Returns whether there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
@@ -93,13 +94,13 @@ fn cases(outcomes: &[SuiteOutcome]) -> impl Iterator<Item = (&str, &CaseOutcome)
 /// Maximum order that the configuration may state.
 const HIGHEST_ORDER: f64 = 20.0;
 
-/// Contents of the configuration file.
+/// Content of the configuration file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ConfigSpec {
     /// Formal order of the solver in h.
     formal_order: Option<f64>,
-    /// Terms for suites, with names, groups or patterns as keys.
+    /// Terms for suites. The keys are names, groups or patterns of suites.
     #[serde(default)]
     suites: Ordered<TermsSpec>,
 }
@@ -107,26 +108,26 @@ struct ConfigSpec {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
-    /// Required order.
+    /// Order that the solver must reach.
     order: Option<f64>,
     /// Bound on errors that are accepted without an order.
     error_below: Option<f64>,
-    /// Reason for not running the suite.
+    /// Reason why the suite is not run.
     skip: Option<String>,
     /// Reason for `order` and `error_below`.
     because: Option<String>,
 }
 
-/// A checked configuration.
+/// Content of a configuration file after all checks.
 #[derive(Debug, Default)]
 struct SolverConfig {
     formal_order: Option<f64>,
-    /// Names, groups or patterns of suites, each with its terms.
+    /// Terms for suites, with the name, group or pattern that they apply to.
     suites: Vec<(String, GateTerms)>,
 }
 
 impl SolverConfig {
-    /// Reads and checks the file for a run of `suites`.
+    /// Reads the file and checks it for a run of `suites`.
     ///
     /// # Errors
     /// The first error in the file, with its position.
@@ -147,7 +148,7 @@ impl SolverConfig {
         Ok(Self { formal_order: spec.formal_order, suites: checked })
     }
 
-    /// Terms for a suite, from the first entry that matches its name or group.
+    /// Returns the terms for a suite, from the first entry that matches its name or group.
     fn terms(&self, suite: &Suite) -> GateTerms {
         let in_group = format!("{}/{}", suite.group, suite.name);
         let names = [&suite.name, &suite.group, &in_group];
@@ -225,7 +226,7 @@ fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnos
     Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
 }
 
-/// Names of all suites and groups that an entry may refer to.
+/// Returns the names of all suites and groups that an entry may refer to.
 fn known_names(suites: &[Suite]) -> Vec<String> {
     let mut known = select::suite_names();
     for suite in suites {

@@ -93,7 +93,7 @@ fn report(
     let (runs, judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites without a selected case are skipped. The order of the others does not change.
+    // Suites without a selected case are skipped. The order of the other suites does not change.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -114,7 +114,7 @@ fn report(
         bar.note_at_interrupt(note.clone());
     }
     let mut shown = Ok(());
-    // Outcomes of each solver, for the check of its gate.
+    // Outcomes of the suites, separately for each solver. Gates are checked on them.
     let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
     let mut outcomes: Vec<SuiteOutcome> = Vec::new();
     for suite in &runs {
@@ -180,10 +180,10 @@ fn threads(jobs: Option<usize>) -> Result<(), CommandError> {
     pool.build_global().map_err(|error| CommandError::option("--jobs", jobs, error))
 }
 
-/// Number of repetitions of each level.
+/// Determines the number of runs of each level.
 ///
 /// # Errors
-/// If `--repeat` would give no spread, or would mix stored results with new ones.
+/// If `--repeat` would measure no spread, or would mix stored results with new ones.
 fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
     const MOST: usize = 100;
     let Some(repeat) = args.repeat else { return Ok(1) };
@@ -203,33 +203,33 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// Cache, solvers and other settings of a run.
+/// Settings of a run, including its cache and solvers.
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
     /// Number of runs of each level.
     repeat: usize,
-    /// Output of cases as files for ParaView.
+    /// Writes cases as files for ParaView, if requested.
     series: Option<Series>,
-    /// Hint printed on Ctrl-C.
+    /// Hint that is printed on Ctrl-C.
     at_interrupt: Option<String>,
 }
 
 impl Judging {
-    /// Settings for reporting results from the cache.
+    /// Returns the settings for reporting the results in a cache without running levels.
     fn of_kept(kept: ResultCache) -> Self {
         let (solvers, repeat) = (Vec::new(), 1);
         Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
     }
 
-    /// Suites with a gate whose cases must all be tested.
+    /// Returns the suites whose cases must all be tested for the gates to pass.
     fn required(&self) -> BTreeSet<String> {
         let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());
         gates.flat_map(SolverGate::required).collect()
     }
 }
 
-/// Runs a suite. `shown` receives the first failure to write time series.
+/// Runs a suite. `shown` receives the first failure to write a time series.
 fn one(
     part: &SuitePart,
     args: &ReportArgs,
@@ -248,8 +248,8 @@ fn one(
     let warn = |warning: &StepWarning| {
         bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
     };
-    // A suite may deliberately use steps that are too long, and its expectations then cover the
-    // result. So these warnings are printed only for cases that fail.
+    // A suite may deliberately use steps that are too long, and expect the result. These warnings
+    // are therefore printed only for cases that fail.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {
@@ -276,7 +276,7 @@ fn open(folder: &Path) -> Result<ResultCache, CommandError> {
         .map_err(|error| CommandError::option("--resume", folder.display(), error))
 }
 
-/// The first name that occurs twice among the suites.
+/// Returns the first name that two of the suites have.
 fn twice(suites: &[Suite]) -> Option<&str> {
     let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
     names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)

@@ -10,10 +10,10 @@ use mpm_verify::{nearest, report};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Maximum number of named suites whose reports are printed.
+/// Maximum number of individually named suites for which full reports are printed.
 const FEW: usize = 5;
 
-/// Extent of the printed text.
+/// Format and amount of the printed text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printing {
     /// One JSON document.
@@ -33,7 +33,7 @@ pub(super) enum Printing {
 }
 
 impl Printing {
-    /// Extent of the text that the options request for `suites` suites.
+    /// Determines what is printed from the options and the number of suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
         match args.format {
@@ -71,7 +71,7 @@ impl Printing {
     }
 }
 
-/// Complete reports of the cases with unexpected results, below the names of their suites.
+/// Formats complete reports of the cases with unexpected results, below the names of their suites.
 fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
@@ -83,7 +83,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// One line with the locations of the reports.
+/// States in one line where the reports are.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());
@@ -126,7 +126,7 @@ pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), Command
     Ok(())
 }
 
-/// The outcomes, with titles and labels from the command line.
+/// Replaces the titles and labels in the outcomes by those from the command line.
 pub(super) fn labelled(args: &ReportArgs, outcomes: &[SuiteOutcome]) -> Vec<SuiteOutcome> {
     let mut outcomes = outcomes.to_vec();
     for outcome in &mut outcomes {

@@ -1,5 +1,5 @@
-//! Progress of a run on standard error, if it is a terminal: levels, and the remaining time
-//! predicted by the cost model.
+//! Shows the progress of a run on standard error if it is a terminal: the number of finished
+//! levels, and the remaining time that the cost model predicts.
 
 use crate::cli::output;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Exit status after Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// Share of the predicted time that must have passed before a remaining time is shown.
+/// Fraction of the predicted time that must have passed before the remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
 /// Progress over the suites of a run.
@@ -23,9 +23,9 @@ pub(super) struct RunProgress {
 
 struct ProgressState {
     suite: String,
-    /// Predicted seconds of the remaining units of the current suite, in decreasing order.
+    /// Predicted time (s) of each remaining unit of the current suite, in decreasing order.
     units: Vec<f64>,
-    /// Predicted seconds of the finished units, and of all units.
+    /// Predicted time (s) of the finished units, and of all units.
     done: f64,
     all: f64,
     start: Instant,
@@ -56,7 +56,8 @@ impl RunProgress {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
         suite.name.clone_into(&mut state.suite);
-        // Cases run in parallel, each from coarse to fine, so the cheapest levels finish first.
+        // Cases run in parallel, each from coarse to fine. The cheapest levels therefore finish
+        // first.
         state.units = unit_seconds(suite, extent);
         state.units.sort_by(|a, b| b.total_cmp(a));
         self.bar.set_message(state.message());
@@ -102,8 +103,8 @@ impl ProgressState {
     }
 }
 
-/// Remaining time after `seconds`, when `done` of `all` predicted seconds are finished. `None`
-/// while the estimate is unreliable.
+/// Estimates the remaining time after `seconds` if `done` of `all` predicted seconds are finished.
+/// `None` while the estimate is unreliable.
 fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     if !(done > ENOUGH * all && seconds > 1.0) {
         return None;
@@ -116,7 +117,7 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
-/// Text about resuming the run of this command line, with or without stored results.
+/// Describes how to resume this command line. `kept` is true if finished levels are stored.
 pub(super) fn interrupt_note(kept: bool) -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
     note_of(&words, kept)
@@ -138,7 +139,7 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
 }
 
-/// The argument with quotes for a shell, if necessary.
+/// Quotes an argument for a shell, if necessary.
 fn quoted(word: &str) -> Cow<'_, str> {
     shlex::try_quote(word).unwrap_or(word.into())
 }

@@ -98,7 +98,7 @@ pub(super) struct State {
     pub(super) min_j: Option<f64>,
 }
 
-/// A request for values of a field.
+/// A request of the solver for values of a field.
 pub(super) struct ValueRequest {
     /// Name of the requested field; absent in a `body_force` request.
     pub(super) of: Option<String>,
@@ -132,7 +132,7 @@ pub(super) struct Hello {
     pub(super) capabilities: StatedCapabilities,
 }
 
-/// Capabilities as stated by a solver.
+/// Capabilities that a solver states in `hello`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct StatedCapabilities {
     pub(super) known: Capabilities,
@@ -167,7 +167,7 @@ pub(super) enum ColumnText {
 }
 
 impl ColumnText {
-    /// Number of entries that the column states.
+    /// Returns the number of entries that the column states.
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),
@@ -175,7 +175,7 @@ impl ColumnText {
         }
     }
 
-    /// Returns the numbers of the column `name`. There must be exactly `count`, all finite.
+    /// Returns the numbers of the column `name`. There must be exactly `count` numbers, all finite.
     pub(super) fn numbers(
         self,
         name: &str,
@@ -213,8 +213,7 @@ impl Answer {
     pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
-            // Texts for numbers that JSON cannot represent, as written by Python and other
-            // languages.
+            // Python and other languages write these texts for numbers that JSON cannot represent.
             for word in ["NaN", "Infinity"] {
                 if text.contains(word) {
                     return ProgramError::NoNumber(word);
@@ -229,7 +228,7 @@ impl Answer {
         })
     }
 
-    /// Columns of the answer, with their names.
+    /// Returns the columns of the answer, with their names.
     pub(super) fn columns(self) -> Vec<(String, ColumnText)> {
         match self {
             Self::Ready { points: Some(points) } => vec![
@@ -251,7 +250,7 @@ impl Answer {
     /// Converts the answer to a request for values.
     ///
     /// # Errors
-    /// The answer itself, if it is not a request.
+    /// The answer itself, if it is not a request for values.
     pub(super) fn request(self) -> Result<ValueRequest, Box<Self>> {
         match self {
             Self::BodyForce { t, reference_position, displacement, body } => {
@@ -264,7 +263,7 @@ impl Answer {
         }
     }
 
-    /// Type of the answer, as in the protocol.
+    /// Returns the type of the answer, as in the protocol.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Hello(_) => "hello",
@@ -279,7 +278,7 @@ impl Answer {
     }
 }
 
-/// Beginning of an untrusted text, sanitised.
+/// Returns the beginning of an untrusted text, sanitised.
 fn excerpt(text: &str) -> String {
     let start = printable(&text.chars().take(60).collect::<String>());
     if text.chars().nth(60).is_some() { format!("{start}...") } else { start }

@@ -1,8 +1,8 @@
-//! The process of a solver, with limits of time and memory.
+//! The process of a solver, with limits on its time and memory.
 //!
-//! Two threads read the output of the process and one writes its input, so a process that neither
-//! reads nor writes does not block the caller. Each thread ends when its pipe closes, at the latest
-//! when the process is killed.
+//! Two threads read the output of the process and one writes its input. A process that neither
+//! reads nor writes therefore does not block the caller. Each thread ends when its pipe closes, at
+//! the latest when the process is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -15,7 +15,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Maximum length of an answer (bytes) before a problem has been sent.
+/// Maximum length (bytes) of an answer that arrives before a problem has been sent.
 const SHORT: usize = 1 << 20;
 
 /// Number of bytes of standard error that are stored.
@@ -24,18 +24,19 @@ const LAST_BYTES: usize = 2000;
 /// Maximum number of lines of standard error in an error message.
 const LAST_LINES: usize = 3;
 
-/// Maximum time for a process to exit on its own. A shorter response timeout applies here too.
+/// Maximum time for a process to exit without being killed. The response timeout also applies if it
+/// is shorter.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Polling interval for a process that does not respond.
 const GLANCE: Duration = Duration::from_millis(50);
 
-/// Limits of each process of a solver.
+/// Limits on each process of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// Response timeout.
+    /// Maximum time without an answer.
     pub silence: Duration,
-    /// Maximum address space (bytes), on Unix; `None`: the limit of the system.
+    /// Maximum address space (bytes), on Unix; `None` for the limit of the operating system.
     pub memory: Option<u64>,
 }
 
@@ -75,7 +76,8 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // If the process has stopped reading, its missing answer reveals this.
+            // A process that has stopped reading will not answer. The missing answer is reported as
+            // the error.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -83,7 +85,7 @@ impl Connection {
             }
         });
         let longest = Arc::new(AtomicUsize::new(SHORT));
-        // The bounded channel blocks a process with unlimited output on its own pipe.
+        // The channel is bounded, so a process with unlimited output blocks on its own pipe.
         let (found, answers) = sync_channel(1);
         let most = Arc::clone(&longest);
         thread::spawn(move || read_all(output, &most, &found));
@@ -108,7 +110,7 @@ impl Connection {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
 
-    /// Sends a message. If the process does not read it, the response timeout applies.
+    /// Sends a message. If the process does not read the message, the response timeout applies.
     pub(super) fn send(&mut self, message: Outgoing) {
         if let Some(requests) = &self.requests {
             let _ = requests.send(message.into_bytes());
@@ -118,7 +120,7 @@ impl Connection {
     /// Waits for the next answer and its block of bytes.
     ///
     /// # Errors
-    /// The failure. The process has then been killed.
+    /// Reason of the failure. The process has then been killed.
     pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), ProgramError> {
         let found = match self.heard() {
             Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
@@ -132,8 +134,8 @@ impl Connection {
         })
     }
 
-    /// The next message, if it arrives in time. A child process may keep the pipe open after the
-    /// process has ended, so the process itself is polled too.
+    /// Returns the next message, if it arrives in time. A child process may keep the pipe open
+    /// after the process has ended. Therefore the process itself is polled too.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
@@ -149,7 +151,7 @@ impl Connection {
         }
     }
 
-    /// The failure of a process that sends no more answers.
+    /// Returns the failure of a process that sends no more answers.
     fn ended(&mut self) -> ProgramError {
         match self.status() {
             Some(status) => ProgramError::Ended(shown(status)),
@@ -162,7 +164,7 @@ impl Connection {
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // For a Python traceback, these lines are the position, the source line and the error.
+        // In a Python traceback, these lines are the position, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()
@@ -180,7 +182,7 @@ impl Connection {
         }
     }
 
-    /// The exit status of the process, if it ends soon.
+    /// Returns the exit status of the process, if it ends soon.
     fn status(&mut self) -> Option<ExitStatus> {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
@@ -209,7 +211,7 @@ impl Drop for Connection {
     }
 }
 
-/// The first result of `look` within the time limit.
+/// Calls `look` until it returns a result or the time limit is reached.
 fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     loop {
@@ -221,7 +223,8 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
     }
 }
 
-/// The command, with a limit of its address space (bytes) that child processes inherit.
+/// Creates the command with a limit on its address space (bytes). Child processes inherit the
+/// limit.
 fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);

@@ -5,8 +5,8 @@ use crate::subject::{HIGHEST_ORDER, LONGEST_NAME};
 use std::io;
 use thiserror::Error;
 
-/// Failure of a solver process, or violation of the protocol. The text is a predicate with the
-/// solver as its subject.
+/// Failure of a solver process, or violation of the protocol. Each text is a predicate whose
+/// subject is the solver.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ProgramError {
@@ -16,7 +16,7 @@ pub enum ProgramError {
     /// The command is empty.
     #[error("is empty: expected a command with its arguments")]
     EmptyCommand,
-    /// The operating system does not support a memory limit.
+    /// The operating system does not support the memory limit.
     #[error("no limit of memory can be set on this system")]
     MemoryLimit,
     /// The program does not start.
@@ -24,7 +24,7 @@ pub enum ProgramError {
     Start {
         /// Name of the program.
         program: String,
-        /// Reason reported by the system.
+        /// Reason that the operating system reports.
         error: io::Error,
     },
     /// The process has no standard streams.
@@ -33,7 +33,7 @@ pub enum ProgramError {
     /// No answer arrived in time.
     #[error("has been silent for {0} s")]
     Silent(f64),
-    /// The process ended without an answer.
+    /// The process ended without an answer; with its status and output.
     #[error("ended without an answer ({0})")]
     Ended(String),
     /// The process closed its standard output but is still running.
@@ -45,13 +45,13 @@ pub enum ProgramError {
     /// The output ended within an answer or a block of bytes.
     #[error("ended in the middle of {0}")]
     Truncated(&'static str),
-    /// An answer is longer than any answer that the problem requires.
+    /// An answer is longer (bytes) than any valid answer to the problem.
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
-    /// An answer contains a number that JSON does not support.
+    /// An answer contains a number that JSON does not support, such as NaN.
     #[error("answered with {0}, which is no number")]
     NoNumber(&'static str),
-    /// A line that is not a message of the protocol.
+    /// The output contains a line that is not a message of the protocol.
     #[error("answered with what is no message ({reason}): `{excerpt}`")]
     NoMessage {
         /// The violated rule.
@@ -59,7 +59,7 @@ pub enum ProgramError {
         /// Beginning of the line.
         excerpt: String,
     },
-    /// The type of the message does not answer the request.
+    /// The type of the answer does not match the request.
     #[error("answered `{request}` with `{answer}`")]
     UnexpectedAnswer {
         /// Type of the request.
@@ -67,7 +67,7 @@ pub enum ProgramError {
         /// Type of the answer.
         answer: &'static str,
     },
-    /// Unsupported version of the protocol.
+    /// The solver uses an unsupported version of the protocol.
     #[error(
         "speaks version {stated} of the protocol; expected version {} or {}",
         .expected[0],
@@ -76,7 +76,7 @@ pub enum ProgramError {
     Version {
         /// Version that the solver stated.
         stated: u64,
-        /// Supported versions.
+        /// Versions that are supported.
         expected: [u64; 2],
     },
     /// The solver's name is invalid.
@@ -88,26 +88,26 @@ pub enum ProgramError {
     /// The solver's formal order is out of range.
     #[error("has the formal order {0}: expected one up to {max}", max = HIGHEST_ORDER)]
     FormalOrder(f64),
-    /// A second process stated a different name, version or capability than the first one.
+    /// A second process stated a different name, version or capability than the first process.
     #[error("said another hello than the first time")]
     ChangedHello,
-    /// The solver refuses the problem for this reason.
+    /// The solver refuses the problem, for the given reason.
     #[error("{0}")]
     Refused(String),
-    /// The solver reports a failure.
+    /// The solver reports a failure, with a description.
     #[error("says: {0}")]
     Failed(String),
     /// A required column is missing.
     #[error("gave no column `{0}`")]
     NoColumn(&'static str),
-    /// A column refers to bytes beyond the end of the block.
+    /// A column refers to bytes outside the block.
     #[error("gave the column `{name}` as {length} doubles from byte {offset} on, of {bytes} bytes")]
     ColumnBytes {
         /// Name of the column.
         name: String,
-        /// Number of doubles.
+        /// Number of doubles in the column.
         length: usize,
-        /// First byte.
+        /// Index of the first byte of the column.
         offset: usize,
         /// Size of the block of bytes.
         bytes: usize,
@@ -135,33 +135,33 @@ pub enum ProgramError {
     /// The smallest determinant of F is not a positive number.
     #[error("gave `min_j` {0}: a determinant of F is a positive number")]
     Determinant(f64),
-    /// A gradient has the wrong number of entries.
+    /// A gradient has the wrong number of derivatives.
     #[error("gave a gradient of {found} numbers, expected {expected}: {names}")]
     GradientLength {
-        /// Number of entries.
+        /// Number of derivatives in the gradient.
         found: usize,
-        /// Requested number of entries.
+        /// Number of requested derivatives.
         expected: usize,
         /// Names of the requested parameters.
         names: String,
     },
-    /// A gradient contains a number that JSON does not support.
+    /// A gradient contains a number that JSON does not support, such as NaN.
     #[error("answered `differentiate` with {word}, which is no number; requested: {names}")]
     GradientNoNumber {
-        /// The number.
+        /// Text of the number.
         word: &'static str,
         /// Names of the requested parameters.
         names: String,
     },
-    /// An entry of a gradient, or the value of the functional, is not finite.
+    /// A derivative, or the value of the functional, is not finite.
     #[error("gave {value} as the {of}")]
     GradientNotFinite {
         /// The number.
         value: f64,
-        /// Name of the entry, with the parameter.
+        /// Description of the number, with the parameter of a derivative.
         of: String,
     },
-    /// The solver has no points.
+    /// The solver stated sample points, but there are none.
     #[error("has no points")]
     NoPoints,
     /// The solver's points are outside the bodies of the problem.
@@ -175,10 +175,10 @@ pub enum ProgramError {
         /// The reason.
         reason: FieldError,
     },
-    /// The solver sent more requests for values than necessary.
+    /// The solver sent more requests for values than any correct solver needs.
     #[error("asked for values {0} times")]
     TooManyRequests(u64),
-    /// A failure of a process that had written to its standard error.
+    /// A failure of a process that also wrote to its standard error.
     #[error("{error}; its last words: {lines}")]
     WithStandardError {
         /// The failure.
@@ -188,12 +188,12 @@ pub enum ProgramError {
     },
 }
 
-/// Untrusted text as one line of at most 200 characters.
+/// Converts untrusted text to one line of at most 200 characters.
 pub(super) fn printable(text: &str) -> String {
     text.chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
-/// Text of a JSON error without the names of Rust types.
+/// Returns the text of a JSON error without the names of Rust types.
 pub(super) fn plain(error: &serde_json::Error) -> String {
     const EXPECTED: [(&str, &str); 8] = [
         ("u64", "a whole number, zero or more"),

@@ -8,7 +8,7 @@ use std::process::ChildStdout;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::SyncSender;
 
-/// A received message: its line without the newline, and the subsequent block of bytes.
+/// A received message: a line without its newline, and the block of bytes that follows it.
 #[derive(Debug, Default)]
 pub(super) struct MessageFrame {
     pub(super) line: Vec<u8>,
@@ -62,7 +62,7 @@ impl Outgoing {
         json!({"f64": [offset, numbers.len()]})
     }
 
-    /// The message as bytes.
+    /// Converts the message to bytes.
     pub(super) fn into_bytes(mut self) -> Vec<u8> {
         if !self.bytes.is_empty() {
             self.message.insert("bytes".to_owned(), json!(self.bytes.len()));
@@ -74,17 +74,17 @@ impl Outgoing {
     }
 }
 
-/// The size of the block of bytes that a message announces.
+/// Announced size of the block of bytes after a message.
 #[derive(Deserialize)]
 struct Announced {
     #[serde(default)]
     bytes: usize,
 }
 
-/// Number of bytes that follow a line. Zero if the line is not a message; the reader of answers
-/// then reports an error.
+/// Returns the number of bytes that follow a line. Zero if the line is not a message; the error is
+/// reported when the answer is parsed.
 fn announced(line: &[u8]) -> usize {
-    // Lines without the key "bytes" are not parsed here.
+    // A line without the key "bytes" need not be parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
         return 0;
     }
@@ -118,7 +118,7 @@ pub(super) fn read_one(
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
     // The limit can change while a line is read, because the first answer arrives before the
-    // problem is known.
+    // problem is sent.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
         if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }

@@ -1,4 +1,4 @@
-//! Answers a solver's requests for values at places and times: body forces, the initial state,
+//! Answers the requests of a solver for values at points and times: body forces, the initial state,
 //! loads and face conditions.
 
 use super::answer::{ColumnText, ValueRequest};
@@ -18,22 +18,23 @@ pub(super) struct Inquiry {
     fields: Option<ProblemFields>,
     faces: Vec<ProblemFace>,
     loads: Vec<ProblemLoad>,
-    /// Reference positions (m) and bodies of the particles, or of the solver's own points.
+    /// Reference positions (m) of the particles, or of the solver's own points. These are the
+    /// default points of requests.
     labels: Vec<f64>,
     bodies: Vec<usize>,
-    /// The body force evaluated at `labels`; created by the first request.
+    /// Body force at `labels`. It is created by the first request for it.
     placed: Option<PlacedBodyForce>,
     /// Version of the protocol that the solver uses.
     version: u64,
     binary: bool,
-    /// Number of requests since the last call of `allow`, and its maximum.
+    /// Number of requests since the last call of `allow`.
     asked: u64,
     most: u64,
 }
 
 impl Inquiry {
-    /// Creates the answers for a solver of `problem` that uses this `version` of the protocol. The
-    /// default places of a request are the particles.
+    /// Prepares the answers for a solver of `problem` that uses this `version` of the protocol. The
+    /// default points of a request are the particles.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,
@@ -51,17 +52,17 @@ impl Inquiry {
         }
     }
 
-    /// Sets the default places of requests to the points of the solver (m, D numbers each).
+    /// Sets the default points of requests to the points of the solver (m, D numbers each).
     ///
     /// # Errors
-    /// A point is outside the bodies. Solvers of version 1 are not checked.
+    /// If a point is outside the bodies. The points of solvers of version 1 are not checked.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
         self.bodies = self.bodies_of(labels).map_err(ProgramError::Points)?;
         self.labels = labels.to_vec();
         Ok(())
     }
 
-    /// A field of the initial state at the particles or points, if it is defined there.
+    /// Returns a field of the initial state at the default points, if it is defined there.
     pub(super) fn start(&self, of: FieldName) -> Option<Vec<f64>> {
         let at = FieldPlaces::new(&self.labels, &self.bodies);
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
@@ -72,10 +73,10 @@ impl Inquiry {
         (self.asked, self.most) = (0, requests);
     }
 
-    /// Answers a request that has a block of `bytes`.
+    /// Answers a request that is followed by a block of `bytes`.
     ///
     /// # Errors
-    /// The request cannot be answered.
+    /// Reason why the request cannot be answered.
     pub(super) fn answer(
         &mut self,
         request: ValueRequest,
@@ -117,7 +118,7 @@ impl Inquiry {
         Ok(message)
     }
 
-    /// Places of a request.
+    /// Determines the points of a request.
     fn places(
         &self,
         field: FieldName,
@@ -133,7 +134,7 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // A quantity that is equal at all places has a single value.
+            // If a quantity is equal at all points, a single value is returned.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }
@@ -158,7 +159,7 @@ impl Inquiry {
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
-    /// Default places of a request for `field`.
+    /// Determines the default points of a request for `field`.
     fn default_places(&self, field: FieldName) -> Result<Vec<f64>, FieldError> {
         let (numbers, face) = match field {
             FieldName::Load(load) => {
@@ -188,7 +189,7 @@ impl Inquiry {
         Ok(place)
     }
 
-    /// Index of the body at each place.
+    /// Returns the index of the body at each point.
     fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let places = labels.chunks_exact(self.dimension);
         match &self.fields {
@@ -198,7 +199,7 @@ impl Inquiry {
         }
     }
 
-    /// Body forces (m/s2) at places.
+    /// Returns the body forces (m/s2) at points.
     fn forces(&mut self, t: f64, places: &RequestedPlaces) -> Result<Vec<f64>, FieldError> {
         let d = self.dimension;
         let RequestedPlaces { labels, bodies, displacement, are_own } = places;
@@ -237,7 +238,7 @@ impl Inquiry {
         Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
     }
 
-    /// Values of all fields except the body force.
+    /// Returns the values of any field except the body force.
     fn values(
         &self,
         of: FieldName,
@@ -254,16 +255,16 @@ impl Inquiry {
     }
 }
 
-/// Parsed places of a request.
+/// The points of a request, after parsing.
 struct RequestedPlaces {
     labels: Vec<f64>,
     bodies: Vec<usize>,
     displacement: Option<Vec<f64>>,
-    /// Whether the places are the default ones: the particles or the points.
+    /// Whether the points are the default ones.
     are_own: bool,
 }
 
-/// The field with the name in a request.
+/// Finds the field that a request names.
 fn field_named(
     name: &str,
     loads: &[ProblemLoad],
@@ -287,7 +288,7 @@ fn field_named(
     }))
 }
 
-/// The time (s) of a request, by default 0 for fields of the initial state.
+/// Returns the time (s) of a request; 0 by default for fields of the initial state.
 fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
     match t {
         None if field.is_initial() => Ok(0.0),

@@ -1,10 +1,10 @@
 //! Runs a command that implements the protocol of docs/protocol.md.
 //!
 //! ```text
-//! solver       requests the command's identity, and starts it for each level
-//! subject      a level in a solver process
-//! gradient     a gradient that the process computes
-//! inquiry      answers to the solver's requests for values
+//! solver       requests the identity of a solver, and starts the solver for each level
+//! subject      runs a level in a solver process
+//! gradient     requests a gradient from a solver process
+//! inquiry      answers the requests of a solver for values
 //! connection   the process: sends requests, receives answers, limits time and memory
 //! answer       answers of a solver, and columns of numbers
 //! frame        one message: a line of JSON, and a block of bytes
@@ -30,8 +30,8 @@ use answer::Answer;
 use std::sync::atomic::AtomicUsize;
 
 #[doc(hidden)]
-/// Reads answers from `bytes` as from a process, with all their columns, until one violates the
-/// protocol. Returns the number of valid answers. For the fuzzer.
+/// Parses answers from `bytes` as from a process, with all their columns, until one violates the
+/// protocol. Returns the number of valid answers. Used by the fuzzer.
 pub fn read_answers(mut bytes: &[u8]) -> usize {
     let longest = AtomicUsize::new(bytes.len());
     let mut count = 0;

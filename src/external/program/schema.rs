@@ -1,4 +1,5 @@
-//! The protocol as a JSON Schema (draft 2020-12), generated from the types that read and write it.
+//! The JSON Schema (draft 2020-12) of the protocol, generated from the types that read and write
+//! messages.
 
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};
@@ -8,8 +9,8 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-/// JSON Schema of all messages in both directions, as indented JSON. The definition `answer` covers
-/// the messages of the solver, `request` those of the harness.
+/// Returns the JSON Schema of all messages in both directions, as indented JSON. The definition
+/// `answer` describes the messages of the solver, `request` those of the harness.
 pub fn protocol_schema() -> String {
     let mut definitions = SchemaSettings::draft2020_12().into_generator();
     let answer = with_bytes(definitions.root_schema_for::<Answer>());
@@ -28,7 +29,7 @@ pub fn protocol_schema() -> String {
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Schema of a message that may announce a block of bytes.
+/// Adds the announcement of a block of bytes to the schema of a message.
 fn with_bytes(schema: Schema) -> Value {
     let mut schema = schema.to_value();
     if let Value::Object(message) = &mut schema {
@@ -41,7 +42,7 @@ fn with_bytes(schema: Schema) -> Value {
     schema
 }
 
-/// Schema of the messages of the harness.
+/// Creates the schema of the messages of the harness.
 fn request(definitions: &mut SchemaGenerator) -> Value {
     let column = definitions.subschema_for::<ColumnText>().to_value();
     let count = json!({"type": "integer", "minimum": 0});
@@ -81,7 +82,7 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
     ]})
 }
 
-/// Schema of a functional of the final state.
+/// Creates the schema of a functional of the final state.
 fn functional() -> Value {
     let index = json!({"type": "integer", "minimum": 0});
     let of = |name: &str, keys: &[&str]| {
@@ -100,7 +101,7 @@ fn functional() -> Value {
     ]})
 }
 
-/// Schema of a message with a type and required keys.
+/// Creates the schema of a message with a type and required keys.
 fn message(kind: &str, keys: Value) -> Value {
     let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
     if let Value::Object(keys) = keys {

@@ -1,4 +1,4 @@
-//! A solver program as a factory of subjects.
+//! Creates subjects that run in a solver program.
 
 use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};
@@ -17,31 +17,32 @@ use serde_json::json;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Version of the protocol.
+/// Newest version of the protocol.
 pub(super) const PROTOCOL: u64 = 2;
 
-/// Versions that a solver may use.
+/// Versions of the protocol that a solver may use.
 pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 
-/// Maximum number of requests for values before a solver is ready.
+/// Maximum number of requests for values between a problem and the answer `ready`.
 const SETUP_QUESTIONS: u64 = 10_000;
 
-/// A solver that a command runs.
+/// An external solver that a command starts.
 #[derive(Debug, Clone)]
 pub struct SolverProgram {
     command: Vec<String>,
     limits: ProgramLimits,
     hello: Hello,
     identity: u64,
-    /// Name of its cases, if different from the name in `hello`.
+    /// Name that replaces the name in `hello`, if set by [`Self::called`].
     called: Option<String>,
 }
 
 impl SolverProgram {
-    /// Starts `command`, which is split into arguments like in a shell, and requests its identity.
+    /// Starts `command`, which is split into arguments like in a shell, and requests the identity
+    /// and capabilities of the solver.
     ///
     /// # Errors
-    /// The command cannot run, or its answer violates the protocol.
+    /// If the command cannot run, or its answer violates the protocol.
     pub fn greet(command: &str, limits: ProgramLimits) -> Result<Self, ProgramError> {
         let command = shlex::split(command).ok_or(ProgramError::Quotes)?;
         if command.is_empty() {
@@ -53,11 +54,11 @@ impl SolverProgram {
         Ok(Self { command, limits, hello, identity, called: None })
     }
 
-    /// Renames the solver, to distinguish two solvers that run the same program. Expectations of a
-    /// suite for a named solver then refer to `name`.
+    /// Gives the solver another name, for example to distinguish two solvers that run the same
+    /// program. If a suite states expectations for a solver by name, they then apply to `name`.
     ///
     /// # Errors
-    /// `name` is not a valid solver name.
+    /// If `name` is not a valid solver name.
     pub fn called(self, name: &str) -> Result<Self, ProgramError> {
         if !is_solver_name(name) {
             return Err(ProgramError::Name(printable(name)));
@@ -65,7 +66,7 @@ impl SolverProgram {
         Ok(Self { called: Some(name.to_owned()), ..self })
     }
 
-    /// Warnings, one line for each unknown name in the solver's capabilities.
+    /// Returns warnings, one line for each unknown name in the solver's capabilities.
     pub fn warnings(&self) -> Vec<String> {
         self.hello.capabilities.known.unknown_names(&self.hello.capabilities.keys)
     }
@@ -75,7 +76,7 @@ impl SolverProgram {
         ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
     }
 
-    /// Starts a process that accepts `problem`.
+    /// Starts a process and waits until it accepts `problem`.
     pub(super) fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
@@ -109,24 +110,25 @@ impl SolverProgram {
     }
 }
 
-/// A solver process that has accepted a problem.
+/// A process that has accepted a problem.
 pub(super) struct Started {
     pub(super) connection: Connection,
     pub(super) inquiry: Inquiry,
     pub(super) hello: Hello,
-    /// Sample points of its states, if they are not the particles.
+    /// Sample points of the solver; `None` if its sample points are the particles.
     pub(super) points: Option<Points>,
-    /// Block of bytes after its answer.
+    /// Block of bytes after the answer that states the points.
     pub(super) bytes: Vec<u8>,
 }
 
-/// Hash of the command, of the files among its arguments, and of the hello message. Other files
-/// that the program reads, such as modules, are represented only by the version in this message.
+/// Returns the hash of the command, of the files among its arguments, and of the hello message.
+/// Changes in other files that the program reads, such as modules, are detected only if the version
+/// in `hello` changes.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
     for word in command {
-        // Folders and devices are not programs.
+        // Only regular files are hashed, not folders or devices.
         let is_file = fs::metadata(word).is_ok_and(|found| found.is_file());
         is_file.then(|| fs::read(word).ok()).flatten().hash(&mut all);
     }
@@ -188,7 +190,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // A capability that is also missing for another reason is reported only once.
+            // A capability that is missing for another reason too is reported only once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated
@@ -259,7 +261,8 @@ impl SolverProgram {
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
         let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // JSON has no such number, so the position of the entry is unknown.
+            // The number is invalid JSON, such as NaN, so the answer cannot be parsed and the index
+            // of the number is unknown.
             ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
             error => error,
         });
@@ -278,7 +281,7 @@ impl SolverProgram {
     }
 }
 
-/// The answer to `request`, after checking that it has one finite number for each parameter.
+/// Checks that the answer to `request` has one finite number for each parameter, and returns it.
 fn checked(
     request: &GradientRequest,
     value: f64,
@@ -299,7 +302,7 @@ fn checked(
     }
 }
 
-/// Names of the parameters of a request.
+/// Lists the names of the parameters in a request.
 fn names(request: &GradientRequest) -> Vec<&'static str> {
     request.with_respect_to.iter().map(|one| one.name()).collect()
 }

@@ -1,4 +1,4 @@
-//! A level that runs in a solver process.
+//! Runs a level in a solver process.
 
 use super::answer::{Answer, Hello, Points, State};
 use super::connection::Connection;
@@ -10,11 +10,11 @@ use crate::external::problem::LevelProblem;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
-/// Maximum number of requests for values between two instants, per step.
+/// Maximum number of requests for values for each step. The requests are counted between instants.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Maximum length (bytes) of an answer to `problem`. It allows all columns as decimal text for
-/// three times as many points as particles.
+/// Returns the maximum length (bytes) of an answer to `problem`. The limit allows all columns as
+/// decimal text, for three times as many points as particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
@@ -40,11 +40,11 @@ pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
     dt: f64,
-    /// Remaining numbers of steps after which the state is requested.
+    /// Numbers of the steps after which the state is still to be requested.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Number of steps that the caller has made, and number of steps that were requested from the
-    /// process.
+    /// Number of steps that the caller has requested, and number of steps that the process was
+    /// asked to run.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
@@ -61,7 +61,7 @@ impl ProgramSubject {
     /// any.
     ///
     /// # Errors
-    /// The points are invalid.
+    /// If the points are invalid.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,
@@ -128,7 +128,7 @@ impl ProgramSubject {
         })
     }
 
-    /// Requests all steps that the caller has made so far from the process.
+    /// Asks the process to run all steps that the caller has requested so far.
     fn advance(&mut self) -> Result<(), ProgramError> {
         let steps = self.called - self.taken;
         let from = self.taken as f64 * self.dt;
@@ -195,7 +195,7 @@ impl Subject for ProgramSubject {
         self.counters
     }
 
-    /// Sums over the points; `None` if their masses are unknown.
+    /// Computes sums over the points; `None` if their masses are unknown.
     fn totals(&self) -> Option<Totals> {
         let masses = self.mass.as_ref()?;
         let d = self.dimension;

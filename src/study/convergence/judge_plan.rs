@@ -1,4 +1,4 @@
-//! Inputs of the judge for a case: formal order, error scale and plan.
+//! Inputs of the judge for a case: formal order, error scale and judge plan.
 
 use crate::exact::{Problem, Truth};
 use crate::mpm::SchemeName;
@@ -12,7 +12,7 @@ use crate::verify::{
     single_precision_spacing,
 };
 
-/// The plan for judging a case, with errors against `truth`.
+/// Creates the plan for judging a case whose errors are measured against `truth`.
 pub(super) fn judge_plan<'a>(
     plan: &'a ConvergencePlan,
     case: &'a Case,
@@ -37,15 +37,15 @@ pub(super) fn judge_plan<'a>(
     }
 }
 
-/// Spacing (m) of floating-point positions, if a solver in single precision is judged by its
-/// displacement and the motion is given by formulas.
+/// Returns the distance (m) between neighbouring positions in single precision. `None` unless a
+/// solver in single precision is judged by its displacement and formulas give the motion.
 fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     let is_judged = plan.of == Quantity::Displacement && case.against != Against::Nothing;
     let exact = plan.exact.as_ref().filter(|_| is_judged && case.method.is_single_precision())?;
     single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
-/// Conserved sums that are reported for a case without bounds on drifts.
+/// Returns the conserved sums whose drift is reported for a case without bounds on drifts.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
     let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();
@@ -60,7 +60,7 @@ fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     Conserved::ALL.iter().copied().filter(|sum| moves && has(sum)).collect()
 }
 
-/// Sizes of the numbers that the solver of a case rounds.
+/// Returns the sizes of the numbers that the solver of a case rounds.
 pub(super) fn rounding_sizes(
     plan: &ConvergencePlan,
     case: &Case,
@@ -68,12 +68,12 @@ pub(super) fn rounding_sizes(
 ) -> Option<RoundingSizes> {
     let is_single = case.method.is_single_precision();
     let unit = if is_single { f64::from(f32::EPSILON) / 2.0 } else { f64::EPSILON / 2.0 };
-    // For a sum over the body, the size is the scale of its error.
+    // The size of a sum over the body is the scale of its error.
     let value = Some(largest_exact(plan, case, truth)).filter(|size| *size > 0.0).or(plan.scale)?;
     let scene = &plan.scene;
     let positions = scene.from.iter().chain(&scene.to).fold(0.0_f64, |most, x| most.max(x.abs()));
     let number = match plan.of {
-        // Displacements are differences of positions.
+        // A displacement is the difference between two positions.
         Quantity::Displacement => positions + value,
         Quantity::DeformationGradient => 1.0,
         Quantity::Stress => value.max(scene.wave_modulus()),
@@ -83,17 +83,17 @@ pub(super) fn rounding_sizes(
 }
 
 /// Order of the midpoint rule. Particles are the quadrature points of the weak form, but theory
-/// gives no general order for their number. Integrands jump where a basis does, and the midpoint
-/// rule holds only while particles stay in the middle of their parts of the body (Steffen, Kirby &
-/// Berzins 2008, Int. J. Numer. Meth. Engng 76, 922). The judge uses this order to detect floors,
-/// and as the centre of the expected interval of a suite without `order`.
+/// gives no general order for their number. Integrands jump where the derivatives of a basis do,
+/// and the midpoint rule holds only while particles stay in the middle of their parts of the body
+/// (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76, 922). The judge uses this order
+/// to detect floors, and as the centre of the expected range of a suite without `order`.
 const MIDPOINT: f64 = 2.0;
 
-/// Share of the largest velocity (or acceleration) above which the initial value counts as
+/// Fraction of the largest velocity (or acceleration) above which the initial value counts as
 /// non-zero.
 const AT_REST: f64 = 1e-9;
 
-/// Formal order of the displacement error.
+/// Returns the formal order of the displacement error.
 pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     match plan.refine.axis {
         Axis::Space => case.method.formal_order(),
@@ -102,19 +102,19 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     }
 }
 
-/// Formal order in time. Euler-Cromer is a leapfrog of order 2 if it starts with `v(-dt/2)`.
-/// Starting with `v(0)` instead is a velocity error of `dt/2 a(0)`: order 1 unless `a(0)` is zero.
-/// USF adds `dt grad v` of the initial velocity to F before the first motion: order 1 unless `v(0)`
-/// is zero. (USL and USF also have first-order terms proportional to h^2 and to the strain squared,
-/// which the suite temporal-order examines.) Without a formula for the motion, `v(0)` and `a(0)`
-/// are assumed to be non-zero.
+/// Returns the formal order in time. Euler-Cromer is a leapfrog of order 2 if it starts with
+/// `v(-dt/2)`. A start with `v(0)` instead causes a velocity error of `dt/2 a(0)`: order 1 unless
+/// `a(0)` is zero. USF adds `dt grad v` of the initial velocity to F before the first motion: order
+/// 1 unless `v(0)` is zero. (USL and USF also have first-order terms proportional to h^2 and to the
+/// strain squared, which the suite temporal-order examines.) Without a formula for the motion,
+/// `v(0)` and `a(0)` are assumed to be non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
         // Load steps are not refined, and heat is integrated by forward Euler.
         Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
-        // An external solver claims an order in space only. The same value is used for time.
+        // An external solver claims an order in space only. The same order is assumed in time.
         Method::External { formal_order, .. } => return formal_order,
     };
     let [moves, accelerates] = exact.map_or([true, true], begins);
@@ -122,7 +122,7 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     if pushed || (updates_first && moves) { 1.0 } else { 2.0 }
 }
 
-/// Whether the motion has an initial velocity, and an initial acceleration.
+/// Whether the initial velocity and the initial acceleration of the motion are non-zero.
 fn begins(problem: &Problem) -> [bool; 2] {
     const PER_AXIS: usize = 9;
     let d = problem.dimension();
@@ -153,12 +153,12 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Number of sampling intervals along each axis and in time, in 1-D and 2-D; 3-D uses fewer. The
-/// numbers are even, so that the middle is a sampling point.
+/// Number of sampling intervals along each axis and in time, in 1-D and 2-D; 3-D uses fewer. These
+/// numbers are even, so the middle is a sampling point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// Error scale of `case`, with errors against `truth`.
+/// Returns the error scale of a case whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: match case.load_steps(plan) {
@@ -180,7 +180,7 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     largest_exact(plan, case, truth)
 }
 
-/// Largest exact value of the judged quantity over the body and the run.
+/// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     // A reference run with shorter steps has values at its own labels only. A formula for the
     // motion has values everywhere.
@@ -195,7 +195,7 @@ pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Tru
     plan.of.largest_exact(truth, &places(plan, per_axis), &times)
 }
 
-/// Sampling points of the body, including faces.
+/// Returns the sampling points of the body, including its faces.
 fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     let scene = &plan.scene;
     let place = |index: usize| -> Vec<f64> {
@@ -209,8 +209,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 
-/// Theoretical growth of the work, as a power of 1/spacing. The growth of the number of steps is
-/// computed from the levels, so the time step may be any formula.
+/// Returns the theoretical growth of the work, as a power of 1/spacing. The growth of the number of
+/// steps is computed from the levels, because the time step may be any formula.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;
@@ -223,7 +223,7 @@ fn growth(plan: &ConvergencePlan) -> f64 {
     match plan.refine.axis {
         Axis::Space => d + steps,
         Axis::Time => 1.0,
-        // Particles fill the body: half the spacing means 2^D times as many.
+        // Particles fill the body, so half the spacing means 2^D times as many particles.
         Axis::Particles => d,
     }
 }

@@ -1,4 +1,5 @@
-//! Runs a convergence study: every level of every case, its error, and the verdict.
+//! Runs a convergence study: runs every level of every case, measures the error, and judges the
+//! case.
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
@@ -28,8 +29,8 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Runs the cases of a convergence study. Data that several cases need are computed once: a
-/// reference, and manufactured forces at equal places and times.
+/// Runs the cases of a convergence study. Data that several cases need are computed only once: a
+/// reference, and manufactured forces at equal points and times.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
     /// Number of cases that have not run yet.
@@ -72,7 +73,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // Runners of all suites exist until the gate ends, so shared forces are freed early.
+        // Runners of all suites exist until the gate ends. Shared forces are therefore freed early.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
@@ -123,7 +124,7 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // Cases with their own time steps have different times.
+        // Cases that choose their own time steps have different times.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
         if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
             exact.shared_forces = Some(Arc::default());
@@ -132,7 +133,7 @@ impl<'a> ConvergenceRunner<'a> {
         Self { plan, left, context, references, steps: StableSteps::default() }
     }
 
-    /// Outcome of a case, whether or not it can run.
+    /// Returns the outcome of a case, whether or not it can run.
     fn outcome(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, case) = (&self.plan, &self.plan.cases[index]);
         let expectation = match (self.context.extent, &case.expectation_in_full) {
@@ -199,7 +200,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// Runs the case with a shorter spacing, as its own reference.
+    /// Runs the method of the case with a smaller spacing, which gives the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {
@@ -240,7 +241,7 @@ struct CaseRuns<'r, 'a> {
 }
 
 impl CaseRuns<'_, '_> {
-    /// Runs one level. With `keeps_field`, its errors over the body are stored too.
+    /// Runs one level. With `keeps_field`, the errors over the body are stored too.
     fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
@@ -287,7 +288,7 @@ impl CaseRuns<'_, '_> {
         Ok(LevelOutcome { spread, ..outcome })
     }
 
-    /// Quantities that a run compares.
+    /// Quantities that a run compares with the exact solution.
     fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
@@ -295,7 +296,7 @@ impl CaseRuns<'_, '_> {
         Comparison { of: plan.of, sum, observe, at_rest, steps: plan.steps, keeps_field }
     }
 
-    /// Outcome of a level with time steps of `dt` (s).
+    /// Creates the outcome of a level that ran with time steps of `dt` (s).
     fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
         let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;
@@ -303,7 +304,7 @@ impl CaseRuns<'_, '_> {
     }
 }
 
-/// Resolution of a level, with its actual time step.
+/// Returns the resolution of a level that has run, with its actual time step.
 fn taken(level: &LevelOutcome) -> LevelPlan {
     let LevelOutcome { cells, h, dt, ppc, .. } = *level;
     LevelPlan { cells, h, dt, ppc }

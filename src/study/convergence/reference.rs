@@ -2,7 +2,7 @@
 //!
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` is for studies in
 //! space, in any dimension: it runs the method itself on a grid much finer than any level. The
-//! reference configuration of its particles is a lattice, on which the motion is interpolated even
+//! reference configuration of its particles is a lattice, so the motion can be interpolated even
 //! after particles have moved. `FineSteps` is for studies in time: it runs the method itself on the
 //! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
 //! equations.
@@ -10,7 +10,7 @@
 //! `FineSteps` separates the time-step error from the grid error. At the Courant limit of a body,
 //! the grid error is larger and would hide the time-step error. Methods that filter the velocity in
 //! every step (PIC, APIC) have no limit dt -> 0. Neither `FineGrid` nor `FineSteps` checks that the
-//! method converges to the right solution; suites with exact solutions do.
+//! method converges to the right solution; suites with exact solutions check this.
 
 use crate::exact::Truth;
 use crate::fem::Bar;
@@ -56,7 +56,7 @@ impl Reference {
         Ok(Self { until, from: nodes[0], spacing: nodes[1] - nodes[0], states })
     }
 
-    /// Linear interpolation between nodes, at the instant nearest to `t`.
+    /// Interpolates linearly between nodes, at the instant nearest to `t`.
     fn interpolate(
         &self,
         field: impl Fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>,
@@ -71,7 +71,8 @@ impl Reference {
     }
 }
 
-/// Index of the instant nearest to `t` (s), of `count` instants from 0 to `until`.
+/// Returns the index of the instant nearest to `t` (s); there are `count` instants from 0 to
+/// `until`.
 pub(crate) fn nearest_instant(t: f64, until: f64, count: usize) -> usize {
     let last = (count - 1) as f64;
     libm::round(t / until * last).clamp(0.0, last) as usize
@@ -91,7 +92,8 @@ impl Truth for Reference {
     }
 }
 
-/// Number of interpolation points per axis. The order is 6, above the order of any method.
+/// Number of interpolation points per axis. The interpolation then has order 6, more than any
+/// method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a particle lattice at the start and at every instant.
@@ -102,7 +104,7 @@ pub(crate) struct FineGrid {
 }
 
 impl FineGrid {
-    /// Runs the method of `case` on `level`. Velocities start half a step back.
+    /// Runs the method of `case` on `level`. Velocities start half a step before the start.
     ///
     /// # Errors
     /// The reason why the reference could not be computed.
@@ -135,7 +137,7 @@ impl Truth for FineGrid {
     }
 }
 
-/// Points at all combinations of coordinates.
+/// Particles that form a lattice: points at all combinations of the coordinates of the axes.
 struct Lattice {
     /// Coordinates on each axis, ascending.
     axes: Vec<Vec<f64>>,
@@ -144,8 +146,8 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// The lattice formed by `labels` in any order, with `d` numbers for each label. `None` if the
-    /// labels do not form a lattice.
+    /// Creates the lattice that `labels` form in any order, with `d` numbers for each label. `None`
+    /// if the labels do not form a lattice.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -169,7 +171,7 @@ impl Lattice {
         Some(Self { axes, particles: particles.into_iter().collect::<Option<_>>()? })
     }
 
-    /// Interpolates at `label` a field with one number for each axis and particle.
+    /// Interpolates `field`, which has one number for each axis and particle, at `label`.
     fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
         let along = self.axes.iter().zip(label);
         let near: Vec<_> = along.map(|(all, x)| lagrange_weights(all, *x, NEAR)).collect();
@@ -191,7 +193,7 @@ impl Lattice {
     }
 }
 
-/// Displacement and velocity of every label at every instant, computed by the method itself.
+/// Displacement and velocity of every label at every instant, computed by the method under test.
 pub(crate) struct FineSteps {
     until: f64,
     dimension: usize,
@@ -202,7 +204,8 @@ pub(crate) struct FineSteps {
 }
 
 impl FineSteps {
-    /// Runs the method of `case` with steps of `dt` (s). Velocities start half a step back.
+    /// Runs the method of `case` with steps of `dt` (s). Velocities start half a step before the
+    /// start.
     ///
     /// # Errors
     /// The reason why the reference could not be computed.
@@ -220,7 +223,7 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// Copies the values of `field` at the label `wanted` at the instant nearest to `t`; NaN if
+    /// Copies the values of `field` at the label `wanted`, at the instant nearest to `t`; NaN if
     /// there is no such label.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
@@ -233,7 +236,7 @@ impl FineSteps {
     }
 }
 
-/// Runs the method of `case` on `level`, with velocities that start half a step back. Passes the
+/// Runs the method of `case` on `level`. Velocities start half a step before the start. Passes the
 /// states at the start and at every instant to `show`, and returns the state at the end.
 ///
 /// # Errors
@@ -272,7 +275,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// The method in double precision, with the second-order start.
+/// Changes the method to double precision and to the start of second order.
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {
@@ -300,7 +303,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A lattice with seven, three and two points along the first `d` axes, in random order.
+    /// Creates a lattice with seven, three and two points along the first `d` axes, in random
+    /// order.
     fn labels(d: usize) -> Vec<f64> {
         let counts = &[7, 3, 2][..d];
         let points: usize = counts.iter().product();
@@ -315,8 +319,8 @@ mod tests {
         (0..points).flat_map(point).collect()
     }
 
-    /// A polynomial of degree 5, 2 and 1 along the axes, the highest degrees that the points
-    /// determine.
+    /// Returns a polynomial of degree 5, 2 and 1 along the axes. These are the highest degrees that
+    /// the points determine.
     fn field(label: &[f64]) -> Vec<f64> {
         let degrees = [5.0, 2.0, 1.0];
         let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();

@@ -1,4 +1,4 @@
-//! The rows that describe a convergence study, and the outcomes of cases that have not run.
+//! Describes a convergence study in rows, and creates the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
 use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
@@ -10,7 +10,7 @@ use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
 
-/// Rows of the whole study.
+/// Returns the rows that describe the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
@@ -48,7 +48,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Rows with the exact temperature; empty without a heat problem.
+/// Returns the rows with the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -94,7 +94,7 @@ fn judged(plan: &ConvergencePlan) -> String {
     plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
 }
 
-/// Rows with time steps and particles, and with cells if they are not refined.
+/// Returns the rows with time steps and particles, and with cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {
@@ -133,7 +133,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Description of the particle positions.
+/// Describes the particle positions.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -147,7 +147,7 @@ fn placed(scatter: &LatticeOffsets) -> String {
     format!("{} of their spacing", both.join(" and "))
 }
 
-/// Rows with the settings of one case.
+/// Returns the rows with the settings of one case.
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
@@ -160,7 +160,7 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     rows
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 pub(crate) fn described(
     plan: &ConvergencePlan,
     case: &Case,
@@ -183,7 +183,7 @@ pub(crate) fn described(
     }
 }
 
-/// Outcome of a case that does not apply to its solver.
+/// Creates the outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,

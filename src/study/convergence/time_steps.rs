@@ -1,11 +1,11 @@
-//! Time steps of levels: the stable step, the automatic step, and the actual step.
+//! Time steps of levels: the stable, the automatic and the actual step.
 //!
 //! [`crate::mpm::Solver::stable_time_step`] computes the stable step from the solver stages and the
-//! initial state. It is at most `h/(c + |v|)`, so that neither a wave nor a particle crosses more
-//! than one cell. It is predicted before a run and constant during the run, because an order
-//! requires one step for each level. If particles with linear functions move, later stability
-//! limits may be smaller (`tiny-nodal-mass`). As a margin for this, an automatic step is a share of
-//! the stable step.
+//! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
+//! one cell. It is predicted before a run and constant during the run, because an order requires
+//! one step for each level. With linear basis functions the stability limit may decrease when
+//! particles move (`tiny-nodal-mass`). As a margin for this, an automatic step is a fraction of the
+//! stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -20,12 +20,12 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// Time step on one level of a case.
+/// Requested and actual time step on one level of a case.
 #[derive(Debug, Clone)]
 pub struct TimeStep {
     /// Name of the case.
     pub case: String,
-    /// The level.
+    /// Level that has this time step.
     pub level: LevelPlan,
     /// Requested time step (s).
     pub wanted: f64,
@@ -34,22 +34,22 @@ pub struct TimeStep {
 }
 
 impl TimeStep {
-    /// Ratio of the actual to the requested step.
+    /// Returns the ratio of the actual step to the requested step.
     pub fn ratio(&self) -> f64 {
         self.clock.dt() / self.wanted
     }
 }
 
-/// Time steps of all cases and levels of `suite`. Empty for a study without steps, or with steps
-/// that are chosen during the run. Levels whose set-up fails are excluded; the run reports the
-/// reason.
+/// Computes the time steps of all cases and levels of `suite`. Empty for a study without steps, or
+/// with steps that are chosen during the run. Levels whose set-up fails are excluded; their run
+/// reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A step that the suite states does not depend on the particles.
+            // A step that the suite states is the same for any number of particles.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -70,7 +70,7 @@ pub struct PlannedLevel {
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
-    /// Number of particles, up to rounding.
+    /// Number of particles, estimated from the volume of the body.
     pub particles: f64,
     /// Time step (s).
     pub dt: f64,
@@ -81,7 +81,7 @@ pub struct PlannedLevel {
     pub courant: Option<f64>,
 }
 
-/// The gate levels of each case, in order; empty for a study without levels.
+/// Returns the levels of each case, in order; empty for a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
@@ -103,27 +103,27 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     all
 }
 
-/// Number of iterations of the prediction for an automatic time step.
+/// Number of power iterations in the prediction of an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Number of iterations of the first prediction for a stated time step. Each iteration costs as
-/// much as a step.
+/// Number of power iterations in the first prediction for a stated time step. Each iteration costs
+/// as much as a step.
 const FEW: u32 = 6;
 
-/// Share of the first predicted limit above which a step is compared with a second prediction. The
-/// first one has few iterations and overestimates the limit by up to 50 %.
+/// Fraction of the first predicted limit above which a step is compared with a second prediction.
+/// The first prediction has few iterations and overestimates the limit by up to 50 %.
 const NEAR: f64 = 0.6;
 
 /// A level with its time step, and the stable time step (s) if it is known.
 type Stepped = (LevelPlan, Option<f64>);
 
 /// Cache of the stable time steps (s) of a study, with the inputs of the prediction as keys.
-/// Methods with equal inputs, and levels that differ only in their step, share one prediction.
+/// Methods with equal inputs share one prediction. So do levels that differ only in their step.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
-    /// The step on one level, and the stable step if it is known.
+    /// Returns the step on one level, and the stable step if it is known.
     pub(crate) fn of(
         &self,
         plan: &ConvergencePlan,
@@ -136,8 +136,7 @@ impl StableSteps {
             let limit = limit(ROUNDS)?;
             return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
         }
-        // Unconverged iterations overestimate the limit. Failures of the set-up are reported by the
-        // run.
+        // Unconverged iterations overestimate the limit. A failed set-up is reported by the run.
         let taken = taken(plan, case, level);
         let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
         let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
@@ -162,7 +161,7 @@ impl StableSteps {
         found
     }
 
-    /// Warnings about levels and fine grids, in the order of their runs.
+    /// Returns the warnings about levels and fine grids of references, in the order of their runs.
     pub(crate) fn warnings(&self, plan: &ConvergencePlan, extent: Extent) -> Vec<StepWarning> {
         let levels = plan.refine.levels(extent);
         let each = |case: &Case| levels.iter().copied().chain(case.against.fine_grid());
@@ -178,7 +177,7 @@ impl StableSteps {
     }
 }
 
-/// The simplest method with the same stable time step as `method`.
+/// Returns the simplest method with the same stable time step as `method`.
 fn simplest(method: Method) -> Method {
     let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
         return method;
@@ -188,13 +187,13 @@ fn simplest(method: Method) -> Method {
     Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision }
 }
 
-/// Actual time step (s).
+/// Returns the actual time step (s).
 fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warning about a step that is longer than the stable step or differs from the requested step. The
-/// flag states whether the step is too long.
+/// Warns of a step that is longer than the stable step or differs from the requested step. The
+/// returned flag is true if the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -1,12 +1,12 @@
-//! Finds the most accurate setting that finishes within a budget of seconds.
+//! Finds the most accurate setting whose run finishes within a time budget (s).
 //!
 //! For every method, the time of its finest level predicts the finest grid within the budget, and
-//! the errors of its levels predict the error there. Only a method that still converges is
-//! extrapolated beyond the levels of the suite. The best method then runs on increasingly fine
-//! grids, until a grid twice as fine as the last one would exceed the budget. These runs give a
-//! cost model, and their errors are judged together with those of the suite. If the new prediction
-//! is worse than that of another method, the other method is tried too. The best of the tried
-//! methods runs on the finest grid within the budget.
+//! the errors of its levels predict the error on that grid. For grids finer than the levels of the
+//! suite, errors are predicted only if the method still converges. The best method then runs on
+//! increasingly fine grids, until a grid twice as fine as the last one would exceed the budget. The
+//! times of these runs give a cost model, and their errors are judged together with those of the
+//! suite. If the new prediction is worse than that of another method, the other method is tried
+//! too. The best of the tried methods runs on the finest grid within the budget.
 //!
 //! Methods are compared by the upper bounds of their predicted errors.
 
@@ -20,13 +20,14 @@ use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 use thiserror::Error;
 
-/// Number of finest runs in the fit of a model. Coarse runs are not representative of long runs.
+/// Number of finest runs in the fit of a cost model. Coarse runs are not representative of long
+/// ones.
 const FITTED: usize = 6;
 
-/// Number of repeats of each run.
+/// Number of measurements of each run.
 const REPEATS: usize = 3;
 
-/// Share of the budget above which a run is not repeated.
+/// Fraction of the budget above which a run is measured only once.
 const LONG: f64 = 0.05;
 
 /// Reason why no setting was chosen for a budget.
@@ -99,17 +100,17 @@ pub fn best_candidate(suite: &Suite, budget: f64) -> Result<BestCandidate, Budge
     }
 }
 
-/// A method on the finest grid within the budget.
+/// A method and the finest grid that it can compute within the budget.
 struct Setting {
     candidate: Candidate,
-    /// Cost model, and the number of runs in its fit; `None` before the method is tried.
+    /// Cost model, and the number of runs in its fit; `None` before the method has run.
     model: (Model, Option<usize>),
     level: LevelPlan,
     error: Interval,
 }
 
 impl Setting {
-    /// The finest grid of `candidate` within the budget; `None` if there is none.
+    /// Finds the finest grid of `candidate` within the budget; `None` if there is none.
     fn of(candidate: Candidate, model: (Model, Option<usize>), budget: f64) -> Option<Self> {
         let level = candidate.finest_within(&model.0, budget)?;
         let error = candidate.error.at(level.h)?;
@@ -153,8 +154,8 @@ impl Setting {
 }
 
 impl Candidate {
-    /// Adds the errors of increasingly fine levels to the candidate, and returns it with their
-    /// times.
+    /// Runs the candidate on increasingly fine levels and adds their errors to it. Returns the
+    /// candidate and the times of the levels.
     fn judged_within(
         self,
         suite: &Suite,
@@ -167,7 +168,7 @@ impl Candidate {
         loop {
             let next = runs.len();
             if next == cells.len() {
-                // In three dimensions a larger ratio would make three levels too expensive.
+                // In 3-D a larger ratio would make three levels too expensive.
                 let grown = (cells[next - 1] as f64 * 1.5 / self.stride as f64) as u64;
                 cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
             }
@@ -193,7 +194,7 @@ impl Candidate {
     }
 }
 
-/// Median of several measured times, or the first time if it is long.
+/// Returns the median of several measured times, or the first time if it exceeds `long` (s).
 fn median(
     long: f64,
     mut time: impl FnMut() -> Result<f64, SubjectError>,

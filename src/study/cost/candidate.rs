@@ -12,10 +12,10 @@ use crate::verify::{
 };
 use std::sync::Arc;
 
-/// Maximum refinement relative to the levels of the suite.
+/// Maximum refinement of a grid relative to the levels of the suite.
 const FINER: u64 = 8;
 
-/// Maximum refinement relative to all judged levels for which an error is predicted.
+/// Maximum refinement relative to the judged levels for which an error is predicted.
 pub(crate) const REACH: u64 = 2;
 
 /// A method that may be chosen for a budget.
@@ -26,9 +26,9 @@ pub(crate) struct Candidate {
     pub(crate) study: Convergence,
     pub(crate) ranked: Ranked,
     pub(crate) error: PredictedError,
-    /// Common divisor of the numbers of cells of the suite.
+    /// Common divisor of the numbers of cells in the suite.
     pub(crate) stride: u64,
-    /// Maximum refinement relative to the method's levels.
+    /// Maximum refinement relative to the levels of the method.
     pub(crate) reach: u64,
 }
 
@@ -56,13 +56,13 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 }
 
 impl Candidate {
-    /// The finest level of the converging part.
+    /// Returns the finest level of the converging part.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
 
-    /// A level with `cells` cells. Its time step follows the rule of the two finest levels of the
-    /// suite.
+    /// Creates a level with `cells` cells. Its time step is extrapolated from the two finest levels
+    /// of the suite.
     pub(crate) fn level(&self, cells: u64) -> LevelPlan {
         let levels = &self.plan.refine.levels;
         if let Some(known) = levels.iter().find(|level| level.cells == cells) {
@@ -73,12 +73,12 @@ impl Candidate {
         let h = last.h * last.cells as f64 / cells as f64;
         let rule = libm::log(before.dt / last.dt) / libm::log(before.h / last.h);
         let rule = if rule.is_finite() { rule } else { 0.0 };
-        // A constant step would exceed the Courant limit of a fine grid.
+        // On a fine grid a constant step would exceed the Courant limit.
         let rule = if h < last.h { rule.max(1.0) } else { rule };
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
 
-    /// Predicted workload of a level, scaled from the finest level that has run.
+    /// Predicts the workload of a level by scaling that of the finest level that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
         let clock = self.case.clock(&self.plan, level.dt)?;
         let finest = self.finest();
@@ -94,7 +94,8 @@ impl Candidate {
         })
     }
 
-    /// A cost model from one run, and its predicted time (s) of the coarsest level.
+    /// Creates a cost model from one run. Also returns the predicted time (s) of the coarsest
+    /// level.
     pub(crate) fn rough_model(&self) -> Result<(Model, f64), SubjectError> {
         let level = self.level(self.finest().cells);
         seconds(&self.plan, &self.case, level)?;
@@ -105,8 +106,8 @@ impl Candidate {
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// The method with additional levels of `cells` cells, run and judged together with the levels
-    /// of the suite.
+    /// Adds levels of `cells` cells to the method. All levels, also those of the suite, run and are
+    /// judged together.
     pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
         let mut plan = self.plan.clone();
         plan.refine.levels.truncate(self.study.levels.len());
@@ -119,19 +120,19 @@ impl Candidate {
         Some(Self { stride: self.stride, reach: REACH, ..judged })
     }
 
-    /// Number of cells of the finest level that is considered.
+    /// Returns the maximum number of cells of a level that is considered.
     pub(crate) fn most_cells(&self) -> u64 {
         let finest = self.finest().cells;
         let reach = if self.error.obstacle().is_none() { self.reach } else { 1 };
         finest.saturating_mul(reach).min(self.most_known())
     }
 
-    /// Maximum number of cells for which the reference is accurate enough.
+    /// Returns the maximum number of cells for which the reference is accurate enough.
     fn most_known(&self) -> u64 {
         self.case.against.fine_grid().map_or(u64::MAX, |level| level.cells / FINE_GRID)
     }
 
-    /// Reason why no level finer than this one is considered; `None` if one is.
+    /// Returns the reason why no level finer than `level` is considered; `None` if one is.
     pub(crate) fn limit(&self, level: LevelPlan) -> Option<String> {
         let next = level.cells.saturating_add(self.stride);
         let last = next > self.most_cells();
@@ -144,8 +145,8 @@ impl Candidate {
         })
     }
 
-    /// The finest level with a predicted time within the budget. Levels finer than those that have
-    /// run are considered only if their error can be predicted.
+    /// Returns the finest level with a predicted time within the budget. A level finer than all
+    /// levels that have run is considered only if its error can be predicted.
     pub(crate) fn finest_within(&self, model: &Model, budget: f64) -> Option<LevelPlan> {
         let most = self.most_cells();
         let first = self.study.levels[self.ranked.part.levels.start].cells;

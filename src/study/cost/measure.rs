@@ -1,9 +1,9 @@
 //! Measures the seconds of every level of every case.
 //!
 //! A level runs once to warm up, and then at least five times or for one second, whichever comes
-//! first. Short levels are repeated for at least 50 ms. Rounds over all levels are repeated, so
-//! that a slowdown of the machine affects all of them. Time for which other processes used the core
-//! is excluded, if the system reports it.
+//! first. Short levels are repeated for at least 50 ms. All levels are timed in turn, in several
+//! rounds, so a slowdown of the machine affects all of them. Time during which other processes used
+//! the core is excluded, if the system reports it.
 
 use crate::external::SolverFactory;
 use crate::study::handover::subject_under;
@@ -21,26 +21,26 @@ use std::hint::black_box;
 use std::sync::LazyLock;
 use std::time::Instant;
 
-/// Minimum number of repeats.
+/// Minimum number of time measurements of a level.
 const FEWEST: usize = 5;
 
-/// Minimum total time (s) of the repeats.
+/// Minimum total time (s) of all measurements of a level.
 const LEAST: f64 = 0.05;
 
-/// Maximum total time (s) of the repeats.
+/// Total time (s) of the measurements after which a level is not measured again.
 const LONGEST: f64 = 1.0;
 
-/// Maximum number of repeats.
+/// Maximum number of time measurements of a level.
 const MOST: usize = 200;
 
-/// Time measurement of one level.
+/// The time measurement of one level.
 struct TimingJob<'a> {
     suite: &'a str,
     plan: &'a ConvergencePlan,
     case: &'a Case,
     level: LevelPlan,
     solver: Option<&'a dyn SolverFactory>,
-    /// Indices of the case and of its level.
+    /// Index of the case, and index of the level in the case.
     at: (usize, usize),
     seconds: Vec<f64>,
 }
@@ -57,7 +57,7 @@ impl TimingJob<'_> {
     }
 }
 
-/// Time (s) of the steps of a level, until the end or the failure of the run.
+/// Measures the time (s) of the steps of a level, until the run ends or fails.
 ///
 /// # Errors
 /// The reason why the level cannot run.
@@ -69,8 +69,8 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Time (s) of the steps of a subject on a level. For an external solver this includes its response
-/// time.
+/// Measures the time (s) of the steps of a subject on a level. The time of an external solver
+/// includes its response time.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,
@@ -90,18 +90,18 @@ fn seconds_of(
     })
 }
 
-/// A suite with the solver that runs it.
+/// A suite, and the solver that runs it.
 #[derive(Clone, Copy)]
 pub struct TimedPart<'a> {
     /// The suite.
     pub suite: &'a Suite,
-    /// Solver of the cases, if their method is external.
+    /// Solver of the cases whose method is external.
     pub solver: Option<&'a dyn SolverFactory>,
 }
 
 /// Runs the parts of one suite and measures the times of all their levels in turn. Calls `progress`
-/// after each run and after each measured level. `None` without a part. Only convergence studies
-/// have levels.
+/// after each run and after each measured level. `None` if there are no parts. Only convergence
+/// studies have levels.
 pub fn price(
     parts: &[TimedPart<'_>],
     extent: Extent,
@@ -145,7 +145,7 @@ pub fn price(
     Some(TimedSuite { outcome, levels, machine: observed.seen() })
 }
 
-/// Repeats rounds over the levels until every level has been timed often enough.
+/// Measures all levels in turn, until every level has been timed often enough.
 fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
     for job in jobs.iter() {
         let _ = job.run();
@@ -167,7 +167,7 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
     }
 }
 
-/// Workload of a level that has run.
+/// Returns the workload of a level that has run.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Workload {
@@ -178,7 +178,7 @@ pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     }
 }
 
-/// A level that reaches a target error, run by one thread.
+/// A level that reaches a target error. One thread runs it.
 #[derive(Debug)]
 pub struct Goal<'a> {
     plan: &'a ConvergencePlan,
@@ -187,9 +187,10 @@ pub struct Goal<'a> {
     error: f64,
 }
 
-/// The cheapest level of each method of the suite's first problem that reaches `target`, sorted by
-/// cost. The level must be in the method's converging part, and its error relative to the size of
-/// the solution must be at most `target`. Methods that do not reach the target are excluded.
+/// Returns the cheapest level of each method of the suite's first problem that reaches `target`,
+/// sorted by cost. The level must be in the method's converging part, and its error relative to the
+/// size of the solution must be at most `target`. Methods that do not reach the target are
+/// excluded.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
@@ -209,7 +210,7 @@ pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
 }
 
 impl Goal<'_> {
-    /// Name of the case.
+    /// Returns the name of the case.
     pub fn case(&self) -> &str {
         &self.case.name
     }
@@ -219,7 +220,7 @@ impl Goal<'_> {
         self.level.cells
     }
 
-    /// Error relative to the size of the solution, from the judged run.
+    /// Returns the error relative to the size of the solution, from the judged run.
     pub fn error(&self) -> f64 {
         self.error
     }
@@ -233,7 +234,7 @@ impl Goal<'_> {
     }
 }
 
-/// Iterations of the fixed loop, which takes about a millisecond.
+/// Number of iterations of the fixed loop, which takes about a millisecond.
 const ROUNDS: u32 = 250_000;
 
 /// Thread pool with one thread; `None` if the system cannot create one.
@@ -269,17 +270,17 @@ impl LoadMonitor {
         Self { waited: waited(), start: Instant::now() }
     }
 
-    /// Ends the measurement and returns the time (s) without waiting.
+    /// Ends the measurement and returns the time (s), without the time spent waiting for a core.
     pub(crate) fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
-        // Waiting times outside this range are invalid.
+        // A waiting time outside this range is invalid.
         if idle > 0.0 && idle < passed { passed - idle } else { passed }
     }
 }
 
-/// Seconds for which this thread was ready to run but waited for a core: the second number of
-/// `schedstat` (Linux, Documentation/scheduler/sched-stats).
+/// Returns the time (s) for which this thread was ready to run but waited for a core: the second
+/// number of `schedstat` (Linux, Documentation/scheduler/sched-stats).
 fn waited() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
@@ -304,7 +305,7 @@ impl Observed {
         self.loops.push(watch.stop());
     }
 
-    /// The observed state of the machine.
+    /// Returns the observed state of the machine.
     pub(crate) fn seen(self) -> Machine {
         Machine {
             cores: std::thread::available_parallelism().map_or(1, usize::from),
@@ -318,7 +319,7 @@ impl Observed {
     }
 }
 
-/// Load average over the last minute, if the system reports it.
+/// Returns the load average over the last minute, if the system reports it.
 fn load_average() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

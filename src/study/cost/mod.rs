@@ -1,7 +1,8 @@
-//! Cost of suites in seconds: measured for each level, and within a budget.
+//! Cost of suites in seconds: measured times of levels, and the best setting within a budget.
 //!
-//! Errors come from the same parallel runs as in reports. Then every level runs again, alone on one
-//! thread, and its steps are timed. The times exclude the set-up and the computation of errors.
+//! Errors are measured in the same parallel runs as for reports. Then every level runs again, alone
+//! on one thread, and its steps are timed. The times exclude the set-up and the computation of
+//! errors.
 
 pub(crate) mod budget;
 pub(crate) mod candidate;

@@ -1,4 +1,4 @@
-//! The rows of name and value that describe a problem.
+//! Describes a problem in rows of name and value.
 
 pub mod sketch;
 pub(crate) mod statement;

@@ -11,7 +11,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
-/// Rows with the parameters and functions of a suite.
+/// Returns the rows with the parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
@@ -42,7 +42,7 @@ fn corner(c: &[f64]) -> String {
     c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// A number with the digits that statements of problems use.
+/// Formats a number with the digits that statements of problems use.
 pub(crate) fn stated(x: f64) -> String {
     shown(rounded(x, 6))
 }
@@ -61,13 +61,13 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// Remark about rims without loads, for the row of a body.
+/// Returns the remark about rims without loads, for the row of a body.
 fn rims(scene: &Scene) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
     if is_loaded { "" } else { ", free rims" }
 }
 
-/// Rows of several bodies and their coupling.
+/// Adds rows with several bodies and their coupling.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
@@ -83,7 +83,7 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Rows that describe a scene.
+/// Adds rows that describe a scene.
 pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let one = scene.bodies.is_empty();
     if one {
@@ -118,7 +118,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// The initial stress, and its term in the first Piola-Kirchhoff stress.
+/// Describes the initial stress, and its term in the first Piola-Kirchhoff stress.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {
@@ -133,7 +133,7 @@ fn initial_stress(scene: &Scene) -> String {
     format!("S0 of {components} Pa, P + {}", if is_finite { "F S0" } else { "S0" })
 }
 
-/// The material's name and parameters: `linear elastic, E = 100 Pa, nu = 0`.
+/// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.
 fn material(plan: &MaterialPlan) -> String {
     let written = |(MaterialParameter { symbol, unit, .. }, value): (MaterialParameter, f64)| {
         format!(", {symbol} = {} {unit}", stated(value)).trim_end().to_owned()
@@ -152,12 +152,12 @@ pub enum Dispensable {
 }
 
 impl Dispensable {
-    /// All removable parts.
+    /// Returns all removable parts.
     pub fn all() -> impl Iterator<Item = Self> {
         EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
     }
 
-    /// Name in suites and reports.
+    /// Returns the name that suites and reports use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Effect(effect) => effect.name(),
@@ -166,12 +166,12 @@ impl Dispensable {
     }
 }
 
-/// Cost profile of a step of `case` on the coarsest level.
+/// Returns the cost profile of a step of `case` on the coarsest level.
 pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }
 
-/// The plan with a scene that lacks the part `without`.
+/// Copies the plan, without the part `without` of its scene.
 pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
     let mut plan = plan.clone();
     let Dispensable::Effect(effect) = without else {

@@ -1,5 +1,5 @@
-//! Findings about levels that are too coarse, bodies without damping, and errors as large as the
-//! solution.
+//! Findings about levels that are too coarse, about bodies without damping, and about errors as
+//! large as the solution.
 
 use super::regularity::sizes;
 use super::session::Known;
@@ -12,25 +12,26 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum ratio of the distances from the theoretical order, without the coarse levels to with
-/// them, if the coarse levels are the cause.
+/// Maximum ratio of distances from the theoretical order, without the coarse levels to with them,
+/// for which the coarse levels are the cause.
 const CLOSER: f64 = 0.5;
 
-/// Maximum distance of the finest pair's order from the theoretical order, if the coarse levels are
-/// the cause.
+/// Maximum distance of the finest pair's order from the theoretical order, for which the coarse
+/// levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error that counts as large as the solution, as a share of the largest exact value.
+/// Minimum error that counts as large as the solution, as a fraction of the largest exact value.
 const WHOLE: f64 = 0.1;
 
-/// Maximum ratio of the largest to the smallest error, if errors do not depend on the cells.
+/// Maximum ratio of the largest to the smallest error, for which the errors do not depend on the
+/// cells.
 const CONSTANT: f64 = 1.5;
 
-/// Minimum ratio of cell size to length scale of the solution on a level that is too coarse.
+/// Minimum ratio of cell size to length scale of the solution, for which a level is too coarse.
 const COARSE: f64 = 0.5;
 
-/// Finding: coarse levels do not resolve the exact solution. Without them the order is the
-/// theoretical one, or the orders between neighbouring levels rise to it.
+/// Checks whether coarse levels do not resolve the exact solution. If so, the order without them is
+/// the theoretical one, or the orders between neighbouring levels rise to it.
 pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let (session, axis) = (known.session, known.plan.refine.axis);
     let p = session.formal_order;
@@ -77,8 +78,8 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Orders between the coarsest two and the finest two levels, if they rise to the theoretical
-/// order.
+/// Returns the orders between the coarsest two and the finest two levels, if the orders rise to the
+/// theoretical order.
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     let order = |pair: &[&LevelOutcome]| {
         let [coarse, fine] = pair else { return None };
@@ -89,8 +90,8 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     ((last - p).abs() <= NEAR && first < p - NEAR).then_some((first, last))
 }
 
-/// Ratio of the coarsest cell size to the length on which the exact solution changes, and a
-/// sentence with both.
+/// Returns the ratio of the coarsest cell size to the length over which the exact solution changes,
+/// and a sentence that states both.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;
@@ -102,14 +103,14 @@ fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     share.is_finite().then_some((share, text))
 }
 
-/// Names of levels, for a sentence.
+/// Lists the names of levels for a sentence.
 fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     let names: Vec<String> = levels.iter().map(|level| level.name(axis)).collect();
     let noun = if names.len() == 1 { "level" } else { "levels" };
     format!("the {noun} of {}", names.join(", "))
 }
 
-/// Finding: the suite has an equilibrium solution but no damping.
+/// Checks whether the suite has an equilibrium solution but no damping.
 pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     undamped::oscillates(plan, case).then_some(())?;
@@ -135,7 +136,8 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Finding: the errors of an external solver are as large as the solution and do not decrease.
+/// Checks whether the errors of an external solver are as large as the solution and do not
+/// decrease.
 pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     if !matches!(case.method, Method::External { .. }) || known.levels.len() < FEWEST_LEVELS {

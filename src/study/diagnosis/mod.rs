@@ -1,4 +1,4 @@
-//! Finds out why a case does not have the theoretical order.
+//! Determines why a case does not have the theoretical order.
 //!
 //! ```text
 //! session        runs of one case within a budget; checks whether `check` accepts a remedy
@@ -10,9 +10,9 @@
 //! ```
 //!
 //! The finest levels run again with one change at a time (one factor at a time, as in the isolating
-//! runs of Roy 2005, J. Comput. Phys. 205, 131). A change is the cause if it restores the order. If
-//! no change does, the one with the largest decrease of the finest error is reported. The `because`
-//! texts of the suite are not used.
+//! runs of Roy 2005, J. Comput. Phys. 205, 131). A change reveals the cause if it restores the
+//! order. If no change does, the one with the largest decrease of the finest error is reported. The
+//! `because` texts of the suite are not used.
 
 mod levels;
 mod probes;
@@ -37,13 +37,13 @@ use crate::verify::{
     Axis, ChangedRun, Diagnosis, FEWEST_LEVELS, KnownCause, LevelOutcome, Quantity,
 };
 
-/// Number of finest levels that run again.
+/// Number of levels that run again, starting with the finest.
 const LEVELS: usize = 5;
 
-/// Factor of the amplitude in the probe with a smaller motion.
+/// Factor on the amplitude in the probe with a smaller motion.
 const SMALLER: f64 = 0.1;
 
-/// All changes that modify the plan only, the most specific first.
+/// Changes that modify only the plan, starting with the most specific one.
 const PROBES: [&ProbeKind; 14] = [
     &REFERENCE,
     &FORMULA,
@@ -61,7 +61,7 @@ const PROBES: [&ProbeKind; 14] = [
     &CELLS,
 ];
 
-/// All searches for causes that do not change the method.
+/// Checks for causes that do not change the method.
 const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     steps::check,
     walls::check,
@@ -71,9 +71,9 @@ const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     regularity::check,
 ];
 
-/// Diagnoses case number `index` of a suite, within a predicted time (s) for all changed runs. With
-/// `solver`, `suite` must come from [`under`](crate::study::under). `None` if there is no order to
-/// explain: another kind of study, no exact solution, or too few levels.
+/// Diagnoses case number `index` of a suite. The predicted time of all changed runs is limited to a
+/// budget (s). With `solver`, `suite` must come from [`under`](crate::study::under). `None` if
+/// there is no order to explain: another kind of study, no exact solution, or too few levels.
 ///
 /// # Errors
 /// The reason why the case itself cannot run.
@@ -94,7 +94,7 @@ pub fn diagnose(
     let session = Session::new(&suite.name, source, case, formal_order, solver, budget);
     let all = only(plan, case, plan.refine.levels(Extent::Usual));
     let found = session.first(&all).map_err(|reason| with_cause(&session, &all, reason))?;
-    // The last level must count, because its error is compared.
+    // The last level must count for the verdict, because its error is compared.
     let end = found.levels.iter().rposition(|level| level.usable).map_or(0, |last| last + 1);
     let range = end.saturating_sub(LEVELS)..end;
     let levels = &found.levels[range.clone()];
@@ -117,7 +117,7 @@ pub fn diagnose(
     let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
     for check in CHECKS {
         diagnosis.findings.extend(check(&known));
-        // Once a cause is known, further checks with the same step, grid or load give no evidence.
+        // If the cause is known, changed runs with the same step, grid or load give no evidence.
         if diagnosis.is_known() {
             break;
         }
@@ -131,7 +131,7 @@ pub fn diagnose(
     Ok(Some(diagnosis))
 }
 
-/// Reason why a case cannot run, with the cause if it is known.
+/// Adds the cause, if it is known, to the reason why a case cannot run.
 fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
@@ -143,7 +143,7 @@ fn finest_error(levels: &[LevelOutcome]) -> f64 {
     levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// Runs the levels of `finest` with one change at a time. `levels` are their results without a
+/// Runs the levels of `finest` with one change at a time. `levels` are the results without a
 /// change.
 fn changed_runs(
     session: &Session<'_>,
@@ -175,7 +175,7 @@ fn changed_runs(
     runs
 }
 
-/// All applicable changes, each with the factor by which it changes the size of the judged
+/// Lists the applicable changes, each with the factor by which it changes the size of the judged
 /// quantity.
 fn changed_plans(
     session: &Session<'_>,
@@ -194,8 +194,8 @@ fn changed_plans(
     changed
 }
 
-/// Ratio of the size of the judged quantity in the smaller motion of `smaller` to that in `plan`,
-/// both relative to the divisors of their errors.
+/// Returns the ratio of the size of the judged quantity in `smaller`, a plan with a smaller motion,
+/// to the size in `plan`. Each size is relative to the divisor of its errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {
@@ -206,7 +206,7 @@ fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     sizes * divisor(plan) / divisor(smaller)
 }
 
-/// Checks whether the suite loads with the remedy that the diagnosis recommends.
+/// Checks whether the suite is valid with the remedy that the diagnosis recommends.
 fn check_remedy(session: &Session<'_>, finest: &ConvergencePlan, diagnosis: &mut Diagnosis) {
     let Some(change) = diagnosis.found().map(|(run, _)| run.change.clone()) else { return };
     let kind = PROBES.into_iter().find(|kind| kind.change == change);

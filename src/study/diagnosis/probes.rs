@@ -15,29 +15,28 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
 
-/// Whether particles change their cells in the runs of a case.
+/// Whether particles change their cell during the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Crossings {
     /// No particle changes its cell.
     None,
-    /// Some particles do, or the solver does not report it.
+    /// Some particles change their cell, or the solver does not report cell changes.
     Some,
 }
 
-/// A single change, its interpretation, and the remedy.
+/// A single change, the cause that it reveals, and the remedy.
 pub(crate) struct ProbeKind {
     /// The change, as text.
     pub(crate) change: &'static str,
-    /// Cause that is inferred if the change helps.
+    /// Cause that is inferred if the change restores the order or reduces the error.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
     /// Remedy for the author of the suite.
     pub(crate) remedy: &'static str,
-    /// The plan with the change; `None` if the change does not apply.
+    /// Applies the change to a plan; `None` if it does not apply.
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
-/// A run with smaller amplitude. Its plan is compiled from the suite text with the amplitude
-/// scaled.
+/// Reduces the amplitude. The plan is compiled from the suite text with a smaller amplitude.
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
@@ -89,7 +88,7 @@ pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
     },
 };
 
-/// More particles.
+/// Increases the number of particles.
 pub(super) const PARTICLES: ProbeKind = ProbeKind {
     change: "twice as many particles along each axis of a cell",
     cause: |_, _| "too few particles per cell: the particles are the quadrature points",
@@ -101,7 +100,7 @@ pub(super) const PARTICLES: ProbeKind = ProbeKind {
     },
 };
 
-/// A longer run to an equilibrium.
+/// Runs longer until an equilibrium.
 pub(super) const DURATION: ProbeKind = ProbeKind {
     change: "twice the duration of the run",
     cause: |_, _| "the body has not come to rest at the end of the run",
@@ -114,7 +113,7 @@ pub(super) const DURATION: ProbeKind = ProbeKind {
     },
 };
 
-/// Shorter time steps.
+/// Shortens the time steps.
 pub(super) const STEP: ProbeKind = ProbeKind {
     change: "a quarter of the time step",
     cause: |_, _| "the error of the time step",
@@ -130,7 +129,7 @@ pub(super) const STEP: ProbeKind = ProbeKind {
     },
 };
 
-/// Finer cells.
+/// Refines the cells.
 pub(super) const CELLS: ProbeKind = ProbeKind {
     change: "cells of half the size",
     cause: |_, _| "the cells: the levels are too coarse",
@@ -145,15 +144,15 @@ pub(super) const CELLS: ProbeKind = ProbeKind {
     },
 };
 
-/// The plan, with its case compared with another solution.
+/// Copies the plan, with its case compared with another solution.
 fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.cases.iter_mut().for_each(|case| case.against = against);
     plan
 }
 
-/// The plan with every level changed, including the fine grid of the reference. `None` if a level
-/// cannot be changed or would become too large.
+/// Copies the plan with every level changed, including the fine grid of the reference. `None` if a
+/// level cannot be changed or would become too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
@@ -203,7 +202,7 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses domains that follow the deformation.
+/// Uses particle domains that follow the deformation.
 pub(super) const DOMAINS: ProbeKind = ProbeKind {
     change: "`basis: cpgimp`",
     cause: |_, _| {
@@ -307,8 +306,8 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
 };
 
-/// The plan with the method of its case changed. `None` if the method does not change or becomes
-/// invalid.
+/// Copies the plan with the method of its case changed. `None` if the method does not change or
+/// becomes invalid.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let mut changed = plan.clone();
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));

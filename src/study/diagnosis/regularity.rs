@@ -1,7 +1,7 @@
-//! Finds jumps of the exact displacement and its derivatives, and the order that they allow.
+//! Finds jumps of the exact displacement or its derivatives, and the order that such jumps allow.
 //!
-//! The derivatives are those of the formulas in each piece. When two points approach each other, a
-//! jump between them therefore remains, while the change across a steep slope vanishes.
+//! The derivatives are computed from the formulas, piece by piece. Between two points that approach
+//! each other, a jump therefore remains, while the change across a steep slope vanishes.
 
 use super::session::Known;
 use crate::exact::{Derivatives, Problem};
@@ -9,18 +9,18 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// Minimum relative change of the strain within a cell that has the effect of a jump.
+/// Minimum relative change of the strain within a cell that affects the order like a jump.
 const STEEP: f64 = 0.5;
 
-/// Maximum distance by which the observed order may be below a limit that explains it.
+/// Maximum distance of the observed order below a limit that explains the order.
 const BELOW: f64 = 0.5;
 
-/// Maximum order that a method of order `p` can reach if the derivative of order `jump` of the
-/// solution is discontinuous; `None` for a sum over the body.
+/// Returns the maximum order that a method of order `p` can reach if the derivative of order `jump`
+/// of the solution is discontinuous; `None` for a sum over the body.
 ///
-/// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)), and each continuous
-/// derivative gains this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In an equilibrium the
-/// front does not travel and is as wide as a cell.
+/// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)). Each continuous
+/// derivative multiplies the error by this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In
+/// an equilibrium the front does not travel and is as wide as a cell.
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,
@@ -42,7 +42,7 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     Some((jump as f64 - differentiated + of_support).max(0.0) * front)
 }
 
-/// Finding: the exact solution does not allow the theoretical order.
+/// Checks whether the exact solution does not allow the theoretical order.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
@@ -77,7 +77,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let p = known.session.formal_order;
     let limit = limit(plan, p, jump)?;
     let observed = known.finest.order;
-    // An order above this limit shows that the jump has no effect, because a grid line lies on it.
+    // If the order is above this limit, the jump has no effect, because it lies on a grid line.
     let is_lower =
         observed.is_none_or(|order| order.low <= limit + 2.0 * OrderHypothesis::TOLERANCE);
     if !(limit < p - OrderHypothesis::TOLERANCE && is_lower) {
@@ -110,23 +110,23 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Times at which the solution is examined, as shares of the run.
+/// Times at which the solution is examined, as fractions of the run.
 const TIMES: [f64; 6] = [0.37, 0.61, 0.83, 0.17, 1.0, 0.0];
 
 /// Number of intervals on each examined line, and number of lines along each axis, by dimension.
 const INTERVALS: [usize; 3] = [512, 128, 64];
 const LINES: [usize; 3] = [1, 5, 3];
 
-/// Minimum size of a jump, as a share of the largest value of the derivative.
+/// Minimum size of a jump, as a fraction of the largest value of the derivative.
 const LEAST: f64 = 1e-3;
 
-/// Length below which an interval counts as a point, as a share of the length of the line.
+/// Maximum length of an interval that counts as a point, as a fraction of the length of the line.
 const POINT: f64 = 1e-9;
 
-/// Share of its natural size below which a derivative counts as rounding error.
+/// Fraction of its natural size below which a derivative counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// A derivative of the displacement: its order, and its values.
+/// A derivative of the displacement: its order, and a function that returns its values.
 type Derivative = (usize, fn(&Derivatives) -> Vec<f64>);
 
 /// The displacement and its derivatives, starting with the lowest order.
@@ -139,14 +139,14 @@ const GROUPS: [Derivative; 6] = [
     (2, |now| now.second.as_flattened().as_flattened().to_vec()),
 ];
 
-/// Place and time of a jump of a derivative.
+/// A jump of a derivative, with its position and time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Jump {
     /// Order of the derivative.
     pub(crate) order: usize,
-    /// Place (m).
+    /// Position (m) of the jump.
     pub(crate) place: Vec<f64>,
-    /// Time (s).
+    /// Time (s) of the jump.
     pub(crate) time: f64,
 }
 
@@ -155,19 +155,20 @@ pub(crate) struct Jump {
 pub(crate) struct Sizes([f64; GROUPS.len()]);
 
 impl Sizes {
-    /// Length (m) over which the displacement changes: the square root of the ratio of its size to
-    /// that of its second derivatives. For a sine this is the wavelength over 2 pi.
+    /// Returns the length (m) over which the displacement changes: the square root of the ratio of
+    /// its size to the size of its second derivatives. For a sine this is the wavelength divided by
+    /// 2 pi.
     pub(crate) fn length(&self) -> f64 {
         (self.0[0] / self.0[5]).sqrt()
     }
 
-    /// Length (m) over which the displacement gradient changes.
+    /// Returns the length (m) over which the displacement gradient changes.
     pub(crate) fn gradient_length(&self) -> f64 {
         self.0[2] / self.0[5]
     }
 }
 
-/// Sizes of the displacement and its derivatives in the body until time `until` (s).
+/// Computes the sizes of the displacement and its derivatives in the body until time `until` (s).
 pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     let mut sizes = [0.0_f64; GROUPS.len()];
     for line in lines(problem) {
@@ -183,7 +184,7 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// The jump of the lowest-order derivative that jumps, up to the second order.
+/// Finds a jump of the lowest-order derivative that jumps, up to the second order.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
@@ -220,7 +221,7 @@ impl LocalLine {
         place
     }
 
-    /// Points of the line inside the body, with their numbers.
+    /// Returns the points of the line inside the body, with their numbers.
     fn inside<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
         let count = INTERVALS[problem.dimension().clamp(1, 3) - 1];
         let from = self.from[self.axis];
@@ -229,7 +230,7 @@ impl LocalLine {
         places.filter(|(_, place)| problem.holds(place))
     }
 
-    /// Place where a component of `at` jumps by at least `least`.
+    /// Finds the position where a component of `at` jumps by at least `least`.
     fn jump(
         &self,
         problem: &Problem,
@@ -251,7 +252,7 @@ impl LocalLine {
         None
     }
 
-    /// Place of a jump of component `i` between two points with known values.
+    /// Finds the position of a jump of component `i` between two points with known values.
     fn bisect(
         &self,
         mut low: (f64, f64),
@@ -275,7 +276,7 @@ impl LocalLine {
     }
 }
 
-/// Evenly distributed lines through the body along every axis.
+/// Creates evenly distributed lines through the body along every axis.
 fn lines(problem: &Problem) -> Vec<LocalLine> {
     let d = problem.dimension();
     let count = LINES[d.clamp(1, 3) - 1];

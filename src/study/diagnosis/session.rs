@@ -16,28 +16,26 @@ use std::time::Instant;
 /// Maximum distance of a restored order below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// Maximum distance of a restored order above the theoretical order. A case may have a higher order
-/// than theory.
+/// Maximum distance of a restored order above the theoretical order, which a case may exceed.
 const ABOVE: f64 = 0.8;
 
-/// Data common to all runs of a case.
+/// Data that all runs of a case need.
 pub(super) struct Session<'a> {
     pub(super) suite: &'a str,
     pub(super) source: &'a Source,
     pub(super) case: &'a Case,
     pub(super) formal_order: f64,
     pub(super) solver: Option<&'a dyn SolverFactory>,
-    /// Remaining time (s) for changed runs.
+    /// Remaining time budget (s) for changed runs.
     left: Cell<f64>,
-    /// Ratio of the measured time of an external solver to the predicted time of this crate, at
-    /// least 1.
+    /// Measured time of an external solver divided by the predicted time of this crate, at least 1.
     slowness: Cell<f64>,
-    /// Changes that were too expensive.
+    /// Descriptions of changes that were too expensive to run.
     skipped: RefCell<Vec<String>>,
 }
 
 impl<'a> Session<'a> {
-    /// Creates a session with `budget` (s) for changed runs.
+    /// Creates a session with the time budget `budget` (s) for changed runs.
     pub(super) fn new(
         suite: &'a str,
         source: &'a Source,
@@ -65,8 +63,8 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if it exceeds the budget or cannot be set up. A failed set-up
-    /// gives no evidence.
+    /// Runs a changed plan. `None` if it exceeds the budget or cannot be set up, because a failed
+    /// set-up gives no evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {
@@ -85,7 +83,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// Judges levels with an expected order near the theoretical one.
+    /// Judges levels. The expected order is near the theoretical one.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -96,13 +94,13 @@ impl<'a> Session<'a> {
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }
 
-    /// Changes that were too expensive.
+    /// Returns the descriptions of changes that were too expensive to run.
     pub(super) fn into_skipped(self) -> Vec<String> {
         self.skipped.into_inner()
     }
 }
 
-/// A case with the results of its gate levels.
+/// A case with the results of its levels.
 pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
     /// The study with only this case and its levels.
@@ -113,7 +111,7 @@ pub(super) struct Known<'a> {
     pub(super) finest: &'a Judgement,
 }
 
-/// The plan with a single case and the given levels.
+/// Copies the plan with a single case and the given levels.
 pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.refine.levels = levels.to_vec();
@@ -122,8 +120,8 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Reason why `check` rejects the suite in `source` if all differences between `before` and `after`
-/// are applied to it. Both are plans of one case. `None` if `check` accepts the suite.
+/// Returns the reason why `check` rejects the suite in `source` if all differences between `before`
+/// and `after` are applied to it. Both are plans of one case. `None` if `check` accepts the suite.
 pub(super) fn refusal(
     source: &Source,
     before: &ConvergencePlan,
@@ -153,7 +151,7 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
     with_changes(source, |spec| spec.scene.grid = Some(grid)).is_ok()
 }
 
-/// The method as written in a suite; `None` for methods that are never changed.
+/// Converts the method to its form in a suite; `None` for methods that are never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
     let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } = method
     else {
@@ -171,8 +169,8 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
     })
 }
 
-/// Replaces the levels `before` of a suite by `after`. A time step that is a formula of h follows
-/// the cells.
+/// Replaces the levels `before` of a suite by `after`. A time step that is a formula of h changes
+/// with the cells.
 fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[LevelPlan]) {
     let write = |values: &mut OneOrMany<NumberText>, of: fn(&LevelPlan) -> f64| {
         let is_changed = before.iter().map(of).ne(after.iter().map(of));
@@ -188,6 +186,6 @@ fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[Level
     if let Some(dt) = &mut spec.refine.dt {
         write(dt, |level| level.dt);
     }
-    // Finer levels of full runs may not be compatible with the changed list.
+    // The additional levels of full runs may not be compatible with the changed list.
     spec.refine.full = None;
 }

@@ -1,4 +1,4 @@
-//! Time steps longer than the stable step, on all levels or on some.
+//! Checks for time steps longer than the stable step, on all levels or on some.
 
 use super::session::{Known, accepts_step, only};
 use crate::study::exact_motion::Extremes;
@@ -9,21 +9,22 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::yaml::NumberText;
 use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 
-/// Share of the predicted stable step with which levels are repeated.
+/// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// Share of the time in which a wave crosses a cell, above which the step of a method without a
-/// predicted stable step is doubtful.
+/// Maximum step of a method without a predicted stable step, as a fraction of the time in which a
+/// wave crosses a cell. Longer steps are doubtful.
 const IN_QUESTION: f64 = 0.5;
 
-/// Share of the time in which a wave crosses a cell, with which such levels are repeated.
+/// Step with which such levels run again, as a fraction of the time in which a wave crosses a cell.
 const CAUTIOUS: f64 = 0.2;
 
-/// Maximum ratio of the error with a stable step to that with an unstable one, if the step is the
-/// cause. With a step of 2/5, an accurate method of order 2 in time has a ratio of 1/6.
+/// Maximum ratio of the error with a stable step to the error with a longer one, for which the step
+/// is the cause. For comparison: if the step is shortened to 2/5, an accurate method of order 2 in
+/// time has a ratio of 1/6.
 const MENDED: f64 = 0.03;
 
-/// A level whose step exceeds a limit (s), with its repetition at a stable step.
+/// A level whose step exceeds a limit (s), and its repetition with a stable step.
 struct Mended<'a> {
     index: usize,
     before: &'a LevelOutcome,
@@ -31,8 +32,8 @@ struct Mended<'a> {
     limit: f64,
 }
 
-/// Finding: steps are longer than the stable step, on levels whose error is small or finite only
-/// with stable steps.
+/// Checks whether steps are longer than the stable step, on levels whose error is small or finite
+/// only with stable steps.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;
@@ -80,13 +81,13 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
 }
 
 impl Mended<'_> {
-    /// Ratio of the step to its limit.
+    /// Returns the ratio of the step to its limit.
     fn times(&self) -> f64 {
         self.before.dt / self.limit
     }
 }
 
-/// Levels that are repaired by stable steps; `None` if there are none.
+/// Returns the levels that have a small error only with stable steps; `None` if there are none.
 fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     let (plan, levels) = (known.plan, known.levels);
     let limits: Vec<(usize, f64)> = levels
@@ -118,12 +119,12 @@ fn mended<'a>(known: &Known<'a>) -> Option<Vec<Mended<'a>>> {
     Some(mended).filter(|mended| !mended.is_empty())
 }
 
-/// Time step (s) above which the step of a level is doubtful.
+/// Returns the time step (s) above which the step of a level is doubtful.
 fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
     if plan.steps == StepKind::Load {
         return None;
     }
-    // Steps of the built-in MPM are stable unless a prediction shows that they are too long.
+    // Steps of the built-in MPM are stable, except if a prediction shows that they are too long.
     if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
         return level.stable_time_step;
     }
@@ -132,7 +133,7 @@ fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
     crossing.is_finite().then_some(IN_QUESTION * crossing)
 }
 
-/// The first change of the time step that `check` accepts.
+/// Suggests the first change of the time step that `check` accepts.
 fn remedy(known: &Known<'_>) -> String {
     let source = known.session.source;
     if known.plan.refine.axis == Axis::Time {

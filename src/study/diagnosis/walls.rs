@@ -12,17 +12,17 @@ use crate::suite::model::{ConvergencePlan, SceneFace};
 use crate::suite::scene::grid_size::grid_axis;
 use crate::verify::{KnownCause, KnownCauseKind, LevelOutcome};
 
-/// Distance (cells) from the end of the grid that counts as rounding error.
+/// Maximum distance (cells) from the end of the grid that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Number of intervals for sampling walls, along each axis and over the run.
+/// Number of sampling intervals of walls, along each axis and over the run.
 const INTERVALS: usize = 8;
 
-/// Maximum ratio of the error in a frame that moves with the body to that of the case, if a moving
-/// wall is the cause.
+/// Maximum ratio of the error in a frame that moves with the body to the error of the case, for
+/// which a moving wall is the cause.
 const MENDED: f64 = 0.1;
 
-/// Finding: a wall moves, or particles have left the grid.
+/// Checks whether a wall moves, or particles have left the grid.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let is_lost = |level: &LevelOutcome| {
         level.run.counters.left_domain > Some(0) || level.run.failure.is_some()
@@ -35,7 +35,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
 }
 
-/// Finding: a wall moves along its normal by more than a cell, while the grid does not move.
+/// Checks whether a wall moves along its normal by more than a cell, while the grid does not move.
 fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
@@ -72,7 +72,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Largest distance (m) by which a face moves along its normal until time `until` (s).
+/// Returns the largest distance (m) by which a face moves along its normal until time `until` (s).
 fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     let at = if face.high { problem.to[face.axis] } else { problem.from[face.axis] };
     let mut longest = 0.0_f64;
@@ -86,8 +86,8 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     longest
 }
 
-/// Whether `check` accepts the case in a frame that moves with the body, and the error is then much
-/// smaller.
+/// Whether `check` accepts the case in a frame that moves with the body, and the error is much
+/// smaller in this frame.
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();
@@ -102,7 +102,7 @@ fn follows_in_total_frame(known: &Known<'_>) -> bool {
     after.is_some_and(|after| after <= MENDED * before || (after.is_finite() && before.is_nan()))
 }
 
-/// Finding: the exact motion leaves the grid of a level.
+/// Checks whether the exact motion leaves the grid of a level.
 fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     let (plan, scene) = (known.plan, &known.plan.scene);
     let reach = Extremes::of(plan.exact.as_ref()?).reach;
@@ -147,7 +147,8 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     })
 }
 
-/// Finding: a particle starts at the end of the grid, where rounding decides whether it is outside.
+/// Checks whether a particle starts at the end of the grid. Rounding then decides whether it is
+/// outside.
 pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,

@@ -1,5 +1,5 @@
-//! Gradient studies compare the derivatives of a differentiable solver with its own values, with
-//! exact sensitivities, and over an interval of a parameter.
+//! Gradient studies check the derivatives of a differentiable solver. They are compared with the
+//! solver's own values, with exact sensitivities, and with values over an interval of a parameter.
 
 mod run;
 use self::run::GradientRun;
@@ -80,7 +80,7 @@ fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> boo
     solver.lacks(&of(vec![parameter.name()])).len() == without
 }
 
-/// Capabilities that a case requires and `solver` lacks.
+/// Lists the capabilities that a case requires and `solver` lacks.
 fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
     let one = &plan.parameters[case.parameter];
     let mut gradients = vec![one.parameter.name()];
@@ -91,7 +91,7 @@ fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory)
     solver.lacks(&ProblemNeeds { gradients, ..needs(&plan.problem) })
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 fn described(
     plan: &GradientPlan,
     case: &GradientCase,
@@ -110,7 +110,7 @@ fn described(
     }
 }
 
-/// Outcome of a case that has run.
+/// Creates the outcome of a case that has run.
 fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {
     let (state, reason) = study.state();
     let unmet = case.expected.as_ref().map_or(Vec::new(), |(terms, _)| terms.unmet(&study));
@@ -123,7 +123,7 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
     }
 }
 
-/// Outcome of a case whose solver failed.
+/// Creates the outcome of a case whose solver failed.
 fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let reason = format!("the solver {reason}");
     let is_expected = described.expected.is_some();
@@ -131,7 +131,7 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
 }
 
-/// Rows that describe the study.
+/// Returns the rows that describe the study.
 fn rows(plan: &GradientPlan) -> Rows {
     let mut rows = statement::rows(&plan.problem);
     rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));

@@ -1,4 +1,4 @@
-//! Runs one case: gradients and perturbed values.
+//! Runs one case of a gradient study: computes gradients and perturbed values.
 
 use crate::exact::{ParametricMotion, ParametricState};
 use crate::external::{Gradient, GradientError, GradientRequest, LevelProblem, SolverFactory};
@@ -15,14 +15,14 @@ use crate::verify::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Rounding error of a value, in units of the rounding error of its largest term.
+/// Rounding error of a functional value, in units of the rounding error of its largest term.
 const ROUNDING: f64 = 4.0;
 
-/// Level of the perturbation for comparing all entries: the perturbation is the parameter times
-/// 2^-level.
+/// Exponent of the perturbation for comparing all entries. The perturbation is the parameter times
+/// 2^-exponent.
 const EVIDENCE_LEVEL: u32 = 8;
 
-/// Young's modulus of a run without stress, relative to the problem's modulus.
+/// Young's modulus of a run without stress, relative to the modulus of the problem.
 const NO_STRESS: f64 = 1e-9;
 
 /// Runs of one case.
@@ -35,10 +35,10 @@ pub(super) struct GradientRun<'a> {
     pub(super) request: Vec<GradientParameter>,
 }
 
-/// Result of one run of the solver, as stored for `--resume`.
+/// Result of one run of the solver, in the form that is stored for `--resume`.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct CachedAnswer {
-    /// Either value and rounding of a functional, or value and gradient.
+    /// Either value and rounding error of a functional, or value and gradient.
     numbers: Vec<f64>,
     /// Reason why the solver does not support the run.
     cannot: Option<String>,
@@ -116,7 +116,7 @@ impl GradientRun<'_> {
         Ok(study)
     }
 
-    /// Figures from additional runs without derivatives, for comparison with a wrong derivative.
+    /// Runs the solver without derivatives. The results are compared with a wrong derivative.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
         let Gradient { gradient, .. } = self.gradient(problem)?;
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
@@ -135,7 +135,7 @@ impl GradientRun<'_> {
         let young = GradientParameter::Young;
         let soft = problem.parameter(young).map(|young| NO_STRESS * young);
         let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
-        // The solver may fail in either of these runs. Their figures are then missing.
+        // The solver may fail in either of these runs. The result is then missing.
         let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
         Ok(GradientEvidence {
             entries,
@@ -152,7 +152,8 @@ impl GradientRun<'_> {
         Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
-    /// Rounding error of the Taylor remainder, in units of the largest term of a value.
+    /// Returns the rounding error of the Taylor remainder, in units of the largest term of the
+    /// functional.
     fn rounding(&self) -> f64 {
         let half = match self.solver.precision() {
             Precision::Double => 0.5 * f64::EPSILON,
@@ -161,7 +162,8 @@ impl GradientRun<'_> {
         ROUNDING * half
     }
 
-    /// Allowed difference between the reported value and the value of a run without derivatives.
+    /// Returns the maximum difference between the reported value and the value of a run without
+    /// derivatives.
     fn tolerance(&self, plain: FunctionalValue) -> f64 {
         let relative = match self.solver.precision() {
             Precision::Double => 1e-12,
@@ -212,7 +214,8 @@ impl GradientRun<'_> {
         Err(GradientError::Failed(reason))
     }
 
-    /// Value of the functional after a run without derivatives, from the cache if available.
+    /// Returns the value of the functional after a run without derivatives, from the cache if
+    /// available.
     fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
         match self.kept(problem, "value", run)?[..] {
@@ -221,8 +224,8 @@ impl GradientRun<'_> {
         }
     }
 
-    /// The stored result of a run, or the result of `run`, which is then stored. `what` states
-    /// which numbers the result contains.
+    /// Returns the stored result of a run. If there is none, stores and returns the result of
+    /// `run`. `what` states which numbers the result contains.
     fn kept(
         &self,
         problem: &LevelProblem,
@@ -233,8 +236,8 @@ impl GradientRun<'_> {
         if self.context.cache.is_none() {
             return run().numbers();
         }
-        // The key includes everything that a parameter changes: numbers of the message, masses and
-        // velocities.
+        // The key includes everything that a parameter changes: the numbers in the message, masses
+        // and velocities.
         let numbers = serde_json::to_string(problem)
             .map_err(|error| GradientError::Failed(error.to_string()))?;
         let particles = [&problem.particles.mass, &problem.particles.velocity];
@@ -250,7 +253,7 @@ impl GradientRun<'_> {
         answer.map_err(|error| GradientError::Failed(error.to_string()))?.numbers()
     }
 
-    /// Value of the functional after a run of the solver without derivatives.
+    /// Returns the value of the functional after a run of the solver without derivatives.
     fn plain_run(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
         let (steps, dt) = (problem.steps, problem.dt);
         let mass = problem.particles.mass.clone();
@@ -267,7 +270,8 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
-    /// Values of the functional with the problem's parameter `q` perturbed by shares of it.
+    /// Returns values of the functional for which the parameter `q` is perturbed by fractions of
+    /// itself.
     fn perturbed(
         &self,
         problem: &LevelProblem,
@@ -287,7 +291,7 @@ impl GradientRun<'_> {
         (FIRST_LEVEL..=LAST_LEVEL).into_par_iter().map(perturbed).collect()
     }
 
-    /// Values and derivatives at points of an interval of the parameter.
+    /// Returns values and derivatives at points of an interval of the parameter.
     fn sweep(
         &self,
         problem: &LevelProblem,
@@ -307,7 +311,7 @@ impl GradientRun<'_> {
     }
 }
 
-/// Value of a parameter in the problem.
+/// Returns the value of a parameter in the problem.
 fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, GradientError> {
     let lacks = || GradientError::Cannot(format!("the problem has no `{}`", parameter.name()));
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
@@ -316,9 +320,9 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 /// A value and its derivative.
 type Dual = (f64, f64);
 
-/// Exact derivative of the functional at the end of the run with respect to a parameter of the
-/// problem. It is the total derivative: if the suite's initial velocity depends on the parameter,
-/// so does the initial velocity of the exact motion.
+/// Computes the exact derivative of the functional at the end of the run with respect to a
+/// parameter of the problem. This is the total derivative: if the initial velocity of the suite
+/// depends on the parameter, the derivative includes its effect on the exact motion.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,
@@ -332,7 +336,7 @@ pub(super) fn exact_derivative(
     }
 }
 
-/// Derivative of the functional with respect to the suite's parameter.
+/// Computes the derivative of the functional with respect to the suite's parameter.
 fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
     let (motion, t) = (&one.motion, problem.until);
     match of {
@@ -358,13 +362,13 @@ fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
     }
 }
 
-/// Square of a vector, with its derivative.
+/// Computes the square of a vector, with its derivative.
 fn square(vector: &[f64], slope: &[f64]) -> Dual {
     let both = vector.iter().zip(slope);
     both.fold((0.0, 0.0), |(sum, rise), (x, dx)| (sum + x * x, rise + 2.0 * x * dx))
 }
 
-/// Integral over the body, with its derivative.
+/// Integrates a function over the body, with its derivative.
 fn integral(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
     let states = motion.states(t);
     states.iter().fold((0.0, 0.0), |(sum, rise), (state, weight)| {
@@ -373,7 +377,7 @@ fn integral(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> 
     })
 }
 
-/// Mean over the body, with its derivative.
+/// Computes the mean of a function over the body, with its derivative.
 fn mean(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
     let (sum, slope) = integral(motion, t, of);
     let volume: f64 = motion.from.iter().zip(&motion.to).map(|(from, to)| to - from).product();

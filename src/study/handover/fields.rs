@@ -1,4 +1,4 @@
-//! Initial state, loads and face conditions at places that a solver chooses.
+//! Initial state, loads and face conditions at points that a solver chooses.
 
 use crate::dimension::with_dimension;
 use crate::exact::Circle;
@@ -10,10 +10,10 @@ use crate::suite::model::Scene;
 use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
 /// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
-/// of the body. The hoop stretch r/R is undefined at R = 0.
+/// of the body. At R = 0 the hoop stretch r/R is undefined.
 const NEAR_AXIS: f64 = 1e-8;
 
-/// The fields of a scene.
+/// The fields of a scene that a solver can request.
 pub(super) struct SceneFields {
     scene: Scene,
     bodies: Vec<FieldBody>,
@@ -41,7 +41,7 @@ impl SceneFields {
         })
     }
 
-    /// One field of the initial state, for each place.
+    /// Returns one field of the initial state at each point.
     fn initial(&self, of: FieldName, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = Vec::new();
@@ -66,7 +66,7 @@ impl SceneFields {
         Ok(values)
     }
 
-    /// Initial Cauchy stress, computed by the law of each body.
+    /// Computes the initial Cauchy stress by the law of each body.
     fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = vec![0.0; at.bodies.len() * d * d];
@@ -118,12 +118,12 @@ impl SceneFields {
         let mut law = initial.stressed(law, &mut particles);
         complete_start(&mut particles, law.as_mut())
             .map_err(|failure| undefined(failure.to_string()))?;
-        // The matrix library stores columns, the protocol rows.
+        // The matrix library stores columns; the protocol uses rows.
         let rows = |sigma: &Matrix<D>| sigma.transpose().data.0;
         Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
     }
 
-    /// Values of the load numbers named `what`.
+    /// Returns the values of the load numbers named `what`.
     fn numbers(
         &self,
         (what, numbers): (&str, &LoadNumbers),
@@ -147,7 +147,7 @@ impl SceneFields {
         Ok(places.flat_map(value).collect())
     }
 
-    /// Checks that all places are on the face.
+    /// Checks that all points are on the face.
     fn check_on_face(&self, number: usize, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let d = self.scene.dimension();
         let Some(face) = self.scene.faces.get(number) else {
@@ -168,7 +168,7 @@ impl SceneFields {
 }
 
 impl SceneFields {
-    /// Checks that all places are on the rim.
+    /// Checks that all points are on the rim.
     fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let Circle { name, centre, radius, .. } = circle;
         let near = self.scene.rounding();
@@ -264,7 +264,7 @@ impl FieldSource for SceneFields {
     }
 }
 
-/// Text of a place in a message.
+/// Formats a point for a message.
 fn shown(label: &[f64]) -> String {
     let all: Vec<String> = label.iter().map(ToString::to_string).collect();
     format!("({}) m", all.join(", "))

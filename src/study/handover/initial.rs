@@ -48,7 +48,7 @@ pub fn level_problem(
     ))
 }
 
-/// Steps of a run, and the particles at its start.
+/// Steps of a run, and the initial states of its bodies.
 pub(crate) struct HandedRun {
     /// Number of load steps, if the run has no time.
     pub(crate) load_steps: Option<u64>,
@@ -57,7 +57,7 @@ pub(crate) struct HandedRun {
     pub(crate) dt: f64,
     /// End of the run (s).
     pub(crate) until: f64,
-    /// Numbers of the steps after which states are compared.
+    /// Numbers of the steps after which states are compared with the exact solution.
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
     /// Initial states of the bodies.
@@ -66,7 +66,8 @@ pub(crate) struct HandedRun {
     pub(crate) is_perturbed: bool,
 }
 
-/// Creates the problem of a run on the cells of `level`, with the manufactured force of `made`.
+/// Creates the problem of a run on the cells of `level`. `made` contains the manufactured force, if
+/// any.
 pub(crate) fn problem(
     suite: &str,
     scene: &Scene,
@@ -188,7 +189,7 @@ fn material(scene: &Scene) -> ProblemMaterial {
     }
 }
 
-/// Terms of the body forces on each body.
+/// Lists the terms of the body forces on each body.
 fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     let is_force = |load: &&ListedLoad| {
         matches!(load.effect, EffectName::Gravity | EffectName::BodyForce)
@@ -201,7 +202,7 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     scene.each().iter().map(of_body).collect()
 }
 
-/// The body force of a scene.
+/// The body force of a scene: stated forces and a manufactured force.
 #[derive(Clone)]
 struct SceneForce {
     /// Stated forces of each body.
@@ -215,7 +216,7 @@ impl SceneForce {
         self.made.is_none() && self.terms.iter().all(Vec::is_empty)
     }
 
-    /// The force, if it is constant in space and time and there is only one body.
+    /// Returns the force if it is constant in space and time and there is only one body.
     fn constant(&self, dimension: usize) -> Option<Vec<f64>> {
         let [terms] = &self.terms[..] else { return None };
         let is_constant =
@@ -225,7 +226,7 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// The stated forces on a body with the displacement `u` (m), plus `made`.
+    /// Returns the stated forces on a body with the displacement `u` (m), plus the force `made`.
     fn whole(
         &self,
         made: [f64; 3],

@@ -3,7 +3,7 @@
 //! ```text
 //! initial   grid, faces, materials, forces and steps of a level
 //! particles initial particles, and their exact state at a later time
-//! fields    initial state, loads and face conditions at places that a solver chooses
+//! fields    initial state, loads and face conditions at points that a solver chooses
 //! needs     capabilities that a suite requires; suites with an external solver as their method
 //! ```
 

@@ -1,5 +1,5 @@
-//! Capabilities that a suite requires of a solver, and suites with an external solver as their
-//! method.
+//! Capabilities that a suite requires of a solver. Also creates suites whose method is an external
+//! solver.
 
 use super::level_problem;
 use super::particles::starts_deformed;
@@ -15,7 +15,7 @@ use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{Quantity, StepKind, SumNeed};
 use std::sync::Arc;
 
-/// Capabilities that a convergence study requires.
+/// Returns the capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         column: column(plan.of),
@@ -31,7 +31,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Capabilities that a scene requires, independent of the judged quantities.
+/// Returns the capabilities that a scene requires. They do not depend on the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -58,25 +58,25 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     needs
 }
 
-/// Capabilities that `suite` requires and `solver` lacks; empty for a study that external solvers
-/// cannot run.
+/// Lists the capabilities that `suite` requires and `solver` lacks; empty for a study that external
+/// solvers cannot run.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// The judged column, if it is optional.
+/// Returns the column of the judged quantity, if it is optional.
 fn column(of: Quantity) -> Option<&'static str> {
     (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
 
-/// The suite with `solver` instead of its methods, with or without a gate (see
+/// Replaces the methods of the suite by `solver`, with or without a gate (see
 /// [`Suite::of_external`]).
 pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
     under_on(suite, solver, gate.then(GateTerms::default).as_ref())
 }
 
-/// The suite with `solver` instead of its methods. With `terms` of the solver's author, the suite
-/// is a gate. If nothing deforms, the solver may use another law.
+/// Replaces the methods of the suite by `solver`. With `terms` of the solver's author, the suite is
+/// a gate. If nothing deforms, the solver may use another law.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -92,8 +92,8 @@ pub fn under_on(
     })
 }
 
-/// The plan with a law that `solver` supports, if it does not support the stated law and laws have
-/// no effect.
+/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the stated law,
+/// or if laws have an effect.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -110,8 +110,9 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Value of a parameter of the replacing law. This is the stated value if the stated law has the
-/// parameter, and otherwise its stiffness, so that the time step remains stable.
+/// Returns the value of a parameter of the replacing law. If the stated law has the same parameter,
+/// its value is used. Otherwise the stiffness of the stated law is used, so the time step remains
+/// stable.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);
@@ -124,8 +125,8 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// The subject of one level of a case, run by `solver` if there is one, otherwise by the method of
-/// the case. `suite` is the name of the suite.
+/// Creates the subject of one level of a case. It is run by `solver` if there is one, and otherwise
+/// by the method of the case. `suite` is the name of the suite.
 ///
 /// # Errors
 /// The reason why there is no such subject.

@@ -13,7 +13,7 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// Initial particles of a level.
+/// Creates the initial particles of a level.
 pub(super) fn particles(
     plan: &ConvergencePlan,
     level: LevelPlan,
@@ -24,13 +24,13 @@ pub(super) fn particles(
     start(&bodies, level, &mut |_| ())
 }
 
-/// The bodies of a scene without their loads, which do not affect an initial state.
+/// Copies the bodies of a scene without their loads, which do not affect the initial state.
 pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
     scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
 }
 
-/// Initial particles of all bodies, after `disturb` has modified them. Each law computes the
-/// initial stress from the initial deformation.
+/// Creates the initial particles of all bodies, after `disturb` has modified them. Each law
+/// computes the initial stress from the initial deformation.
 ///
 /// # Errors
 /// The reason why there is no such initial state.
@@ -48,7 +48,7 @@ fn started<const D: usize>(
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<ProblemParticles, SubjectError> {
-    // A method without internal state in addition to the particles.
+    // This method stores no state except that of the particles.
     let method = Method::Mpm {
         basis: BasisName::Linear,
         transfer: TransferName::Flip.into(),
@@ -78,7 +78,7 @@ fn started<const D: usize>(
             (&mut all.deformation_gradient, &particles.def_grad),
             (&mut all.stress, &particles.sigma),
         ] {
-            // The matrix library stores columns, the protocol rows.
+            // The matrix library stores columns; the protocol uses rows.
             into.extend(tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten());
         }
         all.body.extend(vec![number as f64; particles.x0.len()]);
@@ -95,7 +95,7 @@ fn started<const D: usize>(
     Ok(all)
 }
 
-/// Whether a particle of the coarsest level starts displaced, or with F other than I.
+/// Whether a particle of the coarsest level is displaced at the start, or F differs from I.
 pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
     let level = plan.refine.levels.first();
     // If a level cannot be passed to a solver, its run reports the reason.
@@ -103,15 +103,15 @@ pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
     start.is_some_and(|start| is_deformed(&start, plan.scene.dimension()))
 }
 
-/// Whether a particle is displaced, or has F other than I.
+/// Whether a particle is displaced, or its F differs from I.
 pub(crate) fn is_deformed(start: &ProblemParticles, d: usize) -> bool {
     let identity = |k: usize| f64::from(u8::from(k / d == k % d));
     let mut f = start.deformation_gradient.iter().enumerate();
     start.position != start.reference_position || f.any(|(k, f)| *f != identity(k % (d * d)))
 }
 
-/// The particles in their exact state at time `t` (s): position and velocity, and F, volume and
-/// stress if these are known. Masses and reference positions are copied from `start`.
+/// Returns the particles in their exact state at time `t` (s): position and velocity, and F, volume
+/// and stress if these are known. Masses and reference positions are copied from `start`.
 ///
 /// # Errors
 /// The reason why there is no exact state.

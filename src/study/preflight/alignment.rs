@@ -7,7 +7,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 
-/// Distance (cells) from a grid line that counts as rounding error.
+/// Maximum distance (cells) from a grid line that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
 /// A plane with an interface or a loaded face.
@@ -20,20 +20,20 @@ struct Plane {
 }
 
 impl Plane {
-    /// Distance from the nearest grid line, in cells of size `h` (m).
+    /// Returns the distance from the nearest grid line, in cells of size `h` (m).
     fn off(&self, scene: &Scene, h: f64) -> f64 {
         let line = (self.x - grid_axis(scene, self.axis, h).0) / h;
         (line - libm::round(line)).abs()
     }
 }
 
-/// Reports planes that lie inside a cell on some level.
+/// Reports planes that lie inside a cell on at least one level.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let planes = planes(&preflight.plan.scene);
     planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()
 }
 
-/// Whether all interfaces and loaded faces lie on grid lines with cells of size `h` (m).
+/// Whether all interfaces and loaded faces lie on grid lines if cells have the size `h` (m).
 pub(crate) fn is_aligned(scene: &Scene, h: f64) -> bool {
     planes(scene).iter().all(|plane| plane.off(scene, h) <= ROUNDING)
 }
@@ -66,13 +66,14 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // Particles carry the load. The method determines where their weights apply it.
+            // Particles transfer the load to the grid. The method determines the point where it
+            // acts.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()
 }
 
-/// Planes where one body ends and another one begins.
+/// Returns the planes where one body ends and another one begins.
 fn interfaces(scene: &Scene) -> Vec<Plane> {
     let mut planes = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

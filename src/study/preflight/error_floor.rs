@@ -1,8 +1,9 @@
-//! Reports errors that refinement does not lower, and the level from which they are visible.
+//! Reports errors that refinement does not lower, and the first level on which they are visible.
 //!
-//! `small_strain` concerns a small-strain or linearised solution that is run by a solver without
-//! this simplification. `single_precision` concerns an external solver in single precision.
-//! `loose_tolerance` concerns a linearised solution with an unnecessarily large tolerance.
+//! - `small_strain`: the solver does not have the simplification of the exact solution, which is
+//!   linearised or for small strains.
+//! - `single_precision`: the external solver uses single precision.
+//! - `loose_tolerance`: the tolerance of a linearised solution is unnecessarily large.
 
 use super::subject::Preflight;
 use crate::study::exact_motion::{Extremes, Linearisation};
@@ -13,22 +14,22 @@ use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 
-/// Share of the cell error above which another error changes the observed order.
+/// Fraction of the cell error above which another error changes the observed order.
 const SEEN: f64 = 0.3;
 
-/// Share of the cell error above which a few more refinements make another error visible.
+/// Fraction of the cell error above which another error becomes visible after a few refinements.
 const SOON: f64 = 0.003;
 
-/// Predicted error (m) of cells with the size `h` (m): interpolation by linear functions, h^2/8
-/// times the second derivative.
+/// Predicts the error (m) due to cells of size `h` (m) as the interpolation error of linear
+/// functions: h^2/8 times the second derivative.
 fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
     0.125 * h * h * curvature
 }
 
-/// Finding about an error of `size` (m) with the cause `origin`. It is a warning with `help` if the
-/// error is visible on a level of the suite, a note if it would be visible on one of the next finer
-/// levels, and otherwise `None`.
+/// Creates a finding about an error of `size` (m) with the cause `origin`. The finding is a warning
+/// with `help` if the error is visible on a level of the suite. It is a note if the error would be
+/// visible on one of the next finer levels. `None` if it would not be visible.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -54,19 +55,19 @@ fn floor_finding(
     Some(if severity == Severity::Warning { found.with_help(help) } else { found })
 }
 
-/// Error of a solution that does not solve the solver's problem exactly.
+/// Error of a solution that does not solve the problem of the solver exactly.
 struct ModelError {
     /// Size of the error (m).
     size: f64,
     /// Description of the origin of the error.
     origin: String,
-    /// Advice on a solution without this error.
+    /// Advice: a solution without this error.
     remedy: &'static str,
 }
 
-/// Model error of `case`, if it has one. For a linearised solution it is measured. For a
-/// small-strain solution it is estimated, because MPM uses a law in rate form, which differs from
-/// the law of the solution.
+/// Determines the model error of `case`, if it has one. For a linearised solution it is computed
+/// from the residual. For a small-strain solution it is estimated, because MPM uses a law in rate
+/// form, which differs from the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
@@ -99,8 +100,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Reports the model error and the first level on which it is visible: a warning if this is a level
-/// of the suite, a note if it is one of the next finer levels.
+/// Reports the model error and the first level on which it is visible. This is a warning if the
+/// level belongs to the suite, and a note if it is one of the next finer levels.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -115,21 +116,21 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
-/// Minimum number of levels above the rounding bound.
+/// Minimum number of levels whose error is larger than the rounding bound.
 const LEVELS: usize = 4;
 
 /// A level with its predicted errors (m).
 struct LevelPrediction {
     cells: u64,
-    /// Error of the cells, estimated as interpolation by linear functions.
+    /// Error due to cells, estimated as the interpolation error of linear functions.
     discretisation: f64,
     /// Bound on the rounding errors of positions.
     rounding: f64,
 }
 
 /// Predicts the first level on which the error of a solver in single precision lies below the
-/// rounding bound. If fewer than four levels lie above the bound, this is a warning, with the
-/// amplitude and the origin that leave four levels above it. Otherwise it is a note.
+/// rounding bound. If fewer than four levels lie above the bound, this is a warning. It suggests an
+/// amplitude and an origin for which four levels lie above the bound. Otherwise it is a note.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
@@ -178,8 +179,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// Factor by which the spacing of positions decreases if the body is centred at the origin; `None`
-/// if it does not decrease.
+/// Returns the factor by which the distance between positions in single precision decreases if the
+/// body is centred at the origin; `None` if it does not decrease.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
@@ -187,16 +188,18 @@ fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     (factor > 1.0).then_some(factor)
 }
 
-/// A positive factor, rounded up to two digits.
+/// Rounds a positive factor up to two digits.
 fn two_digits(factor: f64) -> f64 {
     let text = format!("{:.1e}", 1.05 * factor);
     text.parse().unwrap_or(factor)
 }
 
-/// Maximum ratio of the tolerance to the residual. Beyond it, wrong solutions would pass.
+/// Maximum ratio of the tolerance to the residual. With a larger tolerance, wrong solutions would
+/// pass.
 const MOST: f64 = 100.0;
 
-/// Reports a tolerance that exceeds the residual of the solution by orders of magnitude, as a note.
+/// Reports, as a note, a tolerance that exceeds the residual of the solution by orders of
+/// magnitude.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

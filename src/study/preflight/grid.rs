@@ -1,9 +1,10 @@
-//! Checks that enough levels count for an order, and the position of the particles in their grids.
+//! Checks the number of levels that count for an order, and the positions of particles in the grid.
 //!
-//! `few_levels` concerns levels that count for an order, `leaves_grid` a motion that leaves the
-//! grid. `end_on_node` concerns boxes whose last particles start exactly on nodes, with linear
-//! functions. A particle on a node belongs to the cell above. The node at the far end of this cell
-//! has no mass, so it holds neither velocity nor force.
+//! - `few_levels`: too few levels count for an order.
+//! - `leaves_grid`: the motion leaves the grid.
+//! - `end_on_node`: the last particles of a box start exactly on nodes, and basis functions are
+//!   linear. A particle on a node belongs to the cell above. The node at the far end of this cell
+//!   has no mass, so conditions and forces on it have no effect.
 
 use super::subject::{Preflight, moves_on_grid};
 use crate::mpm::BasisName;
@@ -44,8 +45,8 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_label(&label).with_help(&help)]
 }
 
-/// Whether the exact motion moves a particle into another cell. Particles of an aligned body are
-/// half of their spacing away from the cell faces.
+/// Whether the exact motion moves a particle into another cell. The distance of the particles of an
+/// aligned body from the cell faces is half of their spacing.
 fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     let dimension = preflight.plan.scene.dimension();
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);
@@ -54,10 +55,10 @@ fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     largest > room
 }
 
-/// Distance (cells) beyond the grid that counts as rounding error.
+/// Maximum distance (cells) outside the grid that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Warns of an exact motion that moves the body out of the grid of some level.
+/// Warns of an exact motion that moves the body out of the grid on at least one level.
 pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let (Some(motion), true) = (&preflight.extremes, plan.cases.iter().any(moves_on_grid)) else {
@@ -89,7 +90,7 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     Vec::new()
 }
 
-/// Warns of a box whose last row of particles lies on nodes that are not the last ones of the grid.
+/// Warns of a box whose last row of particles lies on nodes other than the last nodes of the grid.
 pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let is_linear = |method| {
@@ -121,8 +122,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().collect()
 }
 
-/// Position (m) of the last particles along `axis` in the solver, if they lie on nodes that are
-/// followed by another node.
+/// Returns the position (m) of the last particles along `axis` in the solver, if they lie on nodes
+/// that are not the last nodes of the grid.
 fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
     let scene = &plan.scene;
     if !scene.faces.get(2 * axis + 1)?.hold.is_free() {

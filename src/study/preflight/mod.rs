@@ -1,7 +1,8 @@
-//! Warnings and notes about a suite before anything runs, each with its position in the file.
+//! Warnings and notes about a suite, with positions in its file. They are found before anything
+//! runs.
 //!
 //! ```text
-//! subject      the study, and paths in its file
+//! subject      the checked study, and the paths in its file
 //! grid         levels that count for an order, a motion that leaves the grid, and a box whose last
 //!              particles start on nodes, with linear functions
 //! error_floor  errors that refinement does not lower: small strain, single precision, and
@@ -10,8 +11,9 @@
 //! undamped     an equilibrium without dissipation
 //! ```
 //!
-//! Rules depend on the expectation: a suite that only bounds an error gets no warning about too few
-//! levels for an order. Suites acknowledge intended findings by their names, with `acknowledge`.
+//! Which rules apply depends on the expectation: a suite that only bounds an error gets no warning
+//! about too few levels for an order. Suites acknowledge intended findings by name, with the key
+//! `acknowledge`.
 
 pub(crate) mod alignment;
 pub(crate) mod error_floor;
@@ -30,7 +32,7 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::Axis;
 
-/// Findings of one rule.
+/// A rule, which returns its findings.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
 /// Rules for suites with an expected order, with the names by which suites acknowledge them.
@@ -43,14 +45,14 @@ const RULES_OF_ORDER: [(WarningName, PreflightRule); 6] = [
     (WarningName::InsideCell, alignment::check),
 ];
 
-/// Rules for all suites, with their names.
+/// Rules for all suites, with the names by which suites acknowledge them.
 const RULES: [(WarningName, PreflightRule); 3] = [
     (WarningName::LooseTolerance, error_floor::loose_tolerance),
     (WarningName::EndOnNode, grid::end_on_node),
     (WarningName::Undamped, undamped::check),
 ];
 
-/// Adds to the help of a warning the name that acknowledges it.
+/// Adds the name that acknowledges a warning to its help.
 fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     if finding.severity() != Severity::Warning {
         return finding;
@@ -63,8 +65,8 @@ fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     finding.with_help(&help)
 }
 
-/// Warnings and notes about `suite`, which was read from `source`. Acknowledged ones are excluded.
-/// Studies without refinement have none.
+/// Returns warnings and notes about `suite`, which was read from `source`. Acknowledged ones are
+/// excluded. Studies without refinement have none.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);
@@ -82,7 +84,7 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     findings
 }
 
-/// Warns of a time step in which a wave or a particle crosses more than one cell, or in which heat
+/// Warns of a time step in which a wave or a particle crosses more than one cell, or for which heat
 /// conduction is unstable. A constant step on all levels of a study in space is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
@@ -92,8 +94,8 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Warns of a step that is too long for the motion. An automatic step is checked as a share of the
-/// stable step.
+/// Warns of a step that is too long for the motion. An automatic step is checked as a fraction of
+/// the stable step.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
     let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));
@@ -161,15 +163,15 @@ fn steps(preflight: &Preflight<'_>) -> Path {
     }
 }
 
-/// Seconds per particle and step, by dimension, including errors and set-up. They were fitted to
-/// whole runs of eight suites in the profile of `cargo run`, on one thread. Single suites differ by
-/// a factor of up to three.
+/// Time (s) per particle and step, by dimension, including errors and set-up. The times were fitted
+/// to whole runs of eight suites in the profile of `cargo run`, on one thread. Single suites differ
+/// by a factor of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
-/// Time (s) of a case without a prediction.
+/// Assumed time (s) of a case without a prediction.
 pub(crate) const UNKNOWN: f64 = 0.5;
 
-/// Bytes per particle and per node, by dimension.
+/// Memory (bytes) per particle and per node, by dimension.
 const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
 
 /// Estimated cost of a whole suite.
@@ -177,18 +179,18 @@ const BYTES: [[f64; 2]; 3] = [[100.0, 40.0], [250.0, 70.0], [450.0, 100.0]];
 pub struct Estimate {
     /// Number of particles times number of steps, over all cases and levels.
     pub particle_steps: f64,
-    /// Seconds on one thread, within a factor of about three.
+    /// Time (s) on one thread, accurate to a factor of about three.
     pub seconds: f64,
     /// Memory of the largest level (bytes).
     pub bytes: f64,
 }
 
-/// Estimated cost of the gate levels of a convergence study; `None` for other studies.
+/// Estimates the cost of a convergence study without `--full`; `None` for other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
     suite.plan().map(estimate_of)
 }
 
-/// Estimated cost of each case of a suite; `None` for studies without refinement.
+/// Estimates the cost of each case of a suite; `None` for studies without refinement.
 pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     match suite.plan::<ConvergencePlan>() {
         Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
@@ -196,7 +198,7 @@ pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     }
 }
 
-/// Estimated cost of the gate levels.
+/// Estimates the cost of the levels that run without `--full`.
 pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     let none = Estimate { particle_steps: 0.0, seconds: 0.0, bytes: 0.0 };
     let cases = plan.cases.iter().map(|case| of_case(plan, case, Extent::Usual));
@@ -207,8 +209,8 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
-/// Predicted time (s) on one thread for each progress unit of a run: for each level, or a default
-/// for each case of a study without refinement.
+/// Predicts the time (s) on one thread for each progress unit of a run. A unit is a level, or a
+/// case of a study without refinement, which has a default time.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return vec![UNKNOWN; suite.case_names().len()];
@@ -219,7 +221,7 @@ pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     each.map(|(case, level)| SECONDS[index] * particle_steps(plan, case, *level)).collect()
 }
 
-/// Number of particles times number of steps of a level.
+/// Returns the number of particles times the number of steps of a level.
 fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
     size::particles(&plan.scene, level) * steps as f64

@@ -13,13 +13,13 @@ use crate::verify::{Axis, Verdict};
 /// A convergence study that has not run yet.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
-    /// Extremes of the exact motion, if it is given by formulas and an order is expected.
+    /// Extremes of the exact motion, if the motion is given by formulas and an order is expected.
     pub(crate) extremes: Option<Extremes>,
     source: &'a Source,
 }
 
 impl<'a> Preflight<'a> {
-    /// Creates the study from a plan that was read from `source`.
+    /// Creates the checked study from a plan that was read from `source`.
     pub(crate) fn new(plan: &'a ConvergencePlan, source: &'a Source) -> Self {
         let mut preflight = Self { plan, extremes: None, source };
         if preflight.claims_an_order() {
@@ -28,17 +28,17 @@ impl<'a> Preflight<'a> {
         preflight
     }
 
-    /// Whether an order is expected of any case.
+    /// Whether the suite expects an order for at least one case.
     pub(crate) fn claims_an_order(&self) -> bool {
         self.of_an_order().next().is_some()
     }
 
-    /// The gate levels.
+    /// Returns the levels that run without `--full`.
     pub(crate) fn levels(&self) -> &[LevelPlan] {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Cases with an expected order, stated or theoretical.
+    /// Returns the cases with an expected order, which is stated or theoretical.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -47,7 +47,7 @@ impl<'a> Preflight<'a> {
         self.plan.cases.iter().filter(claims)
     }
 
-    /// Path of the list of levels on the refined axis.
+    /// Returns the path of the list of levels on the refined axis.
     pub(crate) fn sizes(&self) -> Path {
         Path::top("refine").then(match self.plan.refine.axis {
             Axis::Space => "cells",
@@ -56,13 +56,13 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Path of the exact solution.
+    /// Returns the path of the exact solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Path of the motion in the exact solution.
+    /// Returns the path of the motion in the exact solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }
@@ -72,7 +72,7 @@ impl<'a> Preflight<'a> {
         self.source.value_at(path.steps()).is_some()
     }
 
-    /// Warnings about acknowledgements that are not among those `used`. None are given if an
+    /// Warns of acknowledgements that are not among those `used`. There are no such warnings if an
     /// external solver replaces the methods of the suite, because it may have other findings.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());

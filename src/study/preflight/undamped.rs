@@ -12,18 +12,18 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::StepKind;
 
-/// Minimum share of the final load at the start that counts as sudden loading.
+/// Minimum fraction of the final load at the start for which the loading counts as sudden.
 const SUDDEN: f64 = 0.1;
 
-/// Number of intervals along each axis at whose ends loads are evaluated.
+/// Number of intervals along each axis. Loads are evaluated at their ends.
 const INTERVALS: usize = 4;
 
-/// Minimum initial distance from the equilibrium, as a share of the equilibrium displacement.
+/// Minimum initial distance from the equilibrium, as a fraction of the equilibrium displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns of a body that does not start in the stated equilibrium of a scene without dissipation:
-/// the body oscillates about its equilibrium. If the load grows slowly, the oscillations are small,
-/// and the finding is a note.
+/// Warns of a body that does not start in the stated equilibrium of a scene without dissipation,
+/// because it oscillates about the equilibrium. If the load grows slowly, the oscillations are
+/// small, and the finding is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -39,12 +39,12 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(HELP)]
 }
 
-/// Advice on loads that dissipate energy.
+/// Advice on entries of `loads` that dissipate energy.
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
 /// Whether a case without dissipation is compared with an equilibrium in which the body does not
-/// start. An external solver is assumed to have no dissipation.
+/// start. External solvers are assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     plan.steps == StepKind::Time
@@ -53,7 +53,8 @@ pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
 }
 
 /// Whether a load, a viscous material, friction or the velocity transfer dissipates energy.
-/// Plasticity does so only while the material flows, and elastic oscillations remain.
+/// Plasticity does not count: it dissipates only while the material flows, and elastic oscillations
+/// remain.
 fn removes_energy(scene: &Scene, case: &Case) -> bool {
     let terms = scene.terms();
     let resists = |share: f64| {
@@ -76,7 +77,7 @@ fn keeps_energy(transfer: TransferChoice) -> bool {
 }
 
 /// Whether a particle of the coarsest level starts away from its equilibrium position or with a
-/// velocity.
+/// non-zero velocity.
 fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     let Some(level) = plan.refine.levels.first() else { return false };
     // If the set-up of a level fails, its run reports the reason.

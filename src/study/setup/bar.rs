@@ -12,7 +12,7 @@ use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Creates the FEM bar of `method`; also used for references.
+/// Creates the FEM bar of `method`. Also used for references.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".into());
@@ -41,7 +41,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     Bar::new(setup).map_err(|error| error.to_string().into())
 }
 
-/// Stated and manufactured forces of a bar, if it has any.
+/// Combines the stated and manufactured forces of a bar; `None` if it has none.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     let on_face = |load: &&ListedLoad| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
@@ -62,8 +62,8 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     }))
 }
 
-/// Adds the stated forces (m/s2) at each place with the displacement `u` (m). Uniform forces are
-/// computed once.
+/// Adds the stated forces (m/s2) at each position, for the displacements `u` (m). Uniform forces
+/// are evaluated only once.
 fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t, &[0.0; 3]);
@@ -78,14 +78,14 @@ fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &
     }
 }
 
-/// Converts a traction to tension. Suites state tractions along +X, while the FEM uses tension
-/// along the outward normal.
+/// Converts a traction to a tension. The traction in a suite acts along +X, while the FEM uses a
+/// tension along the outward normal.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
     let (x, outwards) = if end == 0 { (scene.from[0], -1.0) } else { (scene.to[0], 1.0) };
     scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.tension(x, outwards))
 }
 
-/// P(F) (Pa) of a bar in uniaxial strain.
+/// Returns P(F) (Pa), the first Piola-Kirchhoff stress of a bar in uniaxial strain.
 fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFunction, SubjectError> {
     let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
     let law = BarLaw::find(law.name())
@@ -93,7 +93,7 @@ fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFuncti
     Ok(law.piola(young, poisson))
 }
 
-/// The method for computing a reference.
+/// Returns the method that computes a reference.
 pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
     Method::Fem {
         element: plan.element,
@@ -116,7 +116,7 @@ mod tests {
     /// Reference density (kg/m3).
     const DENSITY: f64 = 1.75;
 
-    /// `J sigma F^-T` (Pa) of the MPM material.
+    /// Computes `J sigma F^-T` (Pa) of the MPM material.
     fn piola_of_mpm<const D: usize>(plan: &MaterialPlan, f: &Matrix<D>) -> Matrix<3> {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut one = Particles::<D>::fill(&Block { from, to, density: DENSITY }, 1.0, 1);
@@ -130,7 +130,7 @@ mod tests {
         sigma * space.try_inverse().unwrap().transpose() * space.determinant()
     }
 
-    /// One plan for every material with an exact law for finite strains.
+    /// Lists one plan for every material with an exact law for finite strains.
     fn known(hardening: f64) -> impl Iterator<Item = (MaterialPlan, Equation)> {
         let every = MaterialPlan::every(|parameter| match parameter.symbol {
             "nu" => 0.3,
@@ -147,8 +147,7 @@ mod tests {
         known.filter(|(_, truth)| truth.is_finite())
     }
 
-    /// A law is implemented three times in different ways, so an error in one implementation is
-    /// detected.
+    /// Each law has three different implementations, so an error in one of them is detected.
     #[test]
     fn mpm_fem_and_truth_mean_the_same_law() {
         let elastic = known(0.0).filter(|(plan, _)| plan.properties().is_elastic());
@@ -172,15 +171,15 @@ mod tests {
         }
     }
 
-    /// Uniaxial strain in the elastic range and beyond, with loading that never reverses. For a
-    /// fluid: at rest.
+    /// The uniaxial strain leaves the elastic range, and loading never reverses. Fluids are at
+    /// rest.
     #[rstest]
     fn mpm_and_truth_mean_the_same_law(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return mapping of clay has order 1 in the step, so one step does not give the exact
-        // stress. `mpm::material::clay_paths` compares the two.
+        // The return mapping of clay has order 1 in the step, so a single step does not give the
+        // exact stress. `mpm::material::clay_paths` compares the two.
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];
@@ -193,7 +192,7 @@ mod tests {
         }
     }
 
-    /// P (Pa) of the MPM material in a bar that has been stretched in one step and is at rest.
+    /// Computes P (Pa) of the MPM material in a bar at rest that was stretched in one step.
     fn piola_at(plan: &MaterialPlan, stretch: f64) -> f64 {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut one = Particles::<1>::fill(&Block { from, to, density: DENSITY }, 1.0, 1);

@@ -25,18 +25,18 @@ pub(crate) struct Body<'a> {
     /// The scene of this body, with its shape, material and loads.
     pub(crate) own: &'a Scene,
     pub(crate) initial: Initial,
-    /// Problem with a manufactured force, if any.
+    /// Problem whose manufactured force acts on the body, if any.
     pub(crate) manufactured: Option<&'a Problem>,
-    /// Problem that the temperature solves, if any.
+    /// Heat-conduction problem of the body, if any.
     pub(crate) heat: Option<&'a Conduction>,
-    /// Whether F is stored even if neither law nor basis uses it.
+    /// Whether the particles store F even if neither law nor basis uses it.
     pub(crate) keeps_deformation: bool,
-    /// Displaced and additional particles, relative to the lattice.
+    /// Particles to move or add, relative to the lattice.
     pub(crate) lattice: LatticeEdits,
 }
 
 impl<'a> Body<'a> {
-    /// A body of a convergence study.
+    /// Creates the model of a body of a convergence study.
     pub(crate) fn of(plan: &'a ConvergencePlan, own: &'a Scene) -> Self {
         Self {
             scene: &plan.scene,
@@ -107,7 +107,7 @@ fn discretisation<const D: usize>(
     Ok((kernel, grid, particles))
 }
 
-/// Creates the quasi-static solver of `plan`, with the load applied in `load_steps` steps.
+/// Creates the quasi-static solver of `plan`, which applies the load in `load_steps` steps.
 ///
 /// # Errors
 /// The reason why there is no such solver.
@@ -133,7 +133,7 @@ pub(crate) fn quasi_static<const D: usize>(
     })?)
 }
 
-/// Creates the effects that the scene of `suite` lists, for `particles` and a `grid` of the caller.
+/// Creates the effects in the scene of `suite`, for `particles` and a `grid` of the caller.
 ///
 /// # Errors
 /// The reason why the effects cannot be created.
@@ -174,8 +174,8 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// The grid that the suite states, or the bounding box of the body with additional cells beyond
-/// free faces.
+/// Creates the grid that the suite states. If there is none, creates the bounding box of the body
+/// with additional cells outside free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);
@@ -183,7 +183,7 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
     kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
 }
 
-/// Creates the effects of the body's loads. A manufactured force precedes loads on sets.
+/// Creates the effects of the body's loads. A manufactured force comes before loads on sets.
 fn effects_of<const D: usize>(
     body: &Body<'_>,
     (grid, basis): (&Grid<D>, BasisName),
@@ -206,13 +206,13 @@ fn built<const D: usize>(
     loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
 }
 
-/// Whether an axis is periodic. A round body has no faces.
+/// Whether an axis is periodic. A round body has no faces and no periodic axes.
 pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
 /// Creates boundary conditions on the faces of the grid. If faces share a node, later conditions
-/// override earlier ones, so stronger conditions come last.
+/// override earlier ones. Stronger conditions therefore come last.
 pub(crate) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,
@@ -266,8 +266,8 @@ pub(crate) fn seeded_particles<const D: usize>(
     particles
 }
 
-/// Sets each particle mass for a varying density: its integral over the part of the particle's
-/// lattice cell that is inside the body.
+/// Sets each particle mass for a varying density: the density is integrated over the part of the
+/// particle's lattice cell that is inside the body.
 fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     if scene.density.uniform().is_some() {
         return;
@@ -279,7 +279,7 @@ fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     }
 }
 
-/// Particle of a piece of a body in the plane. Along a third axis it has unit thickness.
+/// Converts a piece of a body in the plane to a particle. Along a third axis it has unit thickness.
 fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
     let domain = piece.domain();
     Fragment {
@@ -293,7 +293,7 @@ fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
 }
 
 impl LatticeEdits {
-    /// Moves and adds particles.
+    /// Moves particles and adds particles.
     pub(crate) fn apply<const D: usize>(&self, particles: &mut Particles<D>) {
         let vector =
             |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));

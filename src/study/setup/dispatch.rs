@@ -1,4 +1,4 @@
-//! Converts names to types. Only this file uses all families.
+//! Converts names to types. Only this file uses all families of types.
 
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
@@ -32,8 +32,8 @@ pub fn subject(
     }
 }
 
-/// Profile of the second step of `method` on one level, because the first step allocates memory.
-/// `None` for FEM, and if the solver fails earlier.
+/// Returns the profile of the second step of `method` on one level, because the first step also
+/// allocates memory. `None` for FEM, and if the solver fails earlier.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     fn of_second_step<const D: usize>(
         plan: &ConvergencePlan,
@@ -80,8 +80,9 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
     })
 }
 
-/// Predicted stable time step (s) of `method` on one level: the minimum over the bodies, from
-/// `rounds` power iterations. Sharing nodes with other bodies does not make a body less stable.
+/// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
+/// `rounds` power iterations. A body does not become less stable by sharing nodes with other
+/// bodies.
 ///
 /// # Errors
 /// The reason why the time step cannot be computed.
@@ -92,13 +93,13 @@ pub(crate) fn stable_time_step(
     rounds: u32,
 ) -> Result<f64, SubjectError> {
     plan.scene.each().iter().try_fold(f64::INFINITY, |least, own| {
-        // The manufactured force does not affect the result and is expensive to prepare.
+        // The manufactured force does not affect the stable step and is expensive to prepare.
         let body = Body { manufactured: None, ..Body::of(plan, own) };
         Ok(least.min(stable_time_step_of(&body, method, level, rounds)?))
     })
 }
 
-/// Predicted stable time step (s) of one body with `method` on one level, from `rounds` power
+/// Predicts the stable time step (s) of one body with `method` on one level, from `rounds` power
 /// iterations.
 pub(crate) fn stable_time_step_of(
     body: &Body<'_>,
@@ -120,8 +121,8 @@ pub(crate) fn stable_time_step_of(
     with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }
 
-/// Creates an MPM subject that can be perturbed, with the `bodies` of one scene on the cells of
-/// `level`.
+/// Creates an MPM subject whose state can be perturbed. It contains the `bodies` of one scene on
+/// the cells of `level`.
 ///
 /// # Errors
 /// The reason why there is no such subject.
@@ -173,7 +174,7 @@ fn mpm<const D: usize>(
     })
 }
 
-/// Solver inputs for each body.
+/// Creates the solver inputs of each body.
 fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,

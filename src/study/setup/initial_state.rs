@@ -1,9 +1,9 @@
 //! Initial states of bodies.
 //!
-//! The initial state is that of the exact motion at t = 0, `x = X + u(X, 0)`, `F = I + grad u`,
-//! `v = u_t`, if the exact solution is a motion and the stress depends on the deformation only.
-//! Otherwise it is the state in the scene, by default at rest and undeformed. The initial stress is
-//! always that of the scene.
+//! If the exact solution is a motion and the stress depends on the deformation only, the initial
+//! state is the exact motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise it
+//! is the state in the scene, by default at rest and undeformed. The initial stress is always that
+//! of the scene.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
@@ -12,7 +12,7 @@ use crate::suite::model::{ConvergencePlan, Scene};
 
 /// Initial state of a body.
 pub(crate) struct Initial {
-    /// Exact motion that determines the initial state, if any.
+    /// Exact motion from which the initial state is computed, if any.
     motion: Option<Motion>,
     displacement: Option<Motion>,
     velocity: Option<Motion>,
@@ -20,18 +20,18 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// Initial state of a subject of `plan` with one body.
+    /// Creates the initial state of a subject of `plan` with one body.
     pub(crate) fn of(plan: &ConvergencePlan) -> Self {
         Self::of_body(plan, &plan.scene)
     }
 
-    /// Initial state of one of the bodies of `plan`.
+    /// Creates the initial state of one of the bodies of `plan`.
     pub(crate) fn of_body(plan: &ConvergencePlan, body: &Scene) -> Self {
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// Initial state that the scene states.
+    /// Creates the initial state that the scene states.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
@@ -43,7 +43,7 @@ impl Initial {
         }
     }
 
-    /// Displacement, velocity and their gradients at `label`.
+    /// Returns displacement, velocity and their gradients at `label`.
     pub(crate) fn at(&self, label: &[f64]) -> Derivatives {
         if let Some(motion) = &self.motion {
             return motion.derivatives(label, 0.0);
@@ -57,7 +57,7 @@ impl Initial {
         now
     }
 
-    /// The `law` of `particles` with their initial stress, if any.
+    /// Adds the initial stress of `particles`, if any, to `law`.
     pub(crate) fn stressed<const D: usize>(
         &self,
         law: Box<dyn Material<D>>,
@@ -114,8 +114,7 @@ mod tests {
         InitialStress::new(stated.into())
     }
 
-    /// The solver and the exact solution add equal terms for the initial stress to the stress of
-    /// the law.
+    /// The solver and the exact solution must add the same initial stress to the stress of the law.
     #[rstest]
     #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]

@@ -1,5 +1,5 @@
-//! The initial state of a run of a stability study, and the run as a problem for an external
-//! solver.
+//! The initial state of a run in a stability study. Also converts the run to a problem for an
+//! external solver.
 
 use crate::exact::Random;
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
@@ -11,13 +11,13 @@ use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
 use crate::verify::is_looked_at;
 
-/// Capabilities that a run requires.
+/// Returns the capabilities that a run requires of a solver.
 pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let start = handed("", setup).map(|problem| problem.particles);
     let mut needs = ProblemNeeds {
         // A trial observes the stored energy, which requires stresses.
         column: Some("stress"),
-        // If a run cannot be passed to a solver, the run reports the reason.
+        // If a run cannot be passed to a solver, it reports the reason later.
         initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
         ..of_scene(&setup.scene)
     };
@@ -33,10 +33,10 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// The solver at the start of a run. `suite` is the name of the suite.
+/// Creates the subject of a run by `solver`. `suite` is the name of the suite.
 ///
 /// # Errors
-/// The reason why the solver cannot be observed.
+/// The reason why the growth of the energy cannot be observed.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -55,11 +55,11 @@ pub(super) fn subject(
     }
 }
 
-/// The problem of a run. `suite` is the name of the suite. States are compared at the checks of a
-/// trial.
+/// Creates the problem of a run. `suite` is the name of the suite. The instants of the problem are
+/// the steps after which a trial checks the state.
 ///
 /// # Errors
-/// The reason why there is no such problem.
+/// The reason why the problem cannot be created.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
@@ -80,10 +80,10 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     Ok(problem(suite, &setup.scene, None, setup.level, run))
 }
 
-/// Seed of the perturbations at the start.
+/// Seed of the random perturbations of the initial state.
 const SEED: u64 = 8;
 
-/// The bodies at the start of a run, each with its own scene.
+/// Returns the bodies at the start of a run, each with its own scene.
 pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
     let body = |own| Body {
         scene: &setup.scene,
@@ -97,7 +97,7 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each number of the state if the run requests it, so that every mode is
+/// Adds a random number to each number of the state if the run requests it. Every mode is then
 /// present.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {

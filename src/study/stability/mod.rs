@@ -80,10 +80,10 @@ impl CaseRunner for StabilityRunner<'_> {
     }
 }
 
-/// The part of an outcome that is known before the case runs.
+/// Creates the part of an outcome that is known before the case runs.
 fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let case = run.case;
-    // Without a fixed face, settings of walls have no effect.
+    // If no face is fixed, settings of walls have no effect.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
     let mut settings = case.method.settings();
     settings.retain(|(key, _)| walls || key != "walls");
@@ -123,7 +123,7 @@ fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -
     }
 }
 
-/// Rows that describe the study, with the set-up of its first row.
+/// Returns the rows that describe the study. The set-up is that of the first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
     let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();

@@ -1,4 +1,4 @@
-//! Runs one case of a stability study: runs, predictions and limits for each row.
+//! Runs one case of a stability study: computes runs, predictions and limits for each row.
 
 use super::handed;
 use super::handed::{bodies, perturb};
@@ -17,27 +17,27 @@ use crate::verify::{
     spectral_radius, stability_limit, trial,
 };
 
-/// Number of tested values before the first unstable interval is bisected.
+/// Number of values that are tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Number of tested values if each test is a whole run.
+/// Number of values that are tested if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.
 const SHARP: f64 = 1e-5;
 
-/// Relative accuracy of limits from runs.
+/// Relative accuracy of limits that are observed in runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
-/// Shares of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5 %.
-/// Below the limit the nearer share is the stronger test. A full run, with all its steps, uses
-/// both.
+/// Fractions of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5
+/// %. Below the limit the fraction nearer to the limit is the stronger test. A full run, with all
+/// its steps, uses both.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// Effect of rounding on a defective eigenvalue 1, such as that of rigid motion.
+/// Change of a defective eigenvalue 1, such as that of rigid motion, due to rounding.
 const DEFECT: f64 = 1e-5;
 
-/// One case of a study.
+/// One case of a stability study.
 pub(super) struct CaseRun<'a> {
     pub(super) plan: &'a StabilityPlan,
     pub(super) case: &'a StabilityCase,
@@ -45,7 +45,7 @@ pub(super) struct CaseRun<'a> {
 }
 
 impl CaseRun<'_> {
-    /// Result row for one value of the swept parameter.
+    /// Returns the result row for one value of the swept parameter.
     pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
         let found = match &self.plan.sought {
@@ -59,7 +59,7 @@ impl CaseRun<'_> {
         found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
     }
 
-    /// Set-up with the given parameter values.
+    /// Creates the set-up for the given parameter values.
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
         let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
@@ -72,8 +72,8 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// Stable time step (s). For an external solver, this is the time in which a wave crosses a
-    /// cell.
+    /// Returns the stable time step (s). For an external solver, the time in which a wave crosses a
+    /// cell is used.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
         let of_body = |body: &Body<'_>| match self.case.method {
             Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
@@ -92,7 +92,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// Runs the case with the given parameter values.
+    /// Runs the case with the given parameter values, and returns the result.
     fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, SubjectError> {
         let run = || {
             let setup = self.setup(values)?;
@@ -107,7 +107,7 @@ impl CaseRun<'_> {
         self.context.cached(&key, &name, broken, run)
     }
 
-    /// The subject at the start of a run.
+    /// Creates the subject at the start of a run.
     fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, SubjectError> {
         if let Some(solver) = self.context.solver {
             return handed::subject(solver, self.context.suite, setup);
@@ -117,7 +117,7 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// The run with the given parameter values, for output as files.
+    /// Prepares the run with the given parameter values for output as files.
     pub(super) fn shown(
         &self,
         values: &ParameterValues<'_>,
@@ -132,8 +132,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// Limit of the parameter whose limit is sought. If the particles are frozen, it is predicted
-    /// and confirmed by runs; otherwise it is observed in runs.
+    /// Returns the limit of the parameter whose limit is sought. If the particles are frozen, the
+    /// limit is predicted and then confirmed by runs; otherwise it is observed in runs.
     fn critical(
         &self,
         value: f64,
@@ -183,7 +183,7 @@ impl CaseRun<'_> {
     }
 }
 
-/// Text of parameter values: `a = 1, b = 2`.
+/// Formats parameter values, such as `a = 1, b = 2`.
 fn said(values: &ParameterValues<'_>) -> String {
     let said: Vec<String> =
         values.iter().map(|(name, value)| format!("{name} = {value}")).collect();

@@ -1,4 +1,4 @@
-//! Cost of one more digit: the exponent of work ~ error^exponent, observed and theoretical.
+//! Cost of one more correct digit: the exponent of work ~ error^exponent, observed and theoretical.
 //!
 //! With error ~ h^p and work ~ h^-g the exponent is -g/p. Here g = D + 1 if cells are refined and
 //! time steps are proportional to h, g = D if the steps are constant, and g = 1 if only time steps
@@ -15,19 +15,19 @@ use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 /// Minimum number of points for an interval.
 const FEWEST: usize = 3;
 
-/// Minimum relative half-width of an interval, for series without noise.
+/// Minimum relative half-width of an interval. It applies to series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Relative difference between observed and theoretical growth of work that is too small to explain
-/// a different exponent.
+/// Maximum relative difference between the observed and the theoretical growth of work that is too
+/// small to explain a different exponent.
 const SAME: f64 = 0.02;
 
-/// Marginal cost of accuracy.
+/// Marginal cost of accuracy: the exponent of work over error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exponent {
-    /// Observed exponent, with its 95 % confidence interval.
+    /// Observed exponent of work over error, with its 95 % confidence interval.
     pub observed: Interval,
-    /// Theoretical exponent.
+    /// Theoretical exponent of work over error.
     pub theory: f64,
     /// Observed order of the error over the same levels, and the formal order.
     pub order: (f64, f64),
@@ -47,9 +47,9 @@ pub enum Agreement {
 }
 
 impl Exponent {
-    /// The exponent over the asymptotic levels of `part`, or over all its levels if fewer than
-    /// three are asymptotic. `order` and `growth` are the theoretical values. `None` with fewer
-    /// than three levels, or if the interval of the slope contains zero.
+    /// Returns the exponent over the asymptotic levels of `part`, or over all its levels if fewer
+    /// than three are asymptotic. `order` and `growth` are the theoretical values. `None` with
+    /// fewer than three levels, or if the interval of the slope contains zero.
     pub fn of(samples: &[Sample], part: &ConvergingPart, order: f64, growth: f64) -> Option<Self> {
         let levels = &samples[part.levels.clone()];
         let asymptotic: Vec<Sample> = levels.iter().filter(|one| one.asymptotic).copied().collect();
@@ -72,7 +72,7 @@ impl Exponent {
         let errors = slope(|one| one.spacing, |one| one.error)?.slope;
         let works = slope(|one| one.spacing, |one| one.work)?.slope;
         Some(Self {
-            // The steeper bound of the falling slope gives the lower cost.
+            // The slope is negative. Its steeper bound gives the lower cost.
             observed: Interval {
                 value: 1.0 / fall.value,
                 low: 1.0 / fall.high,
@@ -84,7 +84,7 @@ impl Exponent {
         })
     }
 
-    /// Whether the theoretical value is within the interval, and if not, the main cause.
+    /// Returns whether the theoretical value is within the interval, and if not, the main cause.
     pub fn agreement(&self) -> Agreement {
         let Interval { low, high, .. } = self.observed;
         let spare = ROUNDING * self.theory.abs();

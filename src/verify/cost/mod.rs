@@ -2,15 +2,16 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`sample`](Sample) | levels, the converging part, the front, the work at an error |
+//! | [`sample`](Sample) | levels, the converging part, the Pareto front, the work at an error |
 //! | [`exponent`](Exponent) | cost of one more digit, compared with theory |
-//! | [`ranking`](Ranking) | these figures for the methods of one problem |
+//! | [`ranking`](Ranking) | methods of one problem, ranked by their cost |
 //! | [`timing`](Timing) | measured seconds, and a suite with timed levels |
 //! | [`model`](Model) | predicted seconds |
 //! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
-//! Work is any additive number: particle-node transfers, which are equal on all machines, or
-//! seconds. Rankings do not extrapolate: an error below the errors of all levels is not reached.
+//! Work is any additive measure: particle-node transfers, which are equal on all machines, or
+//! seconds. Rankings do not extrapolate: if all levels have larger errors than the target, the
+//! target is not reached.
 
 mod exponent;
 mod model;
@@ -28,5 +29,5 @@ pub use ranking::{MethodCost, Ranked, Ranking, by_transfers, rankings};
 pub use sample::{ConvergingPart, End, Reach, Sample, pareto_front};
 pub use timing::{BestCandidate, Machine, TimedSuite, Timing};
 
-/// Target errors of tables, as shares of the size of the solution.
+/// Target errors of tables, relative to the size of the solution.
 pub const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

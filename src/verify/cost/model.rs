@@ -6,27 +6,27 @@
 //!
 //! The coefficients are non-negative and minimise the relative errors at measured levels. Within
 //! one refinement the four columns grow nearly in proportion, and noise would make some
-//! coefficients negative. So every subset of columns is solved, and the best solution without a
+//! coefficients negative. Therefore every subset of columns is solved. The best solution without a
 //! negative coefficient is used (non-negative least squares, Lawson & Hanson 1974, chapter 23; four
 //! columns have only fifteen subsets).
 
-/// Amounts of work of a run.
+/// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Workload {
-    /// Particle-node transfers.
+    /// Number of particle-node transfers.
     pub transfers: f64,
-    /// Particles times steps.
+    /// Number of particles times number of steps.
     pub updates: f64,
-    /// Nodes times steps.
+    /// Number of nodes times number of steps.
     pub node_steps: f64,
-    /// Steps.
+    /// Number of steps.
     pub steps: f64,
 }
 
-/// Seconds per unit of each part of the workload.
+/// Seconds per unit of each kind of work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model {
-    /// Seconds per transfer, particle update, node and step, and step.
+    /// Seconds per transfer, per particle update, per node and step, and per step.
     pub seconds: [f64; 4],
 }
 
@@ -49,7 +49,7 @@ impl Model {
         let mut best: Option<(f64, [f64; COLUMNS])> = None;
         for subset in 1_u32..1 << COLUMNS {
             let chosen: Vec<usize> = (0..COLUMNS).filter(|k| subset >> k & 1 == 1).collect();
-            // A fit through all points has no predictive value.
+            // A fit through all points would predict nothing.
             if chosen.len() > (rows.len() / 2).max(1) {
                 continue;
             }
@@ -65,13 +65,13 @@ impl Model {
         best.map(|(_, seconds)| Self { seconds })
     }
 
-    /// Predicted seconds of a run.
+    /// Returns the predicted seconds of a run.
     pub fn predict(&self, load: &Workload) -> f64 {
         load.columns().iter().zip(&self.seconds).map(|(x, s)| x * s).sum()
     }
 }
 
-/// `sum (prediction / measured - 1)^2`
+/// Returns `sum (prediction / measured - 1)^2`.
 fn residual(rows: &[[f64; COLUMNS]], seconds: &[f64; COLUMNS]) -> f64 {
     let off = |row: &[f64; COLUMNS]| {
         let share: f64 = row.iter().zip(seconds).map(|(x, s)| x * s).sum();
@@ -107,8 +107,8 @@ fn solve(rows: &[[f64; COLUMNS]], chosen: &[usize]) -> Option<[f64; COLUMNS]> {
     Some(seconds)
 }
 
-/// Gauss-Jordan elimination. Diagonal pivots suffice for this kind of matrix. The last column
-/// becomes the solution.
+/// Solves a linear system by Gauss-Jordan elimination. Diagonal pivots suffice for normal
+/// equations. The last column becomes the solution.
 fn eliminate(matrix: &mut [Vec<f64>]) -> Option<()> {
     /// Squared sine of the angle below which two columns count as linearly dependent.
     const LEAST_PIVOT: f64 = 1e-9;
@@ -133,7 +133,7 @@ mod tests {
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
-    /// A level of a study in 2-D, with additional cells around the body.
+    /// Returns the workload of a level in 2-D, with additional cells around the body.
     fn load(cells: f64) -> Workload {
         let (particles, steps) = (4.0 * cells * cells, 10.0 * cells);
         Workload {
@@ -186,7 +186,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-        /// On any machine, with 3 % noise, the time on a grid twice as fine is predicted to 15 %.
+        /// On any machine, with 3 % noise, the predicted time on a grid twice as fine is within 15
+        /// %.
         #[test]
         fn a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,

@@ -1,18 +1,18 @@
 //! Predicts the error of a level that has not run, with an interval.
 //!
-//! Beyond the finest of the n levels of the judge's fit, with x = ln h:
+//! For levels finer than the n levels of the judge's fit, with x = ln h:
 //!
 //! ```text
 //! ln error = line(x) -+ (t(0.975, n - 2) s sqrt(1 + 1/n + (x - mean)^2 / Sxx) + 0.25 (finest - x))
 //! ```
 //!
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
-//! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: a settled order may
-//! change by 0.25 beyond the levels. Between levels the error is interpolated on logarithmic axes.
+//! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: on finer levels a
+//! settled order may change by 0.25. Between levels the error is interpolated on logarithmic axes.
 //! Its interval has the second term only, for the distance to the nearer level.
 //!
-//! No error is predicted beyond levels that do not converge or end in a floor. Nor is one predicted
-//! if the order falls at the end, which is the first sign of a floor.
+//! No error is predicted for finer levels if the errors do not converge or end in a floor. The same
+//! holds if the order falls at the end, which is the first sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -29,15 +29,15 @@ const FEWEST: usize = 3;
 pub struct PredictedError {
     /// Levels over which the method converges.
     levels: Vec<Sample>,
-    /// The fitted line, and its order or the formal order, whichever is lower; or the reason for no
-    /// prediction beyond the levels.
+    /// The fitted line, and the lower of its order and the formal order; or the reason why no error
+    /// is predicted for finer levels.
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }
 
-/// Reason why no error is predicted beyond the levels.
+/// Reason why no error is predicted for finer levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unpredicted {
-    /// The verdict on the levels is not "converging".
+    /// The verdict on the levels is not `converging`.
     Verdict(Verdict),
     /// The converging part ends before the finest level.
     End(End),
@@ -59,7 +59,7 @@ impl fmt::Display for Unpredicted {
 }
 
 impl PredictedError {
-    /// Predicts from levels with their verdict and their converging part `part`.
+    /// Creates the prediction from levels, the verdict on them, and their converging part `part`.
     pub fn of(
         samples: &[Sample],
         part: &ConvergingPart,
@@ -75,20 +75,20 @@ impl PredictedError {
         Self { levels, beyond }
     }
 
-    /// Reason why no error is predicted beyond the finest level; `None` if one is predicted.
+    /// Returns the reason why no error is predicted for finer levels; `None` if one is predicted.
     pub fn obstacle(&self) -> Option<Unpredicted> {
         self.beyond.err()
     }
 
-    /// Predicted error at a spacing; `None` without a prediction.
+    /// Returns the predicted error at a spacing; `None` without a prediction.
     pub fn at(&self, spacing: f64) -> Option<Interval> {
         let finest = self.levels.last()?;
         if spacing < finest.spacing {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // An observed order above the formal order on coarse grids is not expected on finer
-            // grids.
+            // If the observed order on coarse grids is above the formal order, finer grids are not
+            // expected to keep it.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {
@@ -108,7 +108,7 @@ impl PredictedError {
     }
 }
 
-/// Fits the line beyond the levels; fails if the order falls at their end.
+/// Fits the line for finer levels; fails if the order falls at the end of the levels.
 fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpredicted> {
     let fitted = levels.iter().enumerate().filter(|(_, one)| one.asymptotic);
     let points: Vec<LogPoint> = fitted
@@ -124,7 +124,7 @@ fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpre
     holds.then_some((line, order)).ok_or(Unpredicted::Falling)
 }
 
-/// Exponential of each value; `None` if a result is not finite.
+/// Returns the exponential of each value; `None` if a result is not finite.
 fn exp(Interval { value, low, high }: Interval) -> Option<Interval> {
     let [value, low, high] = [value, low, high].map(libm::exp);
     (low <= value && value <= high).then_some(Interval { value, low, high })

@@ -29,8 +29,8 @@ pub struct Ranked {
     pub part: ConvergingPart,
     /// Spacing and work at each target error.
     pub reaches: Vec<Reach>,
-    /// Ratio of the work to the minimum over all methods, at each target error; `None` if the
-    /// method does not reach the target.
+    /// Work at each target error, divided by the smallest work of all methods; `None` if the method
+    /// does not reach the target.
     pub times: Vec<Option<f64>>,
     /// Smallest error of the converging part, or of all levels if there is no such part.
     pub best: Option<f64>,
@@ -45,7 +45,7 @@ pub struct Ranked {
 pub struct Ranking {
     /// Description of the problem.
     pub problem: String,
-    /// Divisor of the errors.
+    /// Size of the solution. Errors are divided by it.
     pub size: f64,
     /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,
@@ -101,7 +101,7 @@ fn ranked(method: MethodCost, targets: &[f64], front: Vec<usize>) -> Ranked {
 }
 
 impl Ranked {
-    /// Reason why the method does not reach the finest target; `None` if it does.
+    /// Returns the reason why the method does not reach the finest target; `None` if it does.
     pub fn obstacle(&self) -> Option<End> {
         let reached = self.reaches.last().is_some_and(|reach| reach.work().is_some());
         (!reached).then_some(self.part.end)
@@ -120,9 +120,9 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
     pairs.map(compare).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
 }
 
-/// Rankings of the comparable cases of a suite, one for each problem; `work` returns the work of a
-/// level. Excluded are cases without exact solution or reference, problems without an error scale,
-/// and cases with fewer than three levels.
+/// Ranks the comparable cases of a suite, with one ranking for each problem; `work` returns the
+/// work of a level. Excluded are cases without exact solution or reference, problems without an
+/// error scale, and cases with fewer than three levels.
 pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
@@ -150,8 +150,8 @@ pub fn rankings<'a>(
     problems.into_iter().map(rank).collect()
 }
 
-/// Rankings of the cases of a suite by transfers, which are equal on all machines. External solvers
-/// are excluded, because they do not count transfers.
+/// Ranks the cases of a suite by transfers, which are equal on all machines. External solvers are
+/// excluded, because they do not count transfers.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
     let is_counted = |case: &&CaseOutcome| {
         let levels = case.convergence().map(|study| study.levels.as_slice());

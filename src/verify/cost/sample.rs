@@ -1,22 +1,22 @@
 //! Levels of one method: error and work of each level, the converging part, the Pareto front, and
 //! the work needed to reach an error.
 //!
-//! Between two levels of the converging part an error may be interpolated. Elsewhere a small error
-//! may be accidental: a sign change of the error, or fluctuations on a floor. The next finer grid
+//! Between two levels of the converging part an error may be interpolated. On other levels a small
+//! error may be accidental: the error may change sign, or fluctuate on a floor. The next finer grid
 //! may not confirm it.
 
 use std::ops::Range;
 
-/// Result of one level.
+/// Error and work of one level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Refined spacing.
+    /// Spacing on the refined axis.
     pub spacing: f64,
     /// Error relative to the size of the solution.
     pub error: f64,
-    /// Work: transfers, or seconds.
+    /// Work: number of transfers, or seconds.
     pub work: f64,
-    /// Whether the judge may count the level.
+    /// Whether the level may count for the verdict.
     pub usable: bool,
     /// Whether the judge uses the level in the fit of the order.
     pub asymptotic: bool,
@@ -25,7 +25,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Whether error and work of the level are valid; false for NaN.
+    /// Whether error and work of the level are valid; false if one of them is NaN.
     pub fn counts(&self) -> bool {
         let sound = self.error >= 0.0 && self.error.is_finite();
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
@@ -37,27 +37,27 @@ impl Sample {
     }
 }
 
-/// Minimum order between neighbouring levels that counts as a decrease of the error.
+/// Minimum order between neighbouring levels for which the error counts as decreasing.
 const LEAST_ORDER: f64 = 0.2;
 
-/// Minimum number of levels of a converging part, as in the judge: over two levels an error may
-/// decrease by chance.
+/// Minimum number of levels of a converging part, as in the judge: over only two levels an error
+/// may decrease by chance.
 const FEWEST: usize = 3;
 
-/// Minimum ratio of the error to that of the previous level that counts as growth. Smaller changes
-/// are fluctuations on a floor.
+/// Minimum ratio of an error to the error of the previous level for which the error counts as
+/// growing. Smaller changes are fluctuations on a floor.
 const GROWS: f64 = 1.25;
 
-/// Neighbouring levels over which the error decreases.
+/// A range of neighbouring levels over which the error decreases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConvergingPart {
     /// Indices of the levels, from coarse to fine.
     pub levels: Range<usize>,
-    /// Reason for the end of the part.
+    /// Reason why the part ends.
     pub end: End,
 }
 
-/// Reasons for the end of a converging part.
+/// Reason why a converging part ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// No finer level was run.
@@ -66,16 +66,16 @@ pub enum End {
     Floor,
     /// The error grows on the next level.
     Grows,
-    /// The next level failed.
+    /// The run of the next level failed.
     Failed,
-    /// The next level does not count.
+    /// The next level does not count for the verdict.
     Crossings,
     /// There are no three consecutive levels over which the error decreases.
     NoTrend,
 }
 
 impl End {
-    /// Text for tables.
+    /// Describes the reason in tables.
     pub fn words(self) -> &'static str {
         match self {
             Self::Levels => "no finer level",
@@ -89,9 +89,9 @@ impl End {
 }
 
 impl ConvergingPart {
-    /// The converging part of levels from coarse to fine. Of several such parts, the one with the
-    /// largest decrease of the error is returned. Without a converging part, `levels` is empty and
-    /// `end` has the reason.
+    /// Returns the converging part of levels that are sorted from coarse to fine. If there are
+    /// several such parts, the one with the largest decrease of the error is returned. Without a
+    /// converging part, `levels` is empty and `end` has the reason.
     pub fn of(samples: &[Sample]) -> Self {
         let mut best: Option<(f64, Range<usize>)> = None;
         let mut start = 0;
@@ -123,7 +123,7 @@ fn falls(coarse: &Sample, fine: &Sample) -> bool {
     libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
 }
 
-/// Reason why level `next` is not in the part.
+/// Returns the reason why level `next` does not belong to the part.
 fn end(samples: &[Sample], next: usize) -> End {
     let Some(finer) = samples.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
@@ -137,12 +137,11 @@ fn end(samples: &[Sample], next: usize) -> End {
     }
 }
 
-/// Minimum relative decrease of the error that justifies more work. Smaller differences are
-/// negligible.
+/// Minimum relative decrease of the error that justifies more work.
 pub(super) const WORTH: f64 = 0.01;
 
-/// Indices of the samples on the Pareto front, from the least work to the smallest error. Of equal
-/// samples only the first is included.
+/// Returns the indices of the samples on the Pareto front, from the least work to the smallest
+/// error. Of equal samples only the first is included.
 pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..samples.len()).filter(|k| samples[*k].counts()).collect();
     let key = |k: usize| (samples[k].work, samples[k].error);
@@ -164,27 +163,29 @@ pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
 /// Work and spacing at which the error reaches a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
-    /// Between two levels of the converging part, by linear interpolation on logarithmic axes.
+    /// The error is reached between two levels of the converging part. Values are interpolated
+    /// linearly on logarithmic axes.
     At {
         /// Interpolated work.
         work: f64,
         /// Interpolated spacing.
         spacing: f64,
     },
-    /// On the coarsest level of the converging part, whose work is an upper bound.
+    /// The coarsest level of the converging part already reaches the error. Its work is an upper
+    /// bound.
     Already {
         /// Work of the coarsest level.
         work: f64,
         /// Spacing of the coarsest level.
         spacing: f64,
     },
-    /// On no level of the converging part.
+    /// No level of the converging part reaches the error.
     Never,
 }
 
 impl Reach {
-    /// Work and spacing at which the levels reach the error `target`. The levels are ordered from
-    /// coarse to fine and converge over `part`.
+    /// Returns the work and spacing at which the levels reach the error `target`. The levels are
+    /// sorted from coarse to fine and converge over `part`.
     pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
         let mut counted = samples.iter().filter(|one| one.counts());
         let unbroken = samples.iter().all(|one| !one.failed);
@@ -211,7 +212,7 @@ impl Reach {
         }
     }
 
-    /// The work, if the error is reached.
+    /// Returns the work at the error, if it is reached.
     pub fn work(&self) -> Option<f64> {
         match self {
             Self::At { work, .. } | Self::Already { work, .. } => Some(*work),
@@ -219,7 +220,7 @@ impl Reach {
         }
     }
 
-    /// The spacing, if the error is reached.
+    /// Returns the spacing at the error, if it is reached.
     pub fn spacing(&self) -> Option<f64> {
         match self {
             Self::At { spacing, .. } | Self::Already { spacing, .. } => Some(*spacing),

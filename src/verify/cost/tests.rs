@@ -1,4 +1,4 @@
-//! Series with known answers.
+//! Tests on series with known results.
 
 use super::{
     Agreement, ConvergingPart, End, Exponent, MethodCost, PredictedError, Ranking, Reach, Sample,
@@ -13,7 +13,7 @@ fn level(spacing: f64, error: f64, work: f64) -> Sample {
     Sample { spacing, error, work, usable: true, asymptotic: true, failed: false }
 }
 
-/// error = h^p, work = h^-g, with h = 1/2, 1/4, ...
+/// Creates levels with error = h^p and work = h^-g for h = 1/2, 1/4, ...
 fn power(p: f64, g: f64, levels: i32) -> Vec<Sample> {
     let one = |k: i32| {
         let h = libm::exp2(-f64::from(k));
@@ -80,7 +80,7 @@ fn targets(#[case] series: &[f64], #[case] target: f64, #[case] work: Option<f64
     assert_eq!(reach(&errors(series), target).work(), work);
 }
 
-/// A good coarsest level does not hide a failure on a finer level.
+/// A good coarsest level must not hide a failure on a finer level.
 #[test]
 fn what_breaks_is_not_reached_already() {
     let mut samples = errors(&[1e-5, 1e-6, 1e-7]);
@@ -132,7 +132,7 @@ fn predicted(samples: &[Sample]) -> PredictedError {
     PredictedError::of(samples, &ConvergingPart::of(samples), Verdict::Converging, 2.0)
 }
 
-/// Without noise the interval is that of an order that may change by 0.25 over an octave.
+/// Without noise the interval covers an order that changes by 0.25 over an octave.
 #[test]
 fn a_power_law_goes_on_within_what_counts_as_settled() {
     let found = predicted(&power(2.0, 3.0, 5)).at(1.0 / 64.0).unwrap();
@@ -142,8 +142,8 @@ fn a_power_law_goes_on_within_what_counts_as_settled() {
     assert_relative_eq!(found.high, wanted * libm::exp2(0.25), max_relative = 1e-12);
 }
 
-/// By hand: four levels with +- 0.1 about the order 2 have rss = 0.04 - 0.2^2/5 = 0.032. One octave
-/// beyond them, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
+/// By hand: four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032.
+/// One octave finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
 #[test]
 fn noise_widens_the_interval_of_a_predicted_error() {
     let mut samples = power(2.0, 3.0, 4);
@@ -159,8 +159,8 @@ fn noise_widens_the_interval_of_a_predicted_error() {
     assert_relative_eq!(found[1], half_width, max_relative = 1e-4);
 }
 
-/// The predicted error follows the theoretical order. The interval includes a continuation of the
-/// observed order.
+/// The predicted error follows the theoretical order. Its interval includes the continuation of the
+/// higher observed order.
 #[test]
 fn what_is_better_than_theory_is_not_expected_to_stay_so() {
     let found = predicted(&power(3.0, 3.0, 4)).at(1.0 / 32.0).unwrap();
@@ -249,8 +249,8 @@ fn series() -> impl Strategy<Value = Vec<Sample>> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(400) })]
 
-    /// An error is reached only if a level that counts has at most this error. The work is between
-    /// the values of levels.
+    /// An error is reached only if a level that counts has at most this error. The interpolated
+    /// work is between the work of two levels.
     #[test]
     fn nothing_is_extrapolated(samples in series(), target in 1e-9..1.0_f64) {
         if let Some(work) = reach(&samples, target).work() {
@@ -261,7 +261,7 @@ proptest! {
         }
     }
 
-    /// A finer target is not reached if a coarser one is not.
+    /// If a coarser target is not reached, a finer one is not reached either.
     #[test]
     fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
         let fine = reach(&samples, target);
@@ -272,8 +272,8 @@ proptest! {
         }
     }
 
-    /// No level dominates one on the front. Every level that counts is dominated or equalled by one
-    /// on the front, except for negligible differences of the error.
+    /// No level dominates a level on the front. Every level that counts is dominated or equalled by
+    /// a level on the front, except for negligible differences of the error.
     #[test]
     fn the_front_is_the_front(samples in series()) {
         let front = super::pareto_front(&samples);

@@ -5,14 +5,14 @@ use super::ranking::{Ranking, by_transfers, rankings};
 use crate::verify::order::fit::Interval;
 use crate::verify::outcome::SuiteOutcome;
 
-/// Repeated measurements of one time (s).
+/// Statistics of repeated measurements of one time (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
-    /// The median.
+    /// Median of the measurements (s).
     pub median: f64,
-    /// The lower quartile.
+    /// Lower quartile (s).
     pub low: f64,
-    /// The upper quartile.
+    /// Upper quartile (s).
     pub high: f64,
     /// Number of measurements.
     pub repeats: usize,
@@ -21,20 +21,21 @@ pub struct Timing {
 /// State of the machine during time measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
-    /// Cores that the process may use.
+    /// Number of cores that the process may use.
     pub cores: usize,
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Share of the time for which the measuring thread waited for a core. This time is excluded
-    /// from all measured seconds. `None` if the system does not report it: then it is included.
+    /// Fraction of the time during which the measuring thread waited for a core. This time is
+    /// excluded from all measured seconds. `None` if the system does not report it; it is then
+    /// included.
     pub waited: Option<f64>,
-    /// A constant loop, timed between all other measurements. Its spread is the noise of the clock
-    /// frequency and of other processes.
+    /// Time (s) of a constant loop that runs between all other measurements. Its spread is the
+    /// noise due to the clock frequency and other processes.
     pub fixed_loop: Option<Timing>,
 }
 
 impl Timing {
-    /// Median and quartiles; `None` without samples, or if one is not finite.
+    /// Computes median and quartiles; `None` without samples, or if one is not finite.
     pub fn of(samples: &[f64]) -> Option<Self> {
         if samples.is_empty() || samples.iter().any(|s| !s.is_finite()) {
             return None;
@@ -50,7 +51,7 @@ impl Timing {
         Some(Self { median: at(0.5), low: at(0.25), high: at(0.75), repeats: sorted.len() })
     }
 
-    /// Interquartile range divided by the median.
+    /// Returns the interquartile range divided by the median.
     pub fn spread(&self) -> f64 {
         (self.high - self.low) / self.median
     }
@@ -69,26 +70,27 @@ pub struct TimedSuite {
 }
 
 impl TimedSuite {
-    /// Rankings by measured seconds.
+    /// Ranks the cases by measured seconds.
     pub fn by_seconds(&self) -> Vec<Ranking> {
         rankings(&self.outcome.cases, |case, level, _| {
             self.timing(&case.case, level).map_or(f64::NAN, |timing| timing.median)
         })
     }
 
-    /// Rankings by transfers.
+    /// Ranks the cases by transfers.
     pub fn by_transfers(&self) -> Vec<Ranking> {
         by_transfers(&self.outcome.cases)
     }
 
-    /// Measured time of a level.
+    /// Returns the measured time (s) of level number `level` of a case.
     pub fn timing(&self, case: &str, level: usize) -> Option<Timing> {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// Cost model of a case, and its relative error at the finest level when it is fitted to the
-    /// other levels only. This error shows how well the model predicts a level that has not run.
+    /// Fits the cost model of a case. Also returns its relative error at the finest level when it
+    /// is fitted to the other levels only, which shows how well it predicts a level that has not
+    /// run.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =
@@ -103,9 +105,9 @@ impl TimedSuite {
 /// The most accurate setting whose predicted time is within a budget, with its measured result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestCandidate {
-    /// The budget (s).
+    /// Time budget (s).
     pub budget: f64,
-    /// The method.
+    /// Name of the case whose method is chosen.
     pub case: String,
     /// Cells along the first axis.
     pub cells: u64,
@@ -113,19 +115,19 @@ pub struct BestCandidate {
     pub dt: f64,
     /// Particles per cell.
     pub ppc: Option<u64>,
-    /// Predicted and measured seconds of the steps.
+    /// Predicted and measured time (s) of all steps.
     pub seconds: [f64; 2],
     /// Predicted and measured error relative to the size of the solution.
     pub error: (Interval, f64),
     /// Whether the setting is finer than all levels of the suite.
     pub beyond: bool,
-    /// Reason why no finer setting was considered, if it is not the budget.
+    /// Reason why no finer setting was considered, if the budget is not the reason.
     pub limit: Option<String>,
     /// Reason why the run ended early, if it did.
     pub failure: Option<String>,
-    /// Model of the prediction.
+    /// Cost model of the prediction.
     pub model: Model,
-    /// Number of levels in the fit of the model.
+    /// Number of levels in the fit of the cost model.
     pub fitted: usize,
 }
 

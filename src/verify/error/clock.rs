@@ -1,18 +1,18 @@
 //! Chooses a time step near the requested one that divides the run into whole steps.
 
-/// Steps of one run, and the instants at which errors are measured. Each instant is the end of a
-/// step. The instants are as evenly spaced as the steps allow.
+/// Number of steps of one run, and the instants at which errors are measured. Each instant is the
+/// end of a step. The instants are as evenly spaced as the steps allow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// End of the run (s).
     pub until: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Number of instants at which the error is measured, the last one at `until`.
+    /// Number of instants at which the error is measured. The last instant is `until`.
     pub instants: u64,
 }
 
-/// Kind of the steps of a run.
+/// Whether the steps of a run advance time or the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StepKind {
     /// Steps in time.
@@ -22,15 +22,15 @@ pub enum StepKind {
     Load,
 }
 
-/// Maximum number of steps of a run, so that a mistyped dt does not run for years.
+/// Maximum number of steps of a run. It prevents endless runs due to a mistyped dt.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Maximum relative difference between the requested step and the actual one. A second-order error
-/// in the step then changes from level to level by at most twice this difference: 0.03 in an order.
+/// Maximum relative difference between the requested and the actual step. From level to level, an
+/// error of second order in the step then changes by at most 2 %, and an order by at most 0.03.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// A clock whose number of steps is nearest to `until / wanted` (s), so that instants do not
+    /// Creates a clock whose number of steps is nearest to `until / wanted` (s), so instants do not
     /// change the step. A run with fewer steps than `instants` has an instant after each step.
     /// `None` if `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`]
     /// steps would be needed.
@@ -39,9 +39,9 @@ impl Clock {
         Some(Self { until, steps, instants: instants.min(steps) })
     }
 
-    /// A clock with the largest step, at most `wanted` (s), that divides the time between equally
-    /// spaced instants. Runs with different steps then share their instants. `None` as for
-    /// [`Clock::new`].
+    /// Creates a clock with the largest step, at most `wanted` (s), that divides the time between
+    /// equally spaced instants. Runs with different steps then share their instants. `None` under
+    /// the conditions of [`Clock::new`].
     pub fn with_common_instants(until: f64, wanted: f64, instants: u64) -> Option<Self> {
         let between = until / (wanted * instants as f64);
         // A ratio that is an integer up to rounding is rounded to this integer.
@@ -50,19 +50,19 @@ impl Clock {
         Some(Self { until, steps, instants })
     }
 
-    /// `steps`, but at least one; `None` if the arguments are invalid.
+    /// Returns `steps`, but at least one; `None` if the arguments are invalid.
     fn usable(until: f64, wanted: f64, instants: u64, steps: f64) -> Option<u64> {
         let positive = |time: f64| time > 0.0 && time.is_finite();
         let usable = positive(until) && positive(wanted) && instants > 0;
         (usable && steps <= MOST_STEPS).then_some(steps.max(1.0) as u64)
     }
 
-    /// Length of a step (s).
+    /// Returns the length of a step (s).
     pub fn dt(&self) -> f64 {
         self.until / self.steps as f64
     }
 
-    /// Time after `step` steps, without accumulated rounding errors.
+    /// Returns the time after `step` steps, without accumulated rounding errors.
     pub fn time(&self, step: u64) -> f64 {
         self.until * step as f64 / self.steps as f64
     }
@@ -73,8 +73,8 @@ impl Clock {
     }
 }
 
-/// Whether step number `step` of `steps` ends at one of `instants`. They are as evenly spaced as
-/// the steps allow; the last one ends the run.
+/// Whether step number `step` of `steps` ends at one of `instants`. Instants are as evenly spaced
+/// as the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
     // Number of instants up to the end of a step. It grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);

@@ -1,8 +1,8 @@
-//! Declarations of the judged quantities: values at labels, and sums over the body and its walls.
+//! Declarations of the judged quantities: values at labels, and sums over the body or its walls.
 //!
-//! Errors of sums are relative to a size that is zero only for a body at rest. For an energy this
-//! is its value, for a vector the sum of the lengths of its terms. An energy is stored as the first
-//! of three components.
+//! Errors of sums are relative to a size that is zero only for a body at rest. The size of an
+//! energy is its value; the size of a vector is the sum of the lengths of its terms. An energy is
+//! stored as the first of three components.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
@@ -11,41 +11,42 @@ use std::borrow::Cow;
 /// Writes exact values at all labels, in the given number of dimensions and at a given time.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
-/// Properties of a judged quantity, without its name.
+/// Properties of a judged quantity, except its name.
 #[expect(clippy::struct_excessive_bools, reason = "four independent questions, each asked by name")]
 pub(super) struct Declaration {
     /// Unit; empty for a dimensionless quantity.
     pub(super) unit: &'static str,
     pub(super) shape: TensorShape,
-    /// Values of a subject, label by label; empty if the subject reports none.
+    /// Returns the values of a subject, label by label; empty if the subject reports none.
     pub(super) computed: fn(&Samples) -> Cow<'_, [f64]>,
     /// Writes the exact value at the label X at time t. Returns false if the exact solution does
     /// not define it.
     pub(super) exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Writes exact values at all labels in D dimensions, if the exact solution has a faster method
-    /// for many labels.
+    /// Writes exact values at all labels in D dimensions. Set only if the exact solution has a
+    /// faster method for many labels.
     pub(super) exact_at_all: Option<ExactAtAll>,
-    /// Natural size of exact values, which scales errors.
+    /// Natural size of the exact values. Errors are divided by it.
     pub(super) size: SolutionSize,
-    /// Size of the numbers that are subtracted to compute the value, on a body of length L (m). NaN
-    /// if it is unknown.
+    /// Size of the numbers whose difference is the value, on a body of length L (m). NaN if it is
+    /// unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether the quantity is a primary unknown of a subject. Tables show errors of these.
+    /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
+    /// unknowns.
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
-    /// Whether only moving bodies have the quantity.
+    /// Whether only moving bodies have the quantity; heat conduction does not.
     pub(super) is_of_motion: bool,
     /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
-    /// Declaration of a sum over the body, which has no values at labels.
+    /// Declaration of a sum over the body. A sum has no values at labels. `None` for a field.
     pub(super) sum: Option<SumDeclaration>,
 }
 
 /// A sum over the body or its walls.
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
-    /// Value from a subject; components beyond the dimension are zero.
+    /// How the value of a subject is computed; components above the dimension are zero.
     pub(super) computed: ComputedSum,
     /// Exact value per unit of volume or area.
     pub(super) density: SumDensity,
@@ -55,16 +56,17 @@ pub(super) struct SumDeclaration {
 /// How a subject's value of a sum is computed.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
-    /// From the totals over the body.
+    /// Computed from the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
-    /// A function of the second moments (kg m2) of the body and of its reference configuration, one
-    /// for each axis. The same function gives the exact value from the exact second moments.
+    /// Computed by a function of the second moments (kg m2) of the body and of its reference
+    /// configuration, one for each axis. The same function gives the exact value from the exact
+    /// moments.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction force of walls.
     Reaction,
 }
 
-/// Requirement of a sum, in addition to a moving body.
+/// Property of the problem that a sum requires, in addition to a moving body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SumNeed {
     /// Nothing.
@@ -79,7 +81,7 @@ pub(crate) enum SumNeed {
 
 /// Natural size of a field.
 pub(super) enum SolutionSize {
-    /// Largest magnitude of a value.
+    /// Largest magnitude of the values.
     Magnitude,
     /// Largest magnitude of the difference from the identity tensor.
     FromIdentity,
@@ -87,18 +89,18 @@ pub(super) enum SolutionSize {
     Range,
 }
 
-/// Shape of a field's value at a label, in D dimensions.
+/// Tensor order of a field's value at a label, in D dimensions.
 pub(super) enum TensorShape {
     /// One component.
     Scalar,
-    /// D components.
+    /// D * D components, stored row by row.
     Vector,
     /// D * D components, row by row.
     Tensor,
 }
 
 impl TensorShape {
-    /// Number of components at each label in `d` dimensions.
+    /// Returns the number of components at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
             // In zero dimensions there is nothing to compare, not even a scalar.
@@ -119,7 +121,7 @@ pub(super) const DISPLACEMENT: Declaration = Declaration {
     },
     exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
     size: SolutionSize::Magnitude,
-    // A displacement is the difference of two positions, each of them rounded.
+    // A displacement is the difference between two positions, and both are rounded.
     rounding_size: |length| length,
     is_primary: true,
     is_optional: false,
@@ -173,7 +175,7 @@ pub(super) const TEMPERATURE: Declaration = Declaration {
     ..STRESS
 };
 
-/// Common part of the declarations of sums. Sums have no values at labels.
+/// Default values for the declarations of sums. Sums have no values at labels.
 const SUM: Declaration = Declaration {
     unit: "J",
     shape: TensorShape::Scalar,
@@ -261,12 +263,12 @@ pub(super) const SEMI_AXIS: Declaration = Declaration {
     ..SUM
 };
 
-/// `sqrt(now/reference)`; zero on axes that the body does not have.
+/// Returns `sqrt(now/reference)`; zero on axes that the body does not have.
 fn root_of_ratio(now: f64, reference: f64) -> f64 {
     if reference == 0.0 { 0.0 } else { (now / reference).sqrt() }
 }
 
-/// Second moments, with their sum as the size for errors.
+/// Returns second moments, and their sum as the size that errors are relative to.
 pub(super) fn moments(values: [f64; 3]) -> ([f64; 3], f64) {
     (values, values.iter().sum())
 }

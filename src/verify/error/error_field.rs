@@ -1,4 +1,4 @@
-//! Errors over the body at the end of a run, reduced to the resolution of a figure.
+//! Errors over the body at the end of a run, reduced to the resolution of a drawing.
 
 use super::norm::{larger, length};
 use super::quantity::Quantity;
@@ -7,31 +7,30 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of the body in a plane; this is the resolution of a
-/// figure.
+/// Number of parts along the longer side of the body in a plane. It is the resolution of a drawing.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
-/// Share of a part below which a distance counts as rounding error.
+/// Fraction of a part below which a distance counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest error in each part of the body. In 3-D the body is divided along the first two axes,
-/// and the largest error along the third axis is used.
+/// The largest error in each part of the body. In 3-D the parts divide the first two axes, and the
+/// error is the largest one along the third axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorField {
     /// Whether the parts cover a plane rather than a line.
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Current position (m) and largest error magnitude in each part that contains particles. The
+    /// Current position (m) and largest error magnitude for each part that contains particles. The
     /// error is NaN if a part has no finite error. A part is a square with many particles, or one
     /// particle.
     pub parts: Vec<[f64; 3]>,
 }
 
 impl ErrorField {
-    /// Errors of the quantity `of` in `samples` against `truth` at time `t` (s). `None` if the
-    /// quantity has no such error, or if no particle has a position.
+    /// Computes the errors of the quantity `of` in `samples` against `truth` at time `t` (s).
+    /// `None` if the quantity has no errors at labels, or if no particle has a position.
     pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
         let (components, errors) = of.differences(samples, truth, t)?;
         let d = samples.dimension;
@@ -58,8 +57,8 @@ impl ErrorField {
         let spacing = libm::pow(volume, 1.0 / d as f64);
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
-        // The end of the body belongs to the last part instead of a further one. This also holds if
-        // particles are parts.
+        // A particle at the end of the body belongs to the last part, not to an additional one.
+        // This also holds if particles are parts.
         let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
         let last = end
             .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });
@@ -81,7 +80,7 @@ pub(super) mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// A body that does not move.
+    /// Exact solution of a body that does not move.
     pub(in crate::verify::error) struct AtRest;
 
     impl Truth for AtRest {
@@ -94,8 +93,8 @@ pub(super) mod tests {
         }
     }
 
-    /// A square of `n` particles a side. The displacement of each particle is its number times
-    /// 1e-6.
+    /// Creates a square with `n` particles along each side. The displacement of each particle is
+    /// its number times 1e-6.
     fn square(n: usize) -> Samples {
         let mut samples = Samples::default();
         for p in 0..n * n {
@@ -127,7 +126,8 @@ pub(super) mod tests {
         assert_eq!(field.parts.len(), 400);
     }
 
-    /// A particle without a position is excluded. A particle without an error marks its part.
+    /// A particle without a position is excluded. A particle without an error makes the error of
+    /// its part NaN.
     #[test]
     fn nan_is_seen() {
         let mut samples = square(10);
@@ -143,8 +143,8 @@ pub(super) mod tests {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 
-    /// Four particles, two of them in one part. The larger of their errors counts, at the middle of
-    /// the part.
+    /// Of four particles, two are in one part. The part has the larger of their errors, and its
+    /// position is the middle of the part.
     #[test]
     fn a_part_shows_its_largest_error_in_its_middle() {
         let mut samples = Samples::default();

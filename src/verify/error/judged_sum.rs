@@ -11,18 +11,18 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2), the divisor of a ratio.
+    /// Exact second moments of the reference configuration (kg m2). Ratios are divided by them.
     reference: [f64; 3],
-    /// Axis and end of the face with the judged reaction; `None`: the reaction of all faces.
+    /// Axis and end of the face whose reaction is judged; `None` for the reaction of all faces.
     face: Option<(usize, bool)>,
 }
 
 impl JudgedSum {
-    /// Creates the sum `of` over the body of `problem`. A reaction is the force of the faces with
-    /// the indices `walls`.
+    /// Creates the sum `of` over the body of `problem`. `walls` are the indices of the faces whose
+    /// force is judged as the reaction.
     ///
     /// # Errors
-    /// Why the exact value is unknown, as a phrase that continues the name of the quantity.
+    /// Reason why the exact value is unknown, as a phrase that continues the name of the quantity.
     pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
         let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
         let region = match computed {
@@ -45,7 +45,7 @@ impl JudgedSum {
         Ok(Self { of, exact, reference, face })
     }
 
-    /// Largest size of the exact sum during the run. Errors are relative to this size.
+    /// Returns the largest size of the exact sum during the run. Errors are relative to it.
     pub fn size(&self) -> f64 {
         let size = self.exact.size();
         match self.of.sum().map(|sum| sum.computed) {
@@ -54,7 +54,8 @@ impl JudgedSum {
         }
     }
 
-    /// Difference from the exact sum at time `t` (s); NaN if the subject does not report the sum.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the subject does not
+    /// report the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {
@@ -77,7 +78,7 @@ impl JudgedSum {
     }
 }
 
-/// Norms over instants of equal weight.
+/// Computes norms over instants of equal weight.
 pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
     Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
 }

@@ -4,7 +4,7 @@ pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_field;
 pub(crate) mod judged_sum;
-/// The quantity that `docs/exercises/quantity.md` adds.
+/// The quantity that readers of `docs/exercises/quantity.md` add.
 #[cfg(test)]
 #[path = "../../../tests/exercises/mean_stress.rs"]
 mod mean_stress;

@@ -12,7 +12,7 @@
 //! mass_l2 = sqrt(sum m_p |e_p|^2 / sum m_p)
 //! ```
 //!
-//! The squares are those of `|e_p| / linf`, which can neither overflow nor underflow.
+//! The squares of `|e_p| / linf` are summed, because they can neither overflow nor underflow.
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
@@ -57,7 +57,7 @@ impl NormName {
     }
 }
 
-/// Norms of one field of errors; all NaN for an empty field.
+/// Norms of one error field; all NaN for an empty field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     /// Root of the unweighted mean square.
@@ -73,14 +73,14 @@ pub struct Norms {
 }
 
 impl Norms {
-    /// Norms of a zero error.
+    /// Norms of an error that is zero everywhere.
     pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0, mass_l2: Some(0.0) };
 
-    /// Norms without a measurement: NaN.
+    /// Norms without a measurement: all NaN.
     pub const NONE: Self =
         Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_l2: None };
 
-    /// The larger value of each norm; NaN if either value is NaN.
+    /// For each norm, returns the larger value; NaN if either value is NaN.
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self {
@@ -92,16 +92,16 @@ impl Norms {
         }
     }
 
-    /// These norms with the addition of the norm of `errors` that is weighted by `masses`, one for
-    /// each label. Without masses the addition is `None`.
+    /// Returns these norms with `mass_l2` computed from `errors` and `masses`, which has one mass
+    /// for each label. Without masses `mass_l2` is `None`.
     #[must_use]
     pub fn with_masses(self, errors: &[f64], dimension: usize, masses: &[f64]) -> Self {
         let by_mass = || Self::of(errors, dimension, masses).l2;
         Self { mass_l2: (!masses.is_empty()).then(by_mass), ..self }
     }
 
-    /// Norms of `errors`, which contains `dimension` components for each label, label by label,
-    /// with one weight for each label.
+    /// Computes the norms of `errors`, which contains `dimension` components for each label, label
+    /// by label. `weights` contains one weight for each label.
     ///
     /// A norm is not finite if an error or weight is not finite. All norms are NaN if there are no
     /// labels, if the lengths of the slices do not match, if a weight is negative, or if all are
@@ -136,29 +136,29 @@ impl Norms {
     }
 }
 
-/// Errors of one quantity in a run, for each norm and time; all NaN if the run failed.
+/// Errors of one quantity in a run, in every norm; all NaN if the run failed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunErrors {
-    /// Errors at the end. For a sum over the body: norms over the instants.
+    /// Errors at the end. For a sum over the body, norms over the instants.
     pub at_end: Norms,
-    /// Largest errors over the instants, for each norm.
+    /// Largest error over the instants, for each norm.
     pub largest: Norms,
 }
 
 impl RunErrors {
-    /// Errors of a run that failed.
+    /// Errors of a failed run.
     pub const NONE: Self = Self { at_end: Norms::NONE, largest: Norms::NONE };
 
     /// Errors before the first instant.
     pub(super) const START: Self = Self { at_end: Norms::NONE, largest: Norms::ZERO };
 
-    /// Adds the errors at an instant.
+    /// Includes the errors at an instant.
     pub(super) fn add(&mut self, now: Norms) {
         self.at_end = now;
         self.largest = self.largest.larger(now);
     }
 
-    /// The error in one norm.
+    /// Returns the error in `norm`.
     pub fn in_norm(&self, norm: NormName) -> f64 {
         match norm {
             NormName::Rms => self.at_end.rms,
@@ -175,33 +175,33 @@ impl RunErrors {
     }
 }
 
-/// Euclidean length of a vector.
+/// Returns the Euclidean length of a vector.
 pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
 }
 
-/// Largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
+/// Returns the largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
 pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
     vectors.chunks_exact(dimension.max(1)).map(length).fold(0.0, larger)
 }
 
-/// The larger of two lengths; NaN if either is NaN (`f64::max` would ignore NaN).
+/// Returns the larger of two lengths; NaN if either is NaN (`f64::max` would ignore NaN).
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-/// Scale for comparing the errors of cases, and growth of the work.
+/// Scale for comparing the errors of different cases, and the growth of the work.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorScale {
     /// Description of the problem: the end of the run, and the kind of solution. Only cases with
     /// the same problem are compared.
     pub problem: String,
-    /// Divisor that turns an error into a share of the solution, in the unit of the judged error.
-    /// If the suite states a scale, it is already applied, and this divisor is 1. Otherwise it is
-    /// the largest exact magnitude, or NaN if there is none.
+    /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
+    /// error. If the suite states a scale, it is already applied, and this divisor is 1. Otherwise
+    /// it is the largest exact magnitude, or NaN if there is none.
     pub size: f64,
-    /// Exponent of the work, which grows like spacing^-growth: one for each refined axis of the
-    /// body, and one for the time step.
+    /// Exponent g of the work, which grows like spacing^-g: one for each refined axis of the body,
+    /// and one for the time step.
     pub growth: f64,
 }
 
@@ -223,7 +223,7 @@ mod tests {
         assert_eq!(norms.mass_l2, None);
     }
 
-    /// Errors of length 5 and 1 with masses 1 and 3 have the mean square (25 + 3)/4.
+    /// The errors have lengths 5 and 1 and masses 1 and 3, so the mean square is (25 + 3)/4.
     #[test]
     fn norm_by_mass_ignores_volumes() {
         let errors = [3.0, 4.0, 0.0, -1.0];

@@ -1,4 +1,4 @@
-//! Records the velocity at one label over time, and interpolates the displacement at a point.
+//! Records the velocity at one label over time. Also interpolates the displacement at a point.
 
 use crate::exact::Truth;
 use crate::subject::Samples;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Velocity at one label over a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Reference position of the observed label (m), which is the nearest one to the requested
+    /// Reference position of the observed label (m), which is the label nearest to the requested
     /// point.
     pub label: Vec<f64>,
     /// Time (s), and first velocity component of the subject and of the exact solution (m/s), at
@@ -30,15 +30,15 @@ impl History {
         Some((nearest, Self { label, velocity: Vec::new() }))
     }
 
-    /// Records the state at an instant.
+    /// Records the velocity at an instant. `at` is the index of the observed label.
     pub fn record(&mut self, at: usize, samples: &Samples, truth: &dyn Truth, t: f64) {
         let mut exact = vec![0.0; samples.dimension];
         truth.velocity(&self.label, t, &mut exact);
         self.velocity.push([t, samples.velocity[at * samples.dimension], exact[0]]);
     }
 
-    /// RMS of the velocity error over time, relative to the largest exact speed; `None` if the
-    /// exact velocity is always zero.
+    /// Returns the RMS of the velocity error over time, relative to the largest exact speed; `None`
+    /// if the exact velocity is always zero.
     pub fn relative_error(&self) -> Option<f64> {
         let square: f64 = self.velocity.iter().map(|[_, v, e]| (v - e) * (v - e)).sum();
         let largest = self.velocity.iter().map(|[_, _, e]| e.abs()).fold(0.0, f64::max);
@@ -46,13 +46,13 @@ impl History {
     }
 }
 
-/// Number of labels that an interpolation uses on each axis.
+/// Number of labels on each axis that an interpolation uses.
 const NEAR: usize = 4;
 
-/// Displacement at a fixed point of a body whose labels form a lattice, by cubic Lagrange
-/// interpolation on each axis. Each axis contributes the four labels around the point, or all
-/// labels if it has fewer. So the same point is compared on every level. `None` if no lattice
-/// surrounds the point.
+/// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic
+/// Lagrange interpolation on each axis. This compares the same point on every level. Each axis
+/// contributes the four labels around the point, or all labels if it has fewer. `None` if no
+/// lattice surrounds the point.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -77,7 +77,7 @@ pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     Some(interpolated)
 }
 
-/// Lattice coordinates around `x` on an axis, each with its Lagrange weight.
+/// Returns the lattice coordinates around `x` on an axis, each with its Lagrange weight.
 fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     let mut all: Vec<f64> =
         samples.label.iter().skip(axis).step_by(samples.dimension).copied().collect();
@@ -87,8 +87,9 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates `sorted`, or
-/// over all if there are fewer. Returns the index of the first coordinate used, and the weights.
+/// Computes a Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates
+/// `sorted`, or over all if there are fewer. Returns the index of the first coordinate used, and
+/// the weights.
 pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);
@@ -128,7 +129,7 @@ mod tests {
         assert_relative_eq!(u[0], 1.0 - x + 3.0 * x * x * x, max_relative = 1e-12);
     }
 
-    /// Five labels along X and two along Y. The displacement is cubic in X and linear in Y.
+    /// Creates five labels along X and two along Y. The displacement is cubic in X and linear in Y.
     fn plate() -> Samples {
         let labels = (0..10).map(|p| [f64::from(p % 5) / 4.0, f64::from(p / 5)]);
         let field = |[x, y]: [f64; 2]| [x * x * x * (1.0 + y), 2.0 * y - x];

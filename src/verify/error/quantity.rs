@@ -70,22 +70,23 @@ impl Quantity {
         }
     }
 
-    /// The quantity with this name.
+    /// Returns the quantity with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|known| known.name() == name)
     }
 
-    /// Name in running text.
+    /// Returns the name as written in running text.
     pub fn words(self) -> String {
         self.name().replace('_', " ")
     }
 
-    /// Unit; empty for a dimensionless quantity.
+    /// Returns the unit; empty for a dimensionless quantity.
     pub fn unit(self) -> &'static str {
         self.declaration().unit
     }
 
-    /// Whether the quantity is a primary unknown of a subject. Tables show errors of these.
+    /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
+    /// unknowns.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
@@ -95,7 +96,7 @@ impl Quantity {
         self.declaration().is_optional
     }
 
-    /// Whether only moving bodies have the quantity.
+    /// Whether only moving bodies have the quantity; heat conduction does not.
     pub fn is_of_motion(self) -> bool {
         self.declaration().is_of_motion
     }
@@ -111,18 +112,20 @@ impl Quantity {
         self.sum().is_some()
     }
 
-    /// The quantity to plot at labels: the quantity itself, or the displacement for a sum.
+    /// Returns the quantity that is plotted at labels: `self`, or the displacement if `self` is a
+    /// sum.
     #[must_use]
     pub fn at_labels(self) -> Self {
         if self.is_sum() { Self::default() } else { self }
     }
 
-    /// Requirement of a sum, in addition to a moving body; `None` for a field.
+    /// Returns the property of the problem that a sum requires, in addition to a moving body;
+    /// `None` for a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {
         self.sum().map(|sum| sum.needs)
     }
 
-    /// A divisor of the error as written in captions, to four digits.
+    /// Formats a divisor of the error for captions, to four digits.
     pub(crate) fn shown_scale(self, scale: f64) -> String {
         if self.is_sum() { format!("{scale:.3e}") } else { format_number(scale) }
     }
@@ -131,13 +134,13 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Size of the numbers whose rounding limits the error from below, on a body of length `length`
-    /// (m). NaN if it is unknown.
+    /// Returns the size of the numbers whose rounding limits the smallest possible error, on a body
+    /// of length `length` (m). NaN if it is unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }
 
-    /// Number of components at each label in `d` dimensions.
+    /// Returns the number of components at each label in `d` dimensions.
     fn components(self, d: usize) -> usize {
         self.declaration().shape.components(d)
     }
@@ -154,10 +157,11 @@ impl Quantity {
         places.all(|(label, into)| (declaration.exact)(truth, label, t, into))
     }
 
-    /// Largest magnitude of the exact values at `places` (m) and `times` (s): length of a vector,
-    /// Frobenius norm of a tensor. Quantities without a natural zero are measured by their change:
-    /// F by its difference from the identity, a temperature by its range. NaN if the exact solution
-    /// does not define the quantity, or if the magnitude is zero everywhere.
+    /// Returns the largest magnitude of the exact values at `places` (m) and `times` (s). This is
+    /// the length of a vector, or the Frobenius norm of a tensor. Quantities without a natural zero
+    /// are measured by their change: F by its difference from the identity, a temperature by its
+    /// range. NaN if the exact solution does not define the quantity, or if the magnitude is zero
+    /// everywhere.
     pub fn largest_exact(self, truth: &dyn Truth, places: &[Vec<f64>], times: &[f64]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for place in places {
@@ -174,7 +178,8 @@ impl Quantity {
         if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
 
-    /// Magnitude at one place, or the value itself if the quantity is measured by its range.
+    /// Returns the magnitude at one point, or the value itself if the quantity is measured by its
+    /// range.
     fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
         let (d, declaration) = (place.len(), self.declaration());
         let mut exact = vec![0.0; self.components(d)];
@@ -189,8 +194,8 @@ impl Quantity {
         Some(exact.iter().fold(0.0, |all, x| libm::hypot(all, *x)))
     }
 
-    /// Norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the subject
-    /// or the exact solution does not define the quantity.
+    /// Computes norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the
+    /// subject or the exact solution does not define the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             let norms = Norms::of(&error, components, &samples.weight);
@@ -198,8 +203,9 @@ impl Quantity {
         })
     }
 
-    /// Number of components at each label, and `computed - exact` at the labels of `samples` at
-    /// time `t`. `None` if the subject or the exact solution does not define the quantity.
+    /// Returns the number of components at each label, and `computed - exact` at the labels of
+    /// `samples` at time `t`. `None` if the subject or the exact solution does not define the
+    /// quantity.
     pub(crate) fn differences(
         self,
         samples: &Samples,
@@ -228,7 +234,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A plane that moves along X under uniform shear stress. It has no exact F.
+    /// Exact solution of a plane that moves along X under uniform shear stress. It has no F.
     struct Sheared;
 
     impl Truth for Sheared {
@@ -247,7 +253,8 @@ mod tests {
         }
     }
 
-    /// Two labels. The error of each quantity is a vector of length 5 or a tensor of norm 5.
+    /// Creates two labels. The error of each quantity is a vector of length 5 or a tensor of norm
+    /// 5.
     fn off_by_five() -> Samples {
         Samples {
             dimension: 2,
@@ -295,7 +302,7 @@ mod tests {
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 
-    /// The exact F is compared with the F of the samples, not with another quantity.
+    /// F is compared with the exact F, not with another quantity.
     #[test]
     fn a_deformation_gradient_is_held_against_its_own() {
         struct Turned;

@@ -15,21 +15,21 @@ use crate::verify::energy_rate::energy_rate;
 use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
 
-/// Quantities that a run compares in addition to the displacement.
+/// Settings of the comparison between a run and the exact solution.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Comparison<'a> {
-    /// The judged quantity.
+    /// Quantity whose error is judged.
     pub of: Quantity,
     /// Exact value of the judged quantity, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
-    /// Observed point (m).
+    /// Reference position (m) of the observed point, if any.
     pub observe: Option<&'a [f64]>,
-    /// Speed (m/s) by which residual speeds are divided, if the exact solution is a state of rest.
-    /// Errors are then measured at the end only.
+    /// Speed (m/s) by which residual speeds are divided. Set if the exact solution is a state of
+    /// rest; errors are then measured at the end only.
     pub at_rest: Option<f64>,
-    /// Kind of the steps.
+    /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the errors over the body are stored.
+    /// Whether the errors over the body are stored for drawings.
     pub keeps_field: bool,
 }
 
@@ -40,12 +40,12 @@ impl Comparison<'_> {
     }
 }
 
-/// The last share of a run, in which a body must be at rest. One instant would not suffice, because
-/// an oscillating body has zero velocity at its turning points.
+/// Fraction of a run at its end in which a body must be at rest. A single instant would not
+/// suffice, because an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` through `clock`. At every instant measures its error against `truth` at the
-/// subject's reference labels. Also records the velocity of the label nearest to the observed
+/// Advances `subject` through `clock`. At every instant, measures the error of `subject` against
+/// `truth` at its reference labels. Also records the velocity of the label nearest to the observed
 /// point.
 pub fn run(
     subject: &mut dyn Subject,
@@ -56,8 +56,8 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`], and records the judged quantity for comparison, in `norm`, with
-/// other runs of the same level. The record of a failed run is empty.
+/// Runs `subject` like [`run`]. Also records the judged quantity, in the form that a comparison in
+/// `norm` with other runs of the same level needs. The record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -70,7 +70,7 @@ pub fn run_recorded(
     monitor.run(subject, clock)
 }
 
-/// State of the comparison during a run.
+/// The comparison during a run, with its intermediate results.
 struct RunMonitor<'a> {
     truth: &'a dyn Truth,
     comparison: &'a Comparison<'a>,
@@ -109,7 +109,7 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Runs until the end of the clock or the first failure.
+    /// Runs until the end of the clock or until the first failure.
     fn run(mut self, subject: &mut dyn Subject, clock: &Clock) -> (RunResult, RunRecord) {
         for step in 1..=clock.steps {
             if let Err(failure) = subject.step(clock.dt()) {
@@ -200,13 +200,14 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Errors over the body at time `t` (s), for quantities with values at labels.
+    /// Returns the errors over the body at time `t` (s); `None` for quantities without values at
+    /// labels.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         keeps_field.then(|| ErrorField::of(of.at_labels(), &self.samples, self.truth, t))?
     }
 
-    /// Result of a failed run: a reason without errors.
+    /// Creates the result of a failed run: a reason without errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
@@ -233,7 +234,7 @@ impl<'a> RunMonitor<'a> {
     }
 }
 
-/// Norms of `u_num - u_exact` at the labels of `samples` at time `t`.
+/// Computes the norms of `u_num - u_exact` at the labels of `samples` at time `t`.
 pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
     Quantity::default().errors(samples, truth, t)
 }
@@ -242,39 +243,41 @@ pub fn errors(samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunResult {
-    /// Errors of the compared quantity.
+    /// Errors of the judged quantity.
     pub errors: RunErrors,
-    /// Errors of the displacement (m), if another quantity is compared.
+    /// Errors of the displacement (m), if the judged quantity is another one.
     pub displacement_errors: Option<RunErrors>,
-    /// Drifts of the totals of the body, if the subject reports them; NaN if the run failed.
+    /// Drifts of the sums over the body, if the subject reports these; NaN if the run failed.
     pub drift: Option<ConservationError>,
-    /// Totals at t = 0 and at every reported instant (s), if the subject reports them.
+    /// Sums over the body at t = 0 and at every instant, each with its time (s); empty if the
+    /// subject reports none.
     pub account: Vec<(f64, Totals)>,
-    /// Energy rate, d ln E/dt (1/s), over the run, with its confidence interval.
+    /// Energy rate d ln E/dt (1/s) with its confidence interval, if it could be computed.
     pub energy_rate: Option<Interval>,
-    /// Counters at the end or at the failure.
+    /// Counters at the end of the run or at its failure.
     pub counters: RunCounters,
     /// Number of steps.
     pub steps: u64,
-    /// Reason and time of the failure, if the run ended early.
+    /// Reason and time of the failure; `None` if the run reached its end.
     pub failure: Option<String>,
-    /// History at the observed label, if one was requested and the run reached its end.
+    /// Velocity history at the observed label, if it was requested and the run reached its end.
     pub history: Option<History>,
     /// Errors over the body at the end or at the failure, if they were requested.
     pub field: Option<ErrorField>,
-    /// Displacement at the observed place at the end (m), if it could be interpolated.
+    /// Displacement (m) of the observed point at the end, if it could be interpolated.
     pub displacement: Option<Vec<f64>>,
-    /// Distance (m) between the computed and the exact displacement at the observed place.
+    /// Distance (m) between the computed and the exact displacement of the observed point.
     pub observed_error: Option<f64>,
-    /// Exact displacement at the observed place at the end (m).
+    /// Exact displacement (m) of the observed point at the end.
     pub observed_exact: Option<Vec<f64>>,
     /// Largest speed near the end, divided by
-    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest), if that is set.
+    /// [`Comparison::at_rest`](crate::verify::Comparison::at_rest); `None` if the latter is not
+    /// set.
     pub residual_speed: Option<f64>,
 }
 
 impl RunResult {
-    /// Errors of the displacement (m), regardless of the judged quantity.
+    /// Returns the errors of the displacement (m), regardless of the judged quantity.
     pub fn errors_of_displacement(&self) -> &RunErrors {
         self.displacement_errors.as_ref().unwrap_or(&self.errors)
     }
@@ -286,7 +289,7 @@ mod tests {
     use crate::subject::RunCounters;
     use approx::assert_relative_eq;
 
-    /// One label with an oscillating velocity and a decaying displacement.
+    /// A subject with one label, whose velocity oscillates and whose displacement decays.
     struct Swing(f64);
 
     impl Subject for Swing {
@@ -353,7 +356,7 @@ mod tests {
         assert!(in_time.failure.unwrap().ends_with("(step 3, t = 3.0000 s)"));
     }
 
-    /// The run ends at cos t = 0. Errors before the end do not count.
+    /// The run ends at cos t = 0. Errors before its end must not count.
     #[test]
     fn a_body_that_turns_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;

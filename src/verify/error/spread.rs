@@ -1,9 +1,10 @@
 //! Differences between repeated runs of one level.
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
-//! bits in each run. The spread of a level is the largest difference between two of its runs. The
-//! norm of the suite is applied to the difference of the judged quantity at each label. The norms
-//! of two runs are not compared, because errors with equal norms can differ at every label.
+//! bits in each run. The spread of a level is the largest difference between two of its runs. To
+//! measure a difference, the norm of the suite is applied to the difference of the judged quantity
+//! at each label. A difference between two norms would not suffice, because errors with equal norms
+//! can differ at every label.
 
 use super::norm::{NormName, Norms, RunErrors};
 use super::quantity::Quantity;
@@ -11,10 +12,11 @@ use crate::exact::Truth;
 use crate::subject::Samples;
 use std::cmp::Ordering;
 
-/// The judged quantity of one run, minus its exact value, which is the same in all runs of a level.
+/// Judged quantity of one run minus its exact value. The exact value is the same in all runs of a
+/// level.
 #[derive(Debug, Clone, Default)]
 pub struct RunRecord {
-    /// Whether all instants are recorded, instead of the last one only.
+    /// Whether all instants are recorded, instead of only the last one.
     over_instants: bool,
     instants: Vec<Instant>,
     /// Error of a judged sum over the body at each instant.
@@ -37,7 +39,7 @@ struct Instant {
 }
 
 impl RunRecord {
-    /// Creates an empty record for a norm.
+    /// Creates an empty record for a comparison in `norm`.
     pub(super) fn for_norm(norm: NormName) -> Self {
         Self { over_instants: norm.is_over_instants(), ..Self::default() }
     }
@@ -59,8 +61,8 @@ impl RunRecord {
         self.sums = sums;
     }
 
-    /// Difference between two runs in `norm`, in the unit of the judged quantity. NaN if the runs
-    /// have different labels or instants.
+    /// Computes the difference between two runs in `norm`, in the unit of the judged quantity. NaN
+    /// if the runs have different labels or instants.
     fn difference(&self, other: &Self, norm: NormName) -> f64 {
         let is_alike = self.instants.len() == other.instants.len()
             && self.sums.len() == other.sums.len()
@@ -82,8 +84,8 @@ impl RunRecord {
 }
 
 impl Instant {
-    /// Sorts the labels in lexicographic order, because a solver may return its particles in a
-    /// different order in each run.
+    /// Sorts the labels in lexicographic order. A solver may return its particles in a different
+    /// order in each run.
     fn sorted(self, dimension: usize) -> Self {
         let d = dimension.max(1);
         let count = self.weights.len();
@@ -126,8 +128,8 @@ fn subtract(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// Largest difference between two of `runs` in `norm`, in the unit of the judged quantity. NaN if
-/// any two runs cannot be compared.
+/// Computes the largest difference between two of `runs` in `norm`, in the unit of the judged
+/// quantity. NaN if any two runs cannot be compared.
 pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
     let pairs = runs.iter().enumerate().flat_map(|(k, a)| runs[..k].iter().map(move |b| (a, b)));
     pairs.map(|(a, b)| a.difference(b, norm)).fold(0.0, super::norm::larger)
@@ -140,7 +142,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A run with one instant, with the given labels (m) and displacements (m).
+    /// Creates a run with one instant, with the given labels (m) and displacements (m).
     fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {
         let mut samples = Samples::default();
         for (label, u) in points {
@@ -151,7 +153,7 @@ mod tests {
         record
     }
 
-    /// The first two runs have equal norms and differ at each label.
+    /// The first two runs have equal norms, but differ at each label.
     #[rstest]
     #[case(NormName::Linf, 4.0)]
     #[case(NormName::Rms, 10.0_f64.sqrt())]

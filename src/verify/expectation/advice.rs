@@ -1,5 +1,5 @@
-//! Compares an observed order with the range that a suite could expect, and advises how to obtain a
-//! stronger expectation.
+//! Compares an observed order with the range that a suite could expect, and suggests how to make
+//! the expectation stronger.
 
 use crate::verify::convergence::{Convergence, LevelOutcome};
 use crate::verify::error::norm::NormName;
@@ -12,7 +12,8 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum distance of an order from the middle of a range, as a share of the range's half-width.
+/// Maximum distance of an order from the middle of a range, as a fraction of the half-width of the
+/// range.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the usual range around `order` contains the observed interval with a margin.
@@ -22,21 +23,21 @@ pub(crate) fn is_inside(observed: &Interval, order: f64) -> bool {
     2.0 * observed.half_width() <= room
 }
 
-/// The usual range around an order, in the notation of suites.
+/// Formats the usual range around an order as suites write it.
 pub(crate) fn range(order: f64) -> String {
     let (low, high) = OrderHypothesis::formal(order).range();
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Levels that count.
+/// Returns the levels that count for the verdict.
 pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
     study.levels.iter().filter(|level| level.usable)
 }
 
-/// Half-width of an order's interval above which more levels are advised.
+/// Half-width of the interval of an order above which more levels are suggested.
 const WIDE: f64 = 0.03;
 
-/// Reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
+/// Lists reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
 pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let mut advice = Vec::new();
     let usable = counted(study).count();
@@ -70,8 +71,8 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     advice
 }
 
-/// The norm with the narrowest interval of the order, if it is much narrower than in the judged
-/// norm.
+/// Suggests the norm with the narrowest interval of the order, if this interval is much narrower
+/// than in the judged norm.
 fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     const CLEARLY: f64 = 0.5;
     if judged.half_width() <= WIDE {
@@ -89,7 +90,7 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     let (norm, order) = NormName::ALL
         .iter()
         .copied()
-        // With a uniform density, norms weighted by mass and by volume are equal.
+        // If the density is uniform, norms weighted by mass and by volume are equal.
         .filter(|norm| *norm != study.norm && !norm.is_by_mass())
         .filter_map(order)
         .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;
@@ -126,7 +127,7 @@ mod tests {
         assert_eq!(is_inside(&observed, 2.0), is_met);
     }
 
-    /// A study of six levels whose order has an interval of -+ 1.
+    /// Creates a study of six levels whose order has an interval of -+ 1.
     fn uncertain() -> Convergence {
         let errors: Vec<f64> = (0..6).map(|k| libm::exp2(-2.0 * f64::from(k))).collect();
         let mut study = study(&errors);
@@ -144,7 +145,7 @@ mod tests {
         assert!(advice(&uncertain()).contains(&expected), "{:?}", advice(&uncertain()));
     }
 
-    /// The norm with the narrowest interval must not be advised if its order is wrong.
+    /// A norm must not be suggested if its order is wrong, even if its interval is the narrowest.
     #[test]
     fn a_norm_is_advised_only_if_it_converges() {
         let mut study = uncertain();

@@ -1,11 +1,11 @@
 //! Requirements of `run --gate` on external solvers.
 //!
 //! The expectations of a suite bound the order of its own methods on both sides, because an order
-//! that is too high shows a defect of the suite. External solvers have only a lower bound, because
-//! superconvergence at their sample points is not a defect. The 95 % interval of the order must
-//! reach this bound. It must also exclude orders that are lower by 0.5, the typical effect of a
-//! defect. The interval may extend below the bound: with few levels, a correct solver has an
-//! interval of 0.1 and more to each side.
+//! that is too high shows a defect of the suite. The order of an external solver has a lower bound
+//! only, because superconvergence at its sample points is not a defect. The 95 % interval of the
+//! order must reach this bound. It must also exclude orders that are lower by 0.5, the typical
+//! effect of a defect. The interval may extend below the bound: with few levels, the interval of a
+//! correct solver extends 0.1 or more to each side.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -16,7 +16,7 @@ use crate::verify::verdict::judge::{Judgement, judge};
 use crate::verify::verdict::name::Verdict;
 use thiserror::Error;
 
-/// Loss of order that a defect typically causes.
+/// Loss of order that a typical defect causes.
 const FAULT: f64 = 0.5;
 
 /// Treatment of an external solver's case by `run --gate`.
@@ -30,15 +30,15 @@ pub enum Gating {
     Excepted(String),
 }
 
-/// Required order or bound on errors; meeting either is enough.
+/// A required order or bound on errors. It is enough to meet one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
     /// Required order, before [`OrderHypothesis::TOLERANCE`] is subtracted.
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is stated. It is not
-    /// required of other methods whose levels are too few for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is stated. Other methods
+    /// need not satisfy it if they have too few levels for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -56,7 +56,7 @@ pub enum Acceptance {
 }
 
 impl Acceptance {
-    /// Text of the verdict. If the order was accepted, the verdict of the judge is used.
+    /// Returns the verdict as text. If the order was accepted, this is the verdict of the judge.
     pub(crate) fn verdict(self, judged: Verdict) -> String {
         match self {
             Self::Order if judged == Verdict::Converging => judged.to_string(),
@@ -67,27 +67,27 @@ impl Acceptance {
     }
 }
 
-/// An unmet requirement: one line with the requirement and the observation.
+/// An unmet requirement: one line with the requirement and the measured result.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct UnmetRequirement(String);
 
-/// Result of the check of a requirement.
+/// Result of checking a requirement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateResult {
-    /// Reason why the requirement is met, or an error with the requirement and the observation.
+    /// Reason why the requirement is met, or an error with the requirement and the measured result.
     pub result: Result<Acceptance, UnmetRequirement>,
-    /// Remark on a smaller time step that restored the order.
+    /// Remark that a shorter time step restored the order; `None` without such a step.
     pub remark: Option<String>,
 }
 
 impl Requirement {
-    /// Lowest order that is accepted.
+    /// Returns the lowest order that is accepted.
     fn lowest(&self) -> Option<f64> {
         self.order.map(|order| order - OrderHypothesis::TOLERANCE)
     }
 
-    /// The requirement in one line.
+    /// Returns the requirement in one line.
     pub fn summary(&self) -> String {
         let order = self.lowest().map(|order| format!("order at least {order:.2}"));
         let bound = self.bound().map(|bound| format!("errors at most {:e}", rounded(bound, 4)));
@@ -95,13 +95,13 @@ impl Requirement {
         parts.join(", or ")
     }
 
-    /// Bound at which errors are accepted without an order.
+    /// Returns the bound at which errors are accepted without an order.
     fn bound(&self) -> Option<f64> {
         self.error_below.or(self.own_error_below)
     }
 
-    /// Reason why these levels cannot test the requirement; `None` if they can. The failure of a
-    /// level is never such a reason, because the gate rejects failures.
+    /// Returns the reason why these levels cannot test the requirement; `None` if they can. The
+    /// failure of a level is never such a reason, because the gate rejects failures.
     pub(crate) fn untestable(&self, levels: &[Level]) -> Option<String> {
         let has_failed =
             levels.iter().any(|level| level.failed.is_some() || !level.error.is_finite());
@@ -123,11 +123,11 @@ impl Requirement {
         Some(format!("{count}, and an order needs {FEWEST_LEVELS}{own}"))
     }
 
-    /// Returns the reason why the errors of `levels` meet the requirement. Arguments are their
-    /// judgement and the error due to rounding.
+    /// Returns the reason why the errors of `levels` meet the requirement. `judgement` is the
+    /// judgement of the levels, `rounding` the error due to rounding.
     ///
     /// # Errors
-    /// One line with the requirement and the observation.
+    /// One line with the requirement and the measured result.
     pub fn check(
         &self,
         levels: &[Level],
@@ -148,7 +148,7 @@ impl Requirement {
             && match above {
                 0 => true,
                 // Coarse levels that are too few for an order may be pre-asymptotic. Without a
-                // bound their errors must fall until they reach rounding.
+                // bound, their errors must decrease until they reach the rounding error.
                 1..FEWEST_LEVELS => {
                     bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
                 }
@@ -167,13 +167,13 @@ impl Requirement {
         Err(UnmetRequirement(self.unmet(judgement, &counted)))
     }
 
-    /// The hypothesis for the judge.
+    /// Creates the hypothesis that the judge tests.
     pub(crate) fn hypothesis(&self, axis: Axis) -> OrderHypothesis {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval of the order reaches the lowest accepted order and excludes zero
-    /// and orders that are lower by a half.
+    /// Whether the 95 % interval of the order reaches the lowest accepted order. It must also
+    /// exclude zero and orders that are lower by 0.5.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };
@@ -220,7 +220,7 @@ mod tests {
         requirement.check(&levels, Axis::Space, &judgement, 1e-14)
     }
 
-    /// Errors of order `p` on `count` levels.
+    /// Creates errors of order `p` on `count` levels.
     fn of_order(p: f64, count: i32) -> Vec<f64> {
         (0..count).map(|k| libm::exp2(-p * f64::from(k))).collect()
     }
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &of_order(order, 5)).ok(), met);
     }
 
-    /// Errors of order 2 on five levels, with the finest error multiplied by a factor.
+    /// The errors on five levels have order 2, but the finest error is multiplied by a factor.
     #[rstest]
     #[case::a_little_noise(1.2, Some(Acceptance::Order))]
     #[case::noise_that_hides_the_order(2.5, None)]
@@ -299,7 +299,7 @@ mod tests {
         assert_eq!(untestable(&requirement(Some(2.0), Some(1e-3)), &[1.0]), "");
     }
 
-    /// A bound on the suite's own methods is not required of other methods.
+    /// Other methods need not satisfy a bound on the suite's own methods.
     #[rstest]
     #[case::within(&[1e-13], "")]
     #[case::above(&[0.2], "one level, and an order needs 4; only the suite's own methods must have errors at most 1e-12")]

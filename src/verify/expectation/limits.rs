@@ -1,13 +1,13 @@
-//! Bounds on figures, for expectations without an order. They need only one level.
+//! Bounds on measured values, for expectations without an order. They need only one level.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
 use crate::verify::order::format_number::{format_number, rounded};
 
-/// Bounds on figures, drifts and rates. The bounds themselves are allowed values. All must hold.
+/// Bounds on measured values, drifts and rates. A value may equal its bound. All bounds must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits {
-    /// Bounds on figures, in the order of [`CaseFigure::ALL`].
+    /// Bounds on measured values, in the order of [`CaseFigure::ALL`].
     pub bounds: Vec<(CaseFigure, f64)>,
     /// Maximum relative drifts on the levels that count.
     pub drift: Vec<(Conserved, f64)>,
@@ -19,7 +19,7 @@ pub struct Limits {
 /// Measured values that bounds are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// Values of [`CaseFigure::ALL`]; `None` if the levels do not have the figure.
+    /// Values of [`CaseFigure::ALL`]; `None` for a value that the levels do not have.
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
     /// Largest drifts of the levels that count; `None` if the subject reports no totals.
     pub drift: Option<ConservationError>,
@@ -29,26 +29,26 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// No figures, drifts and rates.
+    /// No measured values, drifts or rates.
     pub const NONE: Self =
         Self { figures: [None; CaseFigure::ALL.len()], drift: None, energy_rate: None };
 
-    /// The value of `figure`.
+    /// Returns the measured value of `figure`.
     pub fn figure(&self, figure: CaseFigure) -> Option<f64> {
         self.figures[figure as usize]
     }
 }
 
-/// A figure that violates its bound.
+/// A measured value that violates its bound.
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
-    /// The bound and the observed figure, in one line.
+    /// The bound and the measured value, in one line.
     pub(crate) line: String,
-    /// Whether the figure was measured.
+    /// Whether the value was measured.
     pub(crate) measured: bool,
 }
 
-/// A bound on a figure, and the measured value.
+/// A bound, and the measured value that it limits.
 struct Check {
     figure: CaseFigure,
     limit: f64,
@@ -56,7 +56,7 @@ struct Check {
 }
 
 impl Check {
-    /// Whether the bound holds. The comparison fails for NaN.
+    /// Whether the bound holds; false for NaN.
     fn holds(&self) -> bool {
         self.got.is_some_and(|got| match self.figure.bound_kind() {
             BoundKind::Minimum => got >= self.limit,
@@ -77,7 +77,7 @@ impl Check {
     }
 }
 
-/// Number of digits of a bound in a text.
+/// Number of digits of a bound in texts.
 const DIGITS: usize = 4;
 
 impl Limits {
@@ -86,17 +86,17 @@ impl Limits {
         *self == Self::default()
     }
 
-    /// The bound on `figure`.
+    /// Returns the bound on the measured value `figure`.
     pub fn bound(&self, figure: CaseFigure) -> Option<f64> {
         self.bounds.iter().find(|(bounded, _)| *bounded == figure).map(|(_, limit)| *limit)
     }
 
-    /// Sums with a bound on their drift.
+    /// Returns the sums with a bound on their drift.
     pub fn drifts(&self) -> Vec<Conserved> {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }
 
-    /// Bounds that do not hold.
+    /// Lists the bounds that do not hold.
     pub(crate) fn unmet(&self, measured: &Measured) -> Vec<UnmetFigure> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
         let mut unmet: Vec<UnmetFigure> = broken
@@ -129,7 +129,7 @@ impl Limits {
         unmet
     }
 
-    /// Text of each bound.
+    /// Describes each bound.
     pub(crate) fn summary(&self) -> Vec<String> {
         let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
         let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
@@ -146,7 +146,7 @@ impl Limits {
         parts
     }
 
-    /// Text of the measured values; empty without bounds.
+    /// Describes the measured values; empty without bounds.
     pub fn found(&self, measured: &Measured) -> String {
         let said = |check: &Check| format!("{} {}", check.figure.text(), check.got());
         let mut parts: Vec<String> = self.checks(Some(measured)).iter().map(said).collect();
@@ -183,7 +183,7 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Text of a drift. One digit is enough: a drift is either rounding or far too large.
+/// Formats a drift. One digit is enough: a drift is either rounding or far too large.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }
@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// `measured` with another value of `figure`.
+    /// Copies `measured` with another value of `figure`.
     fn with(figure: CaseFigure, value: Option<f64>) -> Measured {
         let mut measured = measured();
         measured.figures[figure as usize] = value;

@@ -1,4 +1,4 @@
-//! Expectations of a suite for a case, and the check whether they are met.
+//! Expectations of a suite for a case, and the check whether a case meets them.
 
 pub(crate) mod advice;
 pub(crate) mod gate;
@@ -10,11 +10,11 @@ use super::order::hypothesis::OrderHypothesis;
 use super::verdict::floor::FloorCause;
 use super::verdict::name::Verdict;
 
-/// Lower and upper bound; both are allowed values.
+/// Lower and upper bound. A value may equal either bound.
 pub type Bounds = (f64, f64);
 
-/// An expectation of a suite. Expected failures are as binding as expected orders. All present
-/// parts must hold.
+/// An expectation of a suite for a case. All fields that are set must hold. A case that is expected
+/// to fail but passes is an error too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expectation {
     /// The expected verdict; `None` for a case with limits only.
@@ -23,9 +23,9 @@ pub struct Expectation {
     pub order: Option<Bounds>,
     /// Bounds on the order between the two finest levels.
     pub finest_pair: Option<Bounds>,
-    /// Whether particles must (`true`) or must not change their cell on the finest level.
+    /// `true` if particles must change their cell on the finest level, `false` if they must not.
     pub crossings: Option<bool>,
-    /// Bounds on figures.
+    /// Bounds on measured values.
     pub limits: Limits,
     /// Expected cause of the error floor.
     pub floor: Option<FloorCause>,
@@ -33,7 +33,7 @@ pub struct Expectation {
     pub because: String,
 }
 
-/// Findings of a case that expectations are compared with.
+/// Results of a case that are compared with expectations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CaseFindings {
     /// The judge's verdict.
@@ -42,9 +42,9 @@ pub struct CaseFindings {
     pub order: Option<Bounds>,
     /// Order between the two finest levels.
     pub finest_pair: Option<f64>,
-    /// Crossings on the finest level.
+    /// Number of cell changes of particles on the finest level.
     pub crossings: Option<u64>,
-    /// Measured values with bounds.
+    /// Measured values that limits are compared with.
     pub measured: Measured,
     /// Cause of the error floor, if it was requested and could be determined.
     pub floor: Option<FloorCause>,
@@ -65,19 +65,19 @@ impl Expectation {
         }
     }
 
-    /// One sentence for each unmet expectation, without repetition of a failure; empty if all are
-    /// met.
+    /// Returns one sentence for each unmet expectation; empty if all are met. A failure is reported
+    /// only once.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
-        // A failed run has no figures, and its failure is already reported.
+        // A failed run has no measured values, and its failure is already reported.
         let failed = judged.is_some() && found.verdict == Verdict::Failed;
         let figures = self.unmet_figures(found).into_iter();
         let told = figures.filter(|figure| figure.measured || !failed);
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Describes an unmet verdict or observed order, in one sentence because both describe one
-    /// finding.
+    /// Describes an unmet verdict or observed order. Both are in one sentence because they describe
+    /// one result.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
@@ -132,7 +132,7 @@ impl Expectation {
         unmet
     }
 
-    /// The expectation in one line, for reports.
+    /// Returns the expectation in one line, for reports.
     pub fn summary(&self) -> String {
         let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
         parts.extend(self.order.map(|b| format!("order within {}", show(b))));
@@ -149,7 +149,7 @@ impl Expectation {
     }
 }
 
-/// Whether `value` is within bounds. The comparison fails for NaN.
+/// Whether `value` is within bounds; false for NaN.
 fn within(value: f64, (low, high): Bounds) -> bool {
     low <= value && value <= high
 }

@@ -1,9 +1,9 @@
-//! Proposes expectations for a suite that states none, from its runs.
+//! Proposes expectations for a suite that states none. They are based on the runs of the suite.
 //!
-//! Theory comes first: if the observed order agrees with the formal one, the formal order is
-//! proposed. Other values come from the run and are marked accordingly. Intervals that the run
-//! meets only narrowly are not proposed: twice the uncertainty must fit between the observed order
-//! and either bound.
+//! Theory has priority: if the observed order agrees with the formal one, the formal order is
+//! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
+//! only if the run meets it with a margin: twice the uncertainty must fit between the observed
+//! order and either bound.
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
@@ -14,14 +14,14 @@ use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum drift that counts as rounding of the sums.
+/// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the observed value, because other processors and settings
-/// add in another order.
+/// Minimum ratio of a proposed bound to the measured drift. Other processors and settings add in
+/// another order and have other rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
-/// Ratio of a proposed error bound to the largest observed error.
+/// Ratio of a proposed error bound to the largest measured error.
 const ROOM_OF_ERROR: f64 = 2.0;
 
 named! {
@@ -29,7 +29,7 @@ named! {
     pub enum Ground {
         /// The formal order, or a conservation law.
         Theory = "theory",
-        /// The figures of the run.
+        /// Measured values of the run.
         Run = "the run",
     }
 }
@@ -50,7 +50,7 @@ pub struct Proposal {
     pub keys: Vec<ProposedKey>,
     /// Reason, which the author of the suite must complete if theory gives none.
     pub because: String,
-    /// Verdict and figures of the run.
+    /// Verdict and measured values of the run.
     pub seen: String,
     /// Reasons why the expectation is not stronger, and ways to obtain a stronger one.
     pub stronger: Vec<String>,
@@ -63,7 +63,7 @@ struct ProposedOrder {
     because: String,
 }
 
-/// Proposes the entry of `expect` that the results of a case support.
+/// Proposes an entry of `expect` that agrees with the results of a case.
 pub fn propose(study: &Convergence) -> Proposal {
     let claim = claim(study).filter(|_| study.compared);
     let is_claimed = claim.is_some();
@@ -96,7 +96,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// Expected verdict or order, if a repetition of the run would meet it.
+/// Returns the expected verdict or order, if another run would meet it too.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
@@ -151,7 +151,7 @@ fn error_bound(study: &Convergence) -> Option<String> {
     (bound > 0.0 && bound.is_finite()).then(|| format!("error_below: {bound:e}"))
 }
 
-/// The number rounded up to one significant digit.
+/// Rounds a number up to one significant digit.
 fn rounded_up(value: f64) -> f64 {
     let text = format!("{value:.0e}");
     let nearest: f64 = text.parse().unwrap_or(value);
@@ -163,8 +163,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposed bounds on the conserved sums. Bounds on mass are attributed to theory, because
-/// particles carry it in every method.
+/// Proposes bounds on the conserved sums. Bounds on mass are attributed to theory, because in every
+/// method the mass is fixed to the particles.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
@@ -208,7 +208,7 @@ mod tests {
         propose(study).keys.into_iter().map(|key| key.text).collect()
     }
 
-    /// An order without theory is proposed as the nearest multiple of 1/2.
+    /// An order without theory is rounded to the nearest multiple of 1/2.
     #[test]
     fn orders_go_by_halves() {
         let halves = |order: f64| {
@@ -220,7 +220,7 @@ mod tests {
         assert_eq!(halves(1.25), ["verdict: too_low"]);
     }
 
-    /// Crossings are proposed only from runs that reach their end.
+    /// Cell changes are proposed only from runs that reach their end.
     #[test]
     fn crossings_are_proposed_of_runs_that_end() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);

@@ -1,11 +1,11 @@
-//! Finds the probable mistake in a wrong derivative by comparison with runs without derivatives.
+//! Finds the probable mistake in a wrong derivative by comparing it with runs without derivatives.
 
 use super::ValueCheck;
 
-/// Maximum relative difference between a derivative and a matching figure.
+/// Maximum relative difference between a derivative and a number that explains it.
 const ALIKE: f64 = 1e-3;
 
-/// Share of a central difference below which a derivative counts as zero.
+/// Fraction of a central difference below which a derivative counts as zero.
 const ZERO: f64 = 1e-9;
 
 /// One entry of a reported gradient.
@@ -29,20 +29,20 @@ impl GradientEntry {
     }
 }
 
-/// Figures of runs without derivatives, for comparison with a wrong derivative.
+/// Results of runs without derivatives, which are compared with a wrong derivative.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientEvidence {
-    /// All entries of the reported gradient, on the level with perturbed parameters.
+    /// Entries of the reported gradient, on the level where parameters are perturbed.
     pub entries: Vec<GradientEntry>,
-    /// Value after all steps except the last; NaN if it is unknown.
+    /// Value of the functional after all steps except the last; NaN if it is unknown.
     pub one_step_less: f64,
-    /// Value of a run with a Young's modulus near zero; NaN if it is unknown.
+    /// Value of the functional for a Young's modulus near zero; NaN if it is unknown.
     pub without_stress: f64,
 }
 
 impl GradientEvidence {
-    /// The probable mistake in the derivative with respect to `parameter`; `None` if no figure of
-    /// `self` matches it. `value` is the check of the reported value.
+    /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if no
+    /// result in `self` explains the derivative. `value` is the check of the reported value.
     pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
         if !value.agrees() {
             let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;
@@ -72,7 +72,7 @@ impl GradientEvidence {
         }
         let factor = own.reported / own.difference;
         let have_factor = |entry: &GradientEntry| alike(entry.reported, factor * entry.difference);
-        // A factor close to 1 must not be rounded to 1.
+        // A factor close to 1 must not be printed as 1.
         let digits = if (factor - 1.0).abs() < 0.01 { 9 } else { 4 };
         let times = format!("{factor:.digits$} times the central difference");
         if self.entries.len() > 1 && self.entries.iter().all(have_factor) {
@@ -106,8 +106,9 @@ impl GradientEvidence {
         (!moved.is_empty()).then(|| moved.join(", "))
     }
 
-    /// Whether the derivative with respect to the factor on the initial velocity is wrong and
-    /// equals the value of a motion without stress. That value is proportional to the factor.
+    /// Whether the derivative with respect to the factor on the initial velocity is wrong, and
+    /// equals the derivative for a motion without stress. Without stress the functional is
+    /// proportional to the factor.
     fn is_without_stress(&self) -> bool {
         let velocity = self.entries.iter().find(|entry| entry.parameter == "initial_velocity");
         velocity
@@ -126,8 +127,8 @@ mod tests {
 
     const RIGHT: ValueCheck = ValueCheck { reported: 3.0, computed: 3.0, tolerance: 1e-12 };
 
-    /// Reported derivatives with respect to `young`, `density` and `initial_velocity`. Their
-    /// central differences are -3.6, 3.7 and 3.0.
+    /// Creates reported derivatives with respect to `young`, `density` and `initial_velocity`.
+    /// Their central differences are -3.6, 3.7 and 3.0.
     fn evidence(reported: [f64; 3]) -> GradientEvidence {
         let entry =
             |(parameter, reported, difference)| GradientEntry { parameter, reported, difference };

@@ -1,7 +1,7 @@
 //! Judges the derivatives that a differentiable solver reports.
 //!
 //! ```text
-//! taylor   the remainder of a derivative at one value of the parameter
+//! taylor   the Taylor remainder of a derivative at one value of the parameter
 //! sweep    the derivative over an interval of the parameter
 //! cause    the probable mistake in a wrong derivative
 //! study    all checks of one parameter, and the state of its derivative
@@ -35,15 +35,15 @@ named! {
     }
 }
 
-/// Two values of the functional: the solver reports one with the gradient; the harness computes the
-/// other from the state of a run without derivatives.
+/// Two values of the functional. The solver reports one with the gradient. The other is computed
+/// from the state of a run without derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueCheck {
     /// Value reported with the gradient.
     pub reported: f64,
     /// Value computed from the state of a run without derivatives.
     pub computed: f64,
-    /// Allowed difference.
+    /// Maximum difference between both values.
     pub tolerance: f64,
 }
 

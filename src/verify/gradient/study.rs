@@ -6,13 +6,13 @@ use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
 
-/// Maximum difference between the order of the derivative and the formal order.
+/// Maximum difference between the observed order of the derivative and the formal order.
 const ORDER: f64 = 0.15;
 
-/// Maximum difference between the order of the finest pair of levels and the formal order.
+/// Maximum difference between the order over the two finest levels and the formal order.
 const FINEST: f64 = 0.25;
 
-/// One level of refinement.
+/// Reported and exact derivative on one level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GradientLevel {
     /// Cells along the first axis.
@@ -21,15 +21,15 @@ pub struct GradientLevel {
     pub h: f64,
     /// Time step (s).
     pub dt: f64,
-    /// Reported derivative. It is the total derivative if the suite's initial velocity depends on
-    /// the parameter.
+    /// Reported derivative with respect to the parameter. If the initial velocity of the suite
+    /// depends on the parameter, it is the total derivative.
     pub gradient: f64,
     /// The exact derivative.
     pub exact: f64,
 }
 
 impl GradientLevel {
-    /// Magnitude of the error of the derivative.
+    /// Returns the magnitude of the error of the derivative.
     pub fn error(&self) -> f64 {
         (self.gradient - self.exact).abs()
     }
@@ -42,17 +42,17 @@ pub struct GradientStudy {
     pub functional: &'static str,
     /// Name of the parameter.
     pub parameter: &'static str,
-    /// Check 1: the value, on the level with the perturbed parameter.
+    /// Check 1: the value of the functional, on the level where parameters are perturbed.
     pub value: ValueCheck,
     /// Check 2: the Taylor remainder.
     pub taylor: Taylor,
-    /// Check 3: the derivative on all levels.
+    /// Check 3: the derivatives on all levels.
     pub levels: Vec<GradientLevel>,
     /// Check 4: the derivative over an interval of the parameter.
     pub sweep: Option<Sweep>,
     /// The points of the sweep.
     pub points: Vec<SweepPoint>,
-    /// Figures from additional runs without derivatives, if the derivative is wrong.
+    /// Results of additional runs without derivatives, if the derivative is wrong.
     pub evidence: Option<GradientEvidence>,
 }
 
@@ -63,8 +63,8 @@ impl StudyResults for GradientStudy {
 }
 
 impl GradientStudy {
-    /// State of the derivative, and the figures that led to it. For a wrong derivative also its
-    /// cause, if runs without derivatives reveal it.
+    /// Returns the state of the derivative, and the reason with measured values. The reason names
+    /// the cause of a wrong derivative if runs without derivatives reveal it.
     pub fn state(&self) -> (GradientState, String) {
         let (state, reason) = self.measured_state();
         let evidence = self.evidence.as_ref().filter(|_| state == GradientState::Wrong);
@@ -96,15 +96,15 @@ impl GradientStudy {
         }
     }
 
-    /// Orders of the derivative error between consecutive levels; NaN if undefined.
+    /// Returns the orders of the derivative error between neighbouring levels; NaN if undefined.
     pub fn pairwise_orders(&self) -> Vec<f64> {
         let level = |level: &GradientLevel| Level::new(level.h, level.error());
         let order = |pair: &[GradientLevel]| observed_order(&level(&pair[0]), &level(&pair[1]));
         self.levels.windows(2).map(|pair| order(pair).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Order of the derivative error: slope of the least-squares line of log error over log h. NaN
-    /// with fewer than two levels, or if an error is zero or not finite.
+    /// Returns the order of the derivative error: the slope of the least-squares line of log error
+    /// over log h. NaN with fewer than two levels, or if an error is zero or not finite.
     pub fn order(&self) -> f64 {
         let point = |(index, level): (usize, &GradientLevel)| LogPoint {
             level: index,
@@ -116,26 +116,26 @@ impl GradientStudy {
     }
 }
 
-/// Requirements of a derivative.
+/// Requirements on a derivative.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GradientTerms {
     /// Required state.
     pub state: Option<GradientState>,
     /// Lowest and highest order of the error of the derivative.
     pub order: Option<(f64, f64)>,
-    /// Lowest and highest order of the finest pair of levels.
+    /// Lowest and highest order over the two finest levels.
     pub finest: Option<(f64, f64)>,
 }
 
 impl GradientTerms {
-    /// Requirements of the gate on a solver with this formal order: a state other than `wrong`, and
-    /// the order.
+    /// Returns the requirements of the gate on a solver with this formal order: any state except
+    /// `wrong`, and the order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }
     }
 
-    /// Requirements in one line.
+    /// Returns the requirements in one line.
     pub fn summary(&self) -> String {
         let range = |name: &str, range: (f64, f64)| {
             format!("{name} {} to {}", format_number(range.0), format_number(range.1))
@@ -146,7 +146,7 @@ impl GradientTerms {
         [Some(state), order, finest].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// Requirements that `study` does not meet, each in one line.
+    /// Lists the requirements that `study` does not meet, each in one line.
     pub fn unmet(&self, study: &GradientStudy) -> Vec<String> {
         let (state, reason) = study.state();
         let state_is_met = match self.state {
@@ -176,8 +176,8 @@ mod tests {
     use super::*;
     use crate::verify::gradient::Perturbed;
 
-    /// A study of J = q^2 at q = 1 on three levels. The reported derivative is `factor` times the
-    /// correct one.
+    /// Creates a study of J = q^2 at q = 1 on three levels. The reported derivative is the correct
+    /// one times `factor`.
     fn study(factor: f64, error: impl Fn(f64) -> f64) -> GradientStudy {
         let perturbed = |level: i32| {
             let by = libm::exp2(-f64::from(level));

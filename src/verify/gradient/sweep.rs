@@ -4,11 +4,11 @@
 /// relative to this change.
 const SMOOTH: f64 = 1e-3;
 
-/// Minimum jump between neighbouring values of the parameter that counts, relative to the change of
-/// the function.
+/// Minimum difference between neighbouring values of the function that counts as a jump, relative
+/// to the change of the function.
 const JUMP: f64 = 5e-4;
 
-/// One value of the parameter.
+/// Value and derivative of the functional at one value of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SweepPoint {
     /// The parameter q.
@@ -32,7 +32,7 @@ pub struct Sweep {
 
 impl Sweep {
     /// Integrates the derivative over `points`, which are sorted by the parameter. `rounding` is
-    /// the rounding error of a value. `None` if the function changes by no more than rounding.
+    /// the rounding error of a value. `None` if the function changes by no more than `rounding`.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;
@@ -53,7 +53,7 @@ impl Sweep {
         (self.share - 1.0).abs() <= SMOOTH && self.jumps.is_empty()
     }
 
-    /// Share and jumps in one line.
+    /// Formats share and jumps in one line.
     pub fn summary(&self) -> String {
         let jumps: Vec<String> = self.jumps.iter().map(|jump| format!("{jump:+.3}")).collect();
         let jumps = match jumps.as_slice() {

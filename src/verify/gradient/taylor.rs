@@ -2,40 +2,40 @@
 
 use super::GradientState;
 
-/// Level of the smallest perturbation, which is the parameter times 2^-level.
+/// Exponent of the smallest perturbation, which is the parameter times 2^-exponent.
 pub const LAST_LEVEL: u32 = 16;
 
-/// Level of the largest perturbation, which is the parameter times 2^-level.
+/// Exponent of the largest perturbation, which is the parameter times 2^-exponent.
 pub const FIRST_LEVEL: u32 = 4;
 
-/// Orders of the remainder of a correct derivative of a smooth function.
+/// Range of the order of the remainder for a correct derivative of a smooth function.
 const SECOND: (f64, f64) = (1.9, 2.1);
 
-/// Orders of the remainder of a wrong derivative.
+/// Range of the order of the remainder for a wrong derivative.
 const FIRST: (f64, f64) = (0.9, 1.1);
 
-/// Orders of a remainder that does not decrease.
+/// Range of the order of a remainder that does not decrease.
 const FLAT: (f64, f64) = (-0.1, 0.1);
 
-/// Number of consecutive levels on which an order must hold.
+/// Number of consecutive perturbations over which an order must hold.
 const LEVELS: usize = 4;
 
-/// Maximum relative difference between central differences without a jump between them.
+/// Maximum relative difference between central differences if there is no jump between them.
 const SPREAD: f64 = 0.05;
 
 /// Maximum rounding error of a usable central difference, relative to its magnitude.
 const NOISE: f64 = 0.01;
 
-/// Maximum ratio of the difference between derivative and central difference to the uncertainty of
-/// the latter.
+/// Maximum distance between a correct derivative and the central difference, in units of the
+/// uncertainty of the central difference.
 const SURE: f64 = 10.0;
 
-/// One perturbation of the parameter.
+/// Values of the functional for one perturbation of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbed {
-    /// Exponent of the perturbation e, which is the parameter times 2^-level.
+    /// Exponent of the perturbation e: e is the parameter times 2^-level.
     pub level: u32,
-    /// The perturbation e.
+    /// Perturbation e.
     pub by: f64,
     /// J(q + e).
     pub above: f64,
@@ -50,21 +50,21 @@ pub struct Taylor {
     pub value: f64,
     /// The reported derivative g.
     pub gradient: f64,
-    /// Rounding level of the remainder.
+    /// Rounding error of the remainder.
     pub rounding: f64,
     /// Perturbed values, the largest perturbation first.
     pub perturbed: Vec<Perturbed>,
 }
 
 impl Taylor {
-    /// The remainders `|J(q + e) - J(q) - e g|`.
+    /// Returns the remainders `|J(q + e) - J(q) - e g|`.
     pub fn remainders(&self) -> Vec<f64> {
         let remainder = |p: &Perturbed| (p.above - self.value - p.by * self.gradient).abs();
         self.perturbed.iter().map(remainder).collect()
     }
 
-    /// Orders of the remainder between consecutive levels; `None` if a remainder is not above the
-    /// rounding level.
+    /// Returns the orders of the remainder between consecutive perturbations; `None` if a remainder
+    /// is not larger than its rounding error.
     pub fn orders(&self) -> Vec<Option<f64>> {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by).zip(self.remainders()).collect();
@@ -77,12 +77,12 @@ impl Taylor {
         all.windows(2).map(order).collect()
     }
 
-    /// The central differences `(J(q + e) - J(q - e))/(2 e)`.
+    /// Returns the central differences `(J(q + e) - J(q - e))/(2 e)`.
     pub fn differences(&self) -> Vec<f64> {
         self.perturbed.iter().map(|p| (p.above - p.below) / (2.0 * p.by)).collect()
     }
 
-    /// State of the derivative, and the figures that led to it.
+    /// Returns the state of the derivative, and the reason with measured values.
     pub fn judge(&self) -> (GradientState, String) {
         let (remainders, orders) = (self.remainders(), self.orders());
         let above = remainders.iter().filter(|r| **r > self.rounding).count();
@@ -133,8 +133,8 @@ impl Taylor {
     /// Whether the derivative differs significantly from the most accurate central difference. The
     /// uncertainty of a central difference is its rounding error plus its change from the next
     /// larger perturbation. In a smooth function this change is three times the truncation error.
-    /// The check detects small relative errors of the derivative, which leave order 2 on the coarse
-    /// levels.
+    /// The check detects small relative errors of the derivative. The remainder does not show
+    /// these, because its order is still 2 for large perturbations.
     fn is_off(&self) -> bool {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by.abs()).zip(self.differences()).collect();
@@ -146,7 +146,7 @@ impl Taylor {
         best.is_some_and(|(error, now)| !((now - self.gradient).abs() <= SURE * error))
     }
 
-    /// Central differences with a small rounding error.
+    /// Returns the central differences with a small rounding error.
     fn usable_differences(&self) -> Vec<f64> {
         let all = self.perturbed.iter().zip(self.differences());
         let usable = all.filter(|(p, d)| !(self.rounding > NOISE * (p.by * d).abs()));
@@ -154,8 +154,8 @@ impl Taylor {
     }
 }
 
-/// Difference between the largest and the smallest number, relative to the largest magnitude; NaN
-/// if a number is NaN.
+/// Returns the difference between the largest and the smallest number, relative to the largest
+/// magnitude; NaN if a number is NaN.
 fn spread(numbers: &[f64]) -> f64 {
     if numbers.iter().any(|number| number.is_nan()) {
         return f64::NAN;
@@ -166,19 +166,19 @@ fn spread(numbers: &[f64]) -> f64 {
     if numbers.is_empty() || size == 0.0 { 0.0 } else { (high - low) / size }
 }
 
-/// Whether an order is in a range.
+/// Whether `order` is within `range`; false for `None`.
 fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
     order.is_some_and(|order| range.0 <= order && order <= range.1)
 }
 
-/// Whether the orders of the last levels above rounding are in a range.
+/// Whether the orders for the smallest perturbations above the rounding error are in a range.
 fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     let end = orders.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
     let start = end.saturating_sub(LEVELS - 1);
     end - start == LEVELS - 1 && orders[start..end].iter().all(|order| is_in(*order, range))
 }
 
-/// Largest number of consecutive orders in a range.
+/// Returns the maximum number of consecutive orders in a range.
 fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
     let extend = |(longest, now): (usize, usize), order: &Option<f64>| {
         let now = if is_in(*order, range) { now + 1 } else { 0 };
@@ -191,7 +191,7 @@ fn longest_run(orders: &[Option<f64>], range: (f64, f64)) -> usize {
 mod tests {
     use super::*;
 
-    /// Taylor test of `f` at q = 2 with the derivative `gradient` and the rounding level
+    /// Creates a Taylor test of `f` at q = 2 with the derivative `gradient` and the rounding error
     /// `rounding`.
     fn taylor(f: impl Fn(f64) -> f64, gradient: f64, rounding: f64) -> Taylor {
         let q = 2.0;
@@ -227,7 +227,7 @@ mod tests {
     fn a_derivative_of_a_linear_function_is_linear() {
         assert_eq!(state(|q| 3.0 * q - 1.0, 3.0), GradientState::Linear);
         assert_eq!(state(|q| 3.0 * q - 1.0, 6.0), GradientState::Wrong);
-        // Rounding may hide any derivative.
+        // If everything is rounding, no derivative can be judged.
         assert_eq!(state(|_| 0.0, 0.0), GradientState::AtRounding);
     }
 
@@ -235,9 +235,9 @@ mod tests {
     fn a_jump_between_perturbations_is_named() {
         let with_jump = |at: f64| move |q: f64| libm::sin(q) + if q > at { 0.05 } else { 0.0 };
         assert_eq!(state(with_jump(2.003), libm::cos(2.0)), GradientState::Jumps);
-        // The jump is nearer than the smallest perturbation.
+        // The distance to the jump is smaller than the smallest perturbation.
         assert_eq!(state(with_jump(2.0), libm::cos(2.0)), GradientState::Jumps);
-        // The jump is beyond all perturbations.
+        // The distance to the jump is larger than all perturbations.
         assert_eq!(state(with_jump(3.0), libm::cos(2.0)), GradientState::Smooth);
     }
 

@@ -28,12 +28,12 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The interval to two decimals, as in tables of orders: `2.00 [1.99, 2.01]`.
+    /// Formats the interval to two decimals, as in tables of orders: `2.00 [1.99, 2.01]`.
     pub fn shown(&self) -> String {
         format!("{:.2} [{:.2}, {:.2}]", self.value, self.low, self.high)
     }
 
-    /// Half of the width.
+    /// Returns half of the width of the interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
     }
@@ -42,7 +42,7 @@ impl Interval {
 /// One level on logarithmic axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogPoint {
-    /// Index among the sorted levels.
+    /// Index of the level among the sorted levels.
     pub(crate) level: usize,
     /// `ln h`
     pub(crate) x: f64,
@@ -76,12 +76,14 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// Distance of a point above the line: `ln` of the ratio of its error to that of the line.
+    /// Returns the vertical distance of a point from the line: `ln` of the ratio of its error to
+    /// that of the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }
 
-    /// The slope with its confidence interval, whose ends are NaN for fewer than three points.
+    /// Returns the slope with its confidence interval. The ends are NaN for fewer than three
+    /// points.
     pub(crate) fn order(&self) -> Interval {
         let freedom = self.points.saturating_sub(2);
         let deviation = (self.rss / freedom as f64 / self.sxx).sqrt();
@@ -89,7 +91,7 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// Predicted value of another point at `x`, with its 95 % prediction interval
+    /// Returns the predicted value of another point at `x`, with its 95 % prediction interval
     /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`. The ends are NaN for fewer than three
     /// points.
     pub(crate) fn another(&self, x: f64) -> Interval {
@@ -101,8 +103,8 @@ impl FittedLine {
         Interval { value, low: value - half_width, high: value + half_width }
     }
 
-    /// Drift of the order over the points of this line, from a fit of the parabola `line + c q(x)`.
-    /// Here `q` is `x^2` made orthogonal to the line.
+    /// Computes the drift of the order over the points of this line from a fit of the parabola
+    /// `line + c q(x)`. The function `q` is `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {
         let parabola: Vec<LogPoint> =
             points.iter().map(|p| LogPoint { y: square(p.x - self.mean_x), ..*p }).collect();
@@ -123,7 +125,7 @@ impl FittedLine {
 pub(crate) struct Trend {
     /// Order at the finest level minus the order at the coarsest level.
     pub(crate) change: f64,
-    /// Probability that noise about a straight line shows a change at least this large.
+    /// Probability that noise about a straight line causes a change at least this large.
     pub(crate) p_value: f64,
 }
 

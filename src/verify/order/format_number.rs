@@ -5,7 +5,7 @@ use super::fit::Interval;
 /// Number of significant digits of a spacing or an error.
 const DIGITS: usize = 4;
 
-/// A number to four significant digits: `0.4167`, `25`, `1.563e-14`.
+/// Formats a number with four significant digits: `0.4167`, `25`, `1.563e-14`.
 pub(crate) fn format_number(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{}", x + 0.0);
@@ -21,18 +21,18 @@ pub(crate) fn format_number(x: f64) -> String {
     }
 }
 
-/// The number rounded to `digits` significant digits.
+/// Rounds a number to `digits` significant digits.
 pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
-/// An order with its interval: `2.003 [1.991, 2.015]`.
+/// Formats an order with its interval, such as `2.003 [1.991, 2.015]`.
 pub(crate) fn order(order: &Interval) -> String {
     let Interval { value, low, high } = order;
     format!("{value:.3} [{low:.3}, {high:.3}]")
 }
 
-/// The number without trailing zeros of a decimal fraction.
+/// Removes the trailing zeros of a decimal fraction.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }

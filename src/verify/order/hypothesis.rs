@@ -8,45 +8,45 @@ use super::level::Axis;
 pub struct OrderHypothesis {
     /// Theoretical order of the method.
     pub formal_order: f64,
-    /// Range for the observed order; default `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
+    /// Range for the observed order; `None` for `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
-    /// Axis of refinement. It determines the name of the spacing in texts and changes no result.
+    /// Axis of refinement. It determines the name of the spacing in texts, and affects no result.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// Maximum distance of the observed order from the formal one if no range is stated: a fifth of
-    /// the gap between two methods whose orders differ by 0.5.
+    /// Maximum distance of the observed order from the formal one if no range is stated. It is a
+    /// fifth of 0.5, the typical distance between the orders of two methods.
     pub const TOLERANCE: f64 = 0.1;
 
     /// Maximum width of a range. A wider range could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
-    /// Hypothesis of the formal order with the usual tolerance.
+    /// Creates the hypothesis of a formal order with the usual tolerance.
     pub const fn formal(order: f64) -> Self {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// Hypothesis of the formal order with a stated range.
+    /// Creates the hypothesis of a formal order with a stated range.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }
 
-    /// The hypothesis for another axis of refinement.
+    /// Replaces the axis of refinement.
     #[must_use]
     pub const fn over(self, axis: Axis) -> Self {
         Self { axis, ..self }
     }
 
-    /// The expected range.
+    /// Returns the range in which the observed order must lie.
     pub fn range(&self) -> (f64, f64) {
         let formal = self.formal_order;
         let usual = (formal - Self::TOLERANCE, formal + Self::TOLERANCE);
         self.expected.unwrap_or(usual)
     }
 
-    /// Reason why this hypothesis cannot be tested: the range is not finite and positive, or is so
-    /// wide that nearly every order is inside. `None` if it can be tested.
+    /// Returns the reason why this hypothesis cannot be tested: the range is not finite and
+    /// positive, or is so wide that nearly every order is inside. `None` if it can be tested.
     pub(crate) fn diagnostic(&self) -> Option<String> {
         let (low, high) = self.range();
         let orders = [self.formal_order, low, high];

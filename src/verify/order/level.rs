@@ -5,10 +5,10 @@ use crate::named::named;
 use std::cmp::Ordering;
 
 named! {
-    /// Axis of refinement. The errors of all axes add up, so refinement of a single axis ends at
-    /// the error of the others.
+    /// Axis of refinement. The errors of all axes add up, so refining a single axis cannot reduce
+    /// the error below that of the other axes.
     pub enum Axis {
-        /// Cells. The time step may follow as a formula of h.
+        /// Cells. The time step may be a formula of h.
         Space = "space",
         /// Time steps, on one grid.
         Time = "time",
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Axis {
-    /// Symbol of the refined spacing, for texts and tables.
+    /// Returns the symbol of the refined spacing, for texts and tables.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Space => "h",
@@ -27,7 +27,7 @@ impl Axis {
         }
     }
 
-    /// Name of the refined spacing.
+    /// Returns the name of the refined spacing.
     pub fn noun(self) -> &'static str {
         match self {
             Self::Space => "cell size",
@@ -42,7 +42,7 @@ impl Axis {
 pub struct Level {
     /// Refined spacing of the grid, of time or of particles; not a number of cells.
     pub h: f64,
-    /// Norm of the error.
+    /// Norm of the error on the level.
     pub error: f64,
     /// False for a level that is reported but does not count. An example is a level on which
     /// particles change their cell, if the theory does not cover this.
@@ -52,24 +52,24 @@ pub struct Level {
 }
 
 impl Level {
-    /// A level that counts.
+    /// Creates a level that counts.
     pub fn new(h: f64, error: f64) -> Self {
         Self { h, error, usable: true, failed: None }
     }
 
-    /// The level, marked as reported but not counted.
+    /// Marks the level as reported but not counted.
     #[must_use]
     pub fn unusable(self) -> Self {
         Self { usable: false, ..self }
     }
 
-    /// The level, marked as failed for `reason`.
+    /// Marks the level as failed for `reason`.
     #[must_use]
     pub fn failing(self, reason: impl Into<String>) -> Self {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// Defect that makes the level invalid, whether it counts or not.
+    /// Returns the defect that makes the level invalid, whether it counts or not.
     fn diagnostic(&self, axis: Axis) -> Option<String> {
         let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {
@@ -86,8 +86,8 @@ impl Level {
     }
 }
 
-/// Sorts from coarse to fine and merges identical levels. A merged level does not count if one of
-/// its parts does not. The diagnostic names the first defect that makes the series invalid.
+/// Sorts levels from coarse to fine and merges identical ones. A merged level counts only if all
+/// its parts count. The diagnostic names the first defect that makes the series invalid.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));
@@ -119,14 +119,14 @@ fn same(a: f64, b: f64) -> bool {
     a.partial_cmp(&b) == Some(Ordering::Equal)
 }
 
-/// Observed order between two levels, with its sign and with the actual ratio of `h`:
+/// Computes the observed order between two levels, with its sign and with the actual ratio of `h`:
 ///
 /// ```text
 /// p = ln(error_coarse / error_fine) / ln(h_coarse / h_fine)
 /// ```
 ///
-/// It is negative if the error grows under refinement. `None` if a number is zero, negative or not
-/// finite, or if the spacings are equal.
+/// The order is negative if the error grows under refinement. `None` if a number is zero, negative
+/// or not finite, or if the spacings are equal.
 pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     let fall = logarithm(coarse.error)? - logarithm(fine.error)?;
     let ratio = logarithm(coarse.h)? - logarithm(fine.h)?;
@@ -134,7 +134,7 @@ pub fn observed_order(coarse: &Level, fine: &Level) -> Option<f64> {
     order.is_finite().then_some(order)
 }
 
-/// Observed order between each level and the previous one; `None` for the first level.
+/// Computes the order between each level and the previous one; `None` for the first level.
 pub(crate) fn pairwise(levels: &[Level]) -> Vec<Option<f64>> {
     let pairs = levels.windows(2);
     let orders = pairs.map(|pair| observed_order(&pair[0], &pair[1]));

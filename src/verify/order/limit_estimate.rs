@@ -21,9 +21,9 @@
 //!   always extends to the finest value, like the grid convergence index with a factor of 1 (Roache
 //!   1994).
 //!
-//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple has
-//! this role: four values and three unknowns leave one equation that can contradict the
-//! extrapolation. Series of their oscillating and divergent classes give no estimate here.
+//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple
+//! serves this purpose: four values and three unknowns leave one equation that can contradict the
+//! extrapolation. Series that they classify as oscillating or divergent give no estimate here.
 //!
 //! The coverage of the interval was measured over the suites with exact solutions
 //! (`docs/estimate.md`).
@@ -33,7 +33,7 @@ use super::richardson::Richardson;
 use serde::Serialize;
 use std::fmt;
 
-/// Number of levels in an estimate: the finest ones.
+/// Number of levels in an estimate. The finest levels are used.
 pub const LEVELS_OF_ESTIMATE: usize = 4;
 
 /// Factor on the difference between two extrapolations, and between two orders.
@@ -42,14 +42,15 @@ const SAFETY_FACTOR: f64 = 3.0;
 /// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple. Below it the extrapolated part exceeds twice the last change.
+/// Minimum order of a triple. For lower orders the extrapolated part exceeds twice the last change.
 const LEAST_ORDER: f64 = 0.5;
 
-/// Maximum order of a triple. Above it the changes shrink faster than with any method here.
+/// Maximum order of a triple. For higher orders the changes shrink faster than with any method
+/// here.
 const LARGEST_ORDER: f64 = 4.5;
 
-/// Minimum last change, in units of the rounding error of a value. Rounding then changes the ratio
-/// of changes by at most an eighth.
+/// Minimum last change, in units of the rounding error of a value. Rounding changes the ratio of
+/// larger changes by at most an eighth.
 const LEAST_CHANGE: f64 = 16.0;
 
 /// Relative rounding error of a computed value, which is a sum of several terms.
@@ -62,8 +63,8 @@ pub struct SeriesPoint {
     pub h: f64,
     /// The value.
     pub value: f64,
-    /// Distance between the numbers to which the value was rounded, in the unit of the value; zero
-    /// for double precision.
+    /// Distance between neighbouring numbers in the output that contains the value, in the unit of
+    /// the value; zero for double precision.
     pub resolution: f64,
 }
 
@@ -123,7 +124,7 @@ pub enum EstimateRefusal {
 }
 
 impl EstimateRefusal {
-    /// The reason in two or three words, for tables.
+    /// Returns the reason in two or three words, for tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::TooFewLevels { .. } => "too few levels",
@@ -283,7 +284,7 @@ mod tests {
         assert!(estimate.covers(1.0) && !estimate.covers(0.85) && !estimate.covers(f64::NAN));
     }
 
-    /// Refinement by less than 2 leaves more of the second term, so the interval is wider.
+    /// Refinement by less than 2 leaves more of the second error term, so the interval is wider.
     #[test]
     fn the_interval_grows_for_small_ratios_of_spacing() {
         let value = |h: f64| 1.0 + h + h * h;
@@ -338,7 +339,7 @@ mod tests {
         assert_eq!(estimate_limit(&series(points)), Err(EstimateRefusal::Unusable));
     }
 
-    /// A last change of 0.75 units in the last printed digit is no evidence of an order.
+    /// A last change of 0.75 units in the last printed digit does not determine an order.
     #[test]
     fn values_with_few_digits_are_refused() {
         let mut points = halvings(&[1.64, 1.16, 1.04, 1.01]);

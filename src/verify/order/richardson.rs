@@ -8,8 +8,8 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). Only monotonically converging values have an order, the solution `p`. The
-//! logarithm of an absolute value would also assign orders to oscillation and divergence.
+//! Hoekstra (2014). Only monotonically converging values have an order, which is the solution `p`.
+//! The logarithm of an absolute value would also yield orders for oscillation and divergence.
 //!
 //! Three values always fit, so they give no interval; `limit_estimate` compares two triples. The
 //! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered,
@@ -22,17 +22,17 @@ use std::fmt;
 /// Behaviour of three values under refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RichardsonClass {
-    /// The change shrinks and has a constant sign, as for a positive order.
+    /// The changes shrink and have the same sign, as for a positive order.
     MonotoneConvergent,
-    /// The change shrinks and alternates.
+    /// The changes shrink and alternate in sign.
     OscillatoryConvergent,
-    /// The change has a constant sign, but does not shrink as a positive order requires.
+    /// The changes have the same sign, but do not shrink as a positive order requires.
     MonotoneDivergent,
-    /// The change alternates and does not shrink.
+    /// The changes alternate in sign and do not shrink.
     OscillatoryDivergent,
     /// All three values are the same.
     Exact,
-    /// One of the two changes is zero, so the ratio is undefined.
+    /// One of the two changes is zero, so their ratio is undefined.
     Degenerate,
     /// A value is not finite, or the spacings do not shrink.
     Failed,
@@ -52,7 +52,7 @@ impl fmt::Display for RichardsonClass {
     }
 }
 
-/// Convergence of three values at one place and time, and their limit.
+/// Convergence of three values at one point and time, and their limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Richardson {
     /// `(u2 - u3) / (u1 - u2)`, the coarse change divided by the fine one; `2^p` for halvings.
@@ -84,8 +84,8 @@ impl Richardson {
     }
 }
 
-/// Classifies the changes. The ratio for order zero, `ln r32 / ln r21`, separates convergence from
-/// divergence. It is one if both refinements are equal.
+/// Classifies two changes. The ratio for order zero, `ln r32 / ln r21`, separates convergence from
+/// divergence. This ratio is one if both refinements are equal.
 fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     let shrinks = rates.iter().all(|rate| rate.is_finite() && *rate > 0.0);
     if !(shrinks && changes.iter().all(|change| change.is_finite())) {

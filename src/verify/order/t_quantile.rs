@@ -10,7 +10,7 @@
 //!                 + (1 3 ... (nu-3)) / (2 4 ... (nu-2)) cos^(nu-2) theta)
 //! ```
 //!
-//! The sum is finite; it is inverted here by bisection in `theta`.
+//! The sum is finite. The code inverts it by bisection in `theta`.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -20,7 +20,7 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Number of halvings of `[0, pi/2]` until neighbouring doubles are reached.
 const HALVINGS: usize = 60;
 
-/// The `t` with `A(t|nu) = 0.95`; NaN for `nu = 0`, which has no distribution.
+/// Returns the `t` with `A(t|nu) = 0.95`; NaN for `nu = 0`, which has no distribution.
 pub fn two_sided_95(degrees_of_freedom: usize) -> f64 {
     if degrees_of_freedom == 0 {
         return f64::NAN;
@@ -37,7 +37,7 @@ pub fn two_sided_95(degrees_of_freedom: usize) -> f64 {
     (degrees_of_freedom as f64).sqrt() * libm::tan(0.5 * (low + high))
 }
 
-/// `A(t|nu)` as a function of `theta`.
+/// Computes `A(t|nu)` as a function of `theta`.
 fn probability_within(theta: f64, nu: usize) -> f64 {
     let (sin, cos) = libm::sincos(theta);
     if nu.is_multiple_of(2) {
@@ -49,9 +49,9 @@ fn probability_within(theta: f64, nu: usize) -> f64 {
     }
 }
 
-/// The sum in brackets, from the term `first` to the term in `cos^(nu-2)`. Each term is the
-/// previous one times `cos^2 (k-1)/k`, where `k` increases in steps of two from `second` to
-/// `nu - 2`.
+/// Returns the sum in brackets, from the term `first` to the term in `cos^(nu-2)`. Each term is the
+/// previous one times `cos^2 (k-1)/k`, where `k` increases in steps of two from `second` to `nu -
+/// 2`.
 fn cosine_sum(first: f64, second: usize, cos: f64, nu: usize) -> f64 {
     let mut term = first;
     let mut sum = first;

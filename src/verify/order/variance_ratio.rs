@@ -12,8 +12,8 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// `I_x(nu/2, d/2)` for integers `nu, d >= 1` and `x` in `[0, 1]`; NaN if `x` is NaN. The absolute
-/// error is a few units of round-off.
+/// Computes `I_x(nu/2, d/2)` for integers `nu, d >= 1` and `x` in `[0, 1]`; NaN if `x` is NaN. The
+/// absolute error is a few units of round-off.
 pub(crate) fn regularised(x: f64, nu: usize, d: usize) -> f64 {
     let (mut a, mut b) = (start(nu), start(d));
     let mut beta = complete(nu, d);
@@ -32,12 +32,12 @@ pub(crate) fn regularised(x: f64, nu: usize, d: usize) -> f64 {
     value
 }
 
-/// The smallest positive parameter that differs from `n/2` by an integer.
+/// Returns the smallest positive parameter that differs from `n/2` by an integer.
 fn start(n: usize) -> f64 {
     if n.is_multiple_of(2) { 1.0 } else { 0.5 }
 }
 
-/// `B(start(nu), start(d))`.
+/// Computes `B(start(nu), start(d))`.
 fn complete(nu: usize, d: usize) -> f64 {
     match (nu % 2, d % 2) {
         (0, 0) => 1.0,
@@ -46,7 +46,7 @@ fn complete(nu: usize, d: usize) -> f64 {
     }
 }
 
-/// `I_x(start(nu), start(d))`.
+/// Computes `I_x(start(nu), start(d))`.
 fn base(x: f64, nu: usize, d: usize) -> f64 {
     match (nu % 2, d % 2) {
         (0, 0) => x,

@@ -1,19 +1,19 @@
 //! Selects the window: the asymptotic levels, to which an order is fitted.
 //!
-//! All usable levels count unless there is strong evidence against the outer ones. A shorter window
-//! replaces a longer one only under three conditions:
+//! All usable levels count unless there is strong evidence against the coarsest or finest ones. A
+//! shorter window replaces a longer one only if three conditions hold:
 //!
 //! - An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
 //!   the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for
 //!   all shorter windows together. It is small compared with the 5 % of the confidence interval, so
 //!   the selection hardly affects the coverage of the interval.
 //! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
-//!   side, and the departure grows outwards. An outlier among good levels is therefore not dropped,
-//!   and widens the interval.
+//!   side, and the departure grows outwards. An outlier among good levels is therefore kept. It
+//!   widens the interval.
 //! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
 //!   is then `at floor`.
 //!
-//! The longest such window is selected, and the finer one of two equally long windows. The test is
+//! Of all such windows the longest is selected; of two equally long ones, the finer. The test is
 //! repeated on the selected window until no shorter one replaces it.
 
 use std::ops::Range;
@@ -24,20 +24,20 @@ use super::variance_ratio;
 /// Minimum number of levels for an order; the interval then has two degrees of freedom.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
-/// Risk that pure noise shortens the window, over all candidates of one step: a tenth of the 5 % of
-/// the confidence interval.
+/// Probability that pure noise shortens the window, over all candidates of one step. It is a tenth
+/// of the 5 % of the confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
-/// Minimum departure, in `ln error`, of a dropped level: 5 %. Without it, round-off could determine
-/// the window of noise-free data, where any departure is statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. Without this minimum, round-off could
+/// determine the window of noise-free data, where any departure is statistically significant.
 const MATERIAL: f64 = 0.05;
 
-/// Maximum order that does not count as a decrease: a halving of `h` changes the error by less than
+/// Maximum order for which the error counts as constant: halving `h` changes the error by less than
 /// 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
-/// Fraction of the previous order (and of the formal order) below which the error no longer follows
-/// the line.
+/// Fraction of the previous order (and of the formal order). If the order is lower, the error no
+/// longer follows the line.
 const FLOOR_FRACTION: f64 = 0.5;
 
 /// A contiguous range of points and the line through it.
@@ -63,7 +63,8 @@ impl Window {
             && FittedLine::through(&points[end - 1..]).is_some_and(|tail| tail.slope.abs() < limit)
     }
 
-    /// Whether the levels outside this window may be dropped if the F-test rejects them.
+    /// Whether the levels outside this window may be dropped, provided that the F-test rejects
+    /// them.
     fn may_drop_rest(&self, points: &[LogPoint], formal_order: f64) -> bool {
         let Range { start, end } = self.range;
         let departures = |rest: &[LogPoint]| -> Vec<f64> {
@@ -86,7 +87,7 @@ impl Window {
         variance_ratio::regularised(shorter.line.rss / self.line.rss, freedom, dropped) < risk
     }
 
-    /// The longest shorter window that meets all conditions.
+    /// Returns the longest shorter window that meets all conditions.
     fn improved(&self, points: &[LogPoint], formal_order: f64) -> Option<Self> {
         let candidates = shorter_ranges(&self.range);
         let risk = SELECTION_RISK / candidates.len() as f64;
@@ -96,8 +97,8 @@ impl Window {
     }
 }
 
-/// Asymptotic window among the points before `end` (the beginning of a floor, if one is known).
-/// `None` if there are too few points or if no line passes through them.
+/// Returns the asymptotic window among the points before `end` (the beginning of a floor, if one is
+/// known). `None` if there are too few points or if no line passes through them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
@@ -109,8 +110,8 @@ pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> 
     Some(window)
 }
 
-/// Contiguous parts with enough levels, sorted by decreasing length. Of equally long parts the
-/// finer ones come first.
+/// Lists contiguous parts with enough levels, sorted by decreasing length. Of equally long parts
+/// the finer ones come first.
 fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
     (FEWEST_LEVELS..range.len())
         .rev()
@@ -121,8 +122,8 @@ fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether departures, listed from the window outwards, are all material and to one side, with the
-/// last one the largest.
+/// Whether departures, listed from the window outwards, are all material and to one side, and the
+/// last one is the largest.
 fn is_departing(outward: &[f64]) -> bool {
     let Some(last) = outward.last() else {
         return true;

@@ -3,19 +3,19 @@
 use super::study::SpectrumRow;
 use super::wave::AMPLITUDE;
 
-/// Maximum deviations from the prediction, relative to the prediction.
+/// Maximum deviations from the prediction, relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumExpectation {
-    /// Deviation of the phase error.
+    /// Maximum deviation of the phase error.
     pub phase_within: Option<f64>,
-    /// Deviation of the logarithm of the amplitude per period. A difference per step below the
-    /// strain of the wave is accepted. The reason is that the closed form assumes particles at
-    /// rest, while their motion changes the symbols of a wave by the order of its strain.
+    /// Maximum deviation of the logarithm of the amplitude per period. A difference per step below
+    /// the strain of the wave is accepted: the closed form assumes particles at rest, while their
+    /// motion changes the symbols of a wave by the order of its strain.
     pub damping_within: Option<f64>,
 }
 
 impl SpectrumExpectation {
-    /// The expectation in one line.
+    /// Returns the expectation in one line.
     pub fn summary(&self) -> String {
         let phase = self.phase_within.map(|share| format!("phase error within {share} of theory"));
         let damping = self
@@ -24,7 +24,7 @@ impl SpectrumExpectation {
         [phase, damping].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// Expectations that a row does not meet. NaN does not meet any.
+    /// Lists the expectations that a row does not meet. NaN meets none of them.
     pub fn unmet(&self, row: &SpectrumRow) -> Vec<String> {
         let place = format!("{} cells, C = {}", row.cells, row.courant);
         let measured = match &row.measured {
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(EXPECTED.unmet(&unknown).len(), 1);
     }
 
-    /// Twenty steps, each with a change by the strain of the wave.
+    /// The amplitude changes by the strain of the wave in each of twenty steps.
     #[test]
     fn an_amplitude_that_remains_may_change_with_the_strain_only() {
         let undamped = |log_kept| SpectrumRow {

@@ -1,9 +1,9 @@
 //! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! A Fourier mode of a linear scheme has two numbers on the grid. A step multiplies them by a 2 x 2
-//! matrix. By the Cayley-Hamilton theorem each linear functional of the state satisfies
-//! `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a part that the grid does not
-//! resolve. This part is constant, so the fit includes a constant.
+//! A Fourier mode of a linear scheme is described by two numbers on the grid. A step multiplies
+//! them by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state
+//! satisfies `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a part that the grid
+//! does not resolve. This part is constant, so the fit includes a constant.
 
 use std::f64::consts::TAU;
 
@@ -13,15 +13,15 @@ const FEWEST: usize = 6;
 /// A recurrence `y(k+2) = tr y(k+1) - det y(k) + constant`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recurrence {
-    /// The determinant.
+    /// Determinant of the step.
     determinant: f64,
-    /// `1 - tr + det`, which is small if a step has a small angle.
+    /// `1 - tr + det`, which is small if the phase angle per step is small.
     deficit: f64,
 }
 
 impl Recurrence {
-    /// Fits the recurrence to a series by least squares. NaN for a series that is too short or
-    /// constant.
+    /// Fits the recurrence to a series by least squares. All results are NaN if the series is too
+    /// short or constant.
     ///
     /// The unknowns are `det` and `1 - tr + det`. They are the coefficients of the increment
     /// `d = y(k+1) - y(k)` and of `a = y(k+1)` in `y(k+2) - y(k+1) = det d - (1 - tr + det) a`.
@@ -54,17 +54,17 @@ impl Recurrence {
         Self { determinant, deficit: (de * da - ae * dd) / scale }
     }
 
-    /// The recurrence with this trace and determinant.
+    /// Creates the recurrence with this trace and determinant.
     pub fn new(trace: f64, determinant: f64) -> Self {
         Self { determinant, deficit: 1.0 - trace + determinant }
     }
 
-    /// Sum of the eigenvalues.
+    /// Returns the sum of the eigenvalues of the step.
     pub fn trace(&self) -> f64 {
         1.0 + self.determinant - self.deficit
     }
 
-    /// Product of the eigenvalues.
+    /// Returns the product of the eigenvalues of the step.
     pub fn determinant(&self) -> f64 {
         self.determinant
     }
@@ -75,13 +75,14 @@ impl Recurrence {
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost
     }
 
-    /// Argument of the complex eigenvalues (rad); `None` if the eigenvalues are real or NaN.
+    /// Returns the argument of the complex eigenvalues (rad), which is the phase angle per step;
+    /// `None` if the eigenvalues are real or NaN.
     pub fn angle(&self) -> Option<f64> {
         let discriminant = self.discriminant();
         (discriminant > 0.0).then(|| libm::atan2(discriminant.sqrt(), self.trace()))
     }
 
-    /// Logarithm of the largest modulus of an eigenvalue.
+    /// Returns the logarithm of the largest modulus of an eigenvalue.
     pub fn log_modulus(&self) -> f64 {
         let discriminant = self.discriminant();
         if discriminant > 0.0 {
@@ -90,13 +91,14 @@ impl Recurrence {
         libm::log(0.5 * (self.trace().abs() + (-discriminant).sqrt()))
     }
 
-    /// Relative error of the phase speed of a wave of `cells` cells at the Courant number
-    /// `courant`. `None` if the wave has no phase.
+    /// Returns the relative error of the phase speed of a wave whose length is `cells` cells, at
+    /// the Courant number `courant`. `None` if the wave has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
 
-    /// Logarithm of the amplitude factor over one exact period of a wave of `cells` cells.
+    /// Returns the logarithm of the amplitude factor over one exact period of a wave whose length
+    /// is `cells` cells.
     pub fn log_kept_per_period(&self, cells: f64, courant: f64) -> f64 {
         self.log_modulus() * cells / courant
     }
@@ -131,7 +133,7 @@ mod tests {
         assert_relative_eq!(fit.determinant(), determinant, epsilon = 1e-12);
     }
 
-    /// `l = r exp(i phi)` has the trace `2 r cos phi` and the determinant `r^2`.
+    /// The eigenvalues `r exp(+-i phi)` have the trace `2 r cos phi` and the determinant `r^2`.
     #[test]
     fn angle_and_modulus_are_those_of_the_eigenvalues() {
         let (r, phi) = (0.97, 0.2);

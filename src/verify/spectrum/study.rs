@@ -3,7 +3,7 @@
 use super::recurrence::Recurrence;
 use crate::verify::StudyResults;
 
-/// Phase error and damping of a wave.
+/// Phase error and damping of a wave, measured or predicted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveFigures {
     /// Relative error of the phase speed; `None` if the wave is overdamped and has no phase.
@@ -13,7 +13,8 @@ pub struct WaveFigures {
 }
 
 impl WaveFigures {
-    /// The figures of a wave of `cells` cells at the Courant number `courant`.
+    /// Computes phase error and damping of a wave at the Courant number `courant`. The wavelength
+    /// is `cells` cells.
     pub fn of(step: &Recurrence, cells: f64, courant: f64) -> Self {
         Self {
             phase_error: step.phase_error(cells, courant),
@@ -21,13 +22,13 @@ impl WaveFigures {
         }
     }
 
-    /// Amplitude factor over one exact period.
+    /// Returns the amplitude factor over one exact period.
     pub fn kept(&self) -> f64 {
         libm::exp(self.log_kept)
     }
 }
 
-/// One wave of one method.
+/// Results for one wave of one method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectrumRow {
     /// Wavelength (cells).
@@ -36,21 +37,21 @@ pub struct SpectrumRow {
     pub courant: f64,
     /// Number of steps of the run.
     pub steps: u64,
-    /// Figures from the closed form; `None` if it is not known for the method.
+    /// Phase error and damping from the closed form; `None` if it is not known for the method.
     pub predicted: Option<WaveFigures>,
-    /// Figures from the run, or the reason why there are none.
+    /// Phase error and damping from the run, or the reason why there are none.
     pub measured: Result<WaveFigures, String>,
-    /// Number of cells per wavelength above which the predicted phase error is below 1 %. `None`
-    /// without a prediction, or if this holds for all waves of two cells or more.
+    /// Minimum number of cells per wavelength for a predicted phase error below 1 %. `None` without
+    /// a prediction, or if this holds for all waves of two cells or more.
     pub cells_for_one_percent: Option<f64>,
     /// Predicted stability limit of the Courant number.
     pub limit: Option<f64>,
 }
 
 impl SpectrumRow {
-    /// Deviations of the phase error and of the amplitude from the prediction, relative to the
-    /// prediction. A deviation is `None` if a figure is missing, and for an amplitude that is
-    /// predicted to be constant.
+    /// Returns the deviations of the phase error and of the amplitude from the prediction, relative
+    /// to it. A deviation is `None` if a value is missing. The second one is also `None` if the
+    /// predicted amplitude is constant.
     pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
         let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
             return (None, None);
@@ -76,7 +77,7 @@ impl StudyResults for SpectrumStudy {
 }
 
 impl SpectrumStudy {
-    /// Sentence with the largest magnitude of the measured phase errors and the smallest amplitude.
+    /// States the largest magnitude of the measured phase errors and the smallest amplitude.
     pub fn reason(&self) -> String {
         let measured = || self.rows.iter().filter_map(|row| row.measured.as_ref().ok());
         let phases = measured().filter_map(|figures| figures.phase_error).map(f64::abs);

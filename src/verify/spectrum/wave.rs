@@ -5,32 +5,33 @@ use crate::subject::{Samples, Subject};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Velocity amplitude of a wave divided by the wave speed. It is also the strain of the wave.
+/// Velocity amplitude of a wave divided by the wave speed. This equals the strain of the wave.
 pub const AMPLITUDE: f64 = 1e-6;
 
 /// Number of exact periods in a run.
 pub const PERIODS: f64 = 20.0;
 
-/// Share of the initial amplitude at which the run of a damped wave ends.
+/// Fraction of the initial amplitude at which the run of a damped wave ends.
 const LEAST_KEPT: f64 = 1e-6;
 
 /// Minimum number of steps of a run.
 const FEWEST_STEPS: f64 = 16.0;
 
-/// Trace and determinant of a step, measured in a run.
+/// Trace and determinant of the 2 x 2 matrix of a step (see [`Recurrence`]), measured in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredWave {
-    /// Number of steps.
+    /// Number of steps of the run.
     pub steps: u64,
-    /// Trace; NaN if the run failed or the wave does not change.
+    /// Trace of the matrix; NaN if the run failed or the wave does not change.
     pub trace: f64,
-    /// Determinant.
+    /// Determinant of the matrix; NaN in the same cases.
     pub determinant: f64,
 }
 
-/// Number of steps of a run over [`PERIODS`] exact periods of a wave of `cells` cells. The run ends
-/// earlier if the predicted amplitude has fallen to a millionth. `log_kept` is the predicted
-/// logarithm of the amplitude factor of a step, if there is a prediction.
+/// Returns the number of steps of a run over [`PERIODS`] exact periods of a wave whose length is
+/// `cells` cells. The run ends earlier if the predicted amplitude decreases to a millionth.
+/// `log_kept` is the predicted logarithm of the amplitude factor of a step, if there is a
+/// prediction.
 pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     let whole = libm::ceil(PERIODS * cells / courant);
     let damped = log_kept.filter(|log_kept| *log_kept < 0.0);
@@ -38,25 +39,25 @@ pub fn steps_of_run(cells: f64, courant: f64, log_kept: Option<f64>) -> u64 {
     until.min(whole).max(FEWEST_STEPS) as u64
 }
 
-/// A wave in a periodic row, and the observed steps.
+/// A wave in a periodic row of particles, and the steps of its run.
 #[derive(Debug, Clone, Copy)]
 pub struct ObservedWave {
-    /// Start of the row (m), where the wave is zero.
+    /// Position (m) of the start of the row, where the wave is zero.
     pub from: f64,
     /// Wavelength (m).
     pub length: f64,
     /// Length of a step (s).
     pub dt: f64,
-    /// Number of steps.
+    /// Number of steps of the run.
     pub steps: u64,
 }
 
-/// Runs `subject` and fits the recurrence of the sums `sum v sin(k X)` over its points. The wave
-/// number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes the
-/// initial state, because it need not be a possible state after a step.
+/// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles. The
+/// wave number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes
+/// the initial state, because a step need not be able to produce it.
 ///
 /// # Errors
-/// Message with the failed step.
+/// Message that names the failed step.
 pub fn run_wave(subject: &mut dyn Subject, wave: ObservedWave) -> Result<MeasuredWave, String> {
     let ObservedWave { from, length, dt, steps } = wave;
     let (mut samples, mut weights) = (Samples::default(), Vec::new());
@@ -81,8 +82,8 @@ mod tests {
     use crate::subject::{Failure, RunCounters};
     use approx::assert_relative_eq;
 
-    /// Two points a quarter of a wavelength apart. The velocity at a crest follows a recurrence
-    /// from the first step on. The other velocity has no effect.
+    /// Two points a quarter of a wavelength apart. The velocity at a crest follows a recurrence.
+    /// The other velocity has no effect.
     struct Scripted {
         velocity: [f64; 2],
         step: u64,

@@ -1,16 +1,16 @@
 //! The amplification matrix: one step of a frozen subject as a matrix.
 //!
-//! About a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. The subject
-//! itself computes column j of A from a unit perturbation of number j of its state, without a
-//! second implementation. Central differences eliminate quadratic terms (volume times stress).
-//! Numbers are scaled by their natural sizes. This scaling is a similarity transformation and does
-//! not change eigenvalues.
+//! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
+//! is computed by running the subject from a unit perturbation of number j of its state, so no
+//! second implementation is needed. Central differences eliminate quadratic terms (volume times
+//! stress). Numbers are scaled by their natural sizes. This scaling is a similarity transformation
+//! and does not change eigenvalues.
 
 use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Size of a perturbation. Material laws add it to F = I, which rounds it to 1e-10 of the result.
+/// Size of a perturbation. Material laws add it to F = I, with a relative rounding error of 1e-10.
 const STEP: f64 = 1e-6;
 
 /// Maximum change of a state of rest in a step, in natural sizes.
@@ -30,10 +30,11 @@ pub enum AmplificationError {
     Failed(Failure),
 }
 
-/// Amplification matrix of one step, or of several consecutive steps with the lengths `dt` (s).
-/// `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are its natural sizes of
-/// speed and stress. Some numbers of the state affect only themselves, with factor one, such as the
-/// volume of a particle without stress. They have an eigenvalue of one and no row in the matrix.
+/// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
+/// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are its natural
+/// sizes of speed and stress. Some numbers of the state affect only themselves, with factor one,
+/// such as the volume of a particle without stress. They have an eigenvalue of one and no row in
+/// the matrix.
 ///
 /// # Errors
 /// If the subject is not at rest or a step fails.
@@ -75,7 +76,7 @@ fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), Amplificatio
     dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(AmplificationError::Failed)
 }
 
-/// The matrix without the numbers that affect only themselves, with factor one.
+/// Removes the numbers that affect only themselves, with factor one.
 fn reduced(full: &DMatrix<f64>) -> DMatrix<f64> {
     let keeps_itself = |j: usize| {
         let expected = |i: usize| if i == j { 1.0 } else { 0.0 };
@@ -90,7 +91,8 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Samples, Subject};
 
-    /// A state with the step `a' = a/2 + b, b' = 3 b` and a third number with the step `third`.
+    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` is the step of the
+    /// third.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,
@@ -130,8 +132,8 @@ mod tests {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 
-    /// In natural sizes, one unit of b is four units of a. A number that affects only itself has no
-    /// row.
+    /// In natural sizes, one unit of b equals four units of a. A number that affects only itself
+    /// has no row.
     #[test]
     fn the_matrix_of_a_linear_step_is_that_step() {
         let found = matrix(|c| c).unwrap();

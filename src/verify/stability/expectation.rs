@@ -1,4 +1,4 @@
-//! Expectations of a stability study for its rows.
+//! Expectations of a stability study, one for each row.
 
 use super::limit::StabilityLimit;
 use super::outcome::{Critical, StabilityRow};
@@ -13,24 +13,24 @@ pub struct StabilityExpectation {
     pub verdict: Option<Stability>,
     /// Bounds on the stability limit.
     pub critical: Option<FigureBounds>,
-    /// Bounds on figures of the run.
+    /// Bounds on measured values of the run.
     pub figures: Vec<(RunFigure, FigureBounds)>,
 }
 
-/// Bounds of a figure; all stated bounds must hold.
+/// Bounds on a measured value; all stated bounds must hold.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
-    /// A value, and the maximum difference between the figure and this value. The difference is a
-    /// share of the value, or of one if the value is smaller than one.
+    /// Expected value, and the maximum difference between the measured and the expected value. The
+    /// difference is relative to the expected value, or absolute if that value is smaller than one.
     pub is: Option<(f64, f64)>,
-    /// Minimum of the figure.
+    /// Minimum measured value.
     pub above: Option<f64>,
-    /// Maximum of the figure.
+    /// Maximum measured value.
     pub below: Option<f64>,
 }
 
 impl FigureBounds {
-    /// Bounds that do not hold, as text. NaN meets no bound.
+    /// Describes the bounds that do not hold. NaN meets no bound.
     fn unmet(&self, name: &str, got: f64) -> Vec<String> {
         let mut unmet = Vec::new();
         if let Some((value, within)) = self.is {
@@ -52,7 +52,7 @@ impl FigureBounds {
         unmet
     }
 
-    /// Unmet bounds on a stability limit, which may lie outside the searched range.
+    /// Describes the unmet bounds on a stability limit, which may lie outside the searched range.
     fn unmet_by_limit(&self, limit: StabilityLimit) -> Vec<String> {
         let beyond = |known: f64, holds: bool, side: &str| {
             if holds {
@@ -74,8 +74,8 @@ impl FigureBounds {
         }
     }
 
-    /// Unmet bounds on a limit inside the searched range. Deviations are relative to the closed
-    /// form, even if it is small.
+    /// Describes the unmet bounds on a limit inside the searched range. Deviations are relative to
+    /// the closed form, even if it is small.
     fn closed(&self, got: f64) -> Vec<String> {
         let mut unmet = Self { is: None, ..*self }.unmet("the limit", got);
         if let Some((value, within)) = self.is {
@@ -93,7 +93,7 @@ impl FigureBounds {
 }
 
 impl StabilityExpectation {
-    /// Expectations that are not met.
+    /// Lists the expectations that a row does not meet.
     pub fn unmet(&self, row: &StabilityRow) -> Vec<String> {
         if let Some(reason) = &row.refused {
             return vec![format!("the run could not be set up: {reason}")];
@@ -124,7 +124,7 @@ fn other_verdict(wanted: Stability, trial: &Trial) -> Option<String> {
     (wanted != got).then(|| format!("expected {wanted}, got {got}{why}"))
 }
 
-/// Descriptions of runs that contradict the prediction.
+/// Describes the runs that contradict the prediction.
 fn unconfirmed(critical: &Critical) -> Vec<String> {
     let Some(prediction) = &critical.predicted else { return Vec::new() };
     let disagrees = |(share, trial): &(f64, Trial)| {
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// A limit outside the searched range is known from one side only.
+    /// Of a limit outside the searched range, only a lower or upper bound is known.
     #[rstest]
     #[case::far_enough(FigureBounds { above: Some(9.0), ..FigureBounds::default() }, true)]
     #[case::not_far_enough(FigureBounds { above: Some(11.0), ..FigureBounds::default() }, false)]

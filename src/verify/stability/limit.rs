@@ -1,21 +1,21 @@
 //! Finds the smallest value of a parameter that is not stable.
 //!
-//! The range is scanned from below, because a larger value may be stable again. The first interval
-//! with an unstable end is bisected until it is short enough.
+//! The range is scanned upwards, because a larger value may be stable again. The first interval
+//! with an unstable upper end is bisected until it is short enough.
 
-/// Limit of stability of a parameter.
+/// Stability limit of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StabilityLimit {
-    /// The lowest value of the range is not stable.
+    /// Even the lowest value of the range is not stable.
     Below(f64),
-    /// Stable up to this value.
+    /// Values are stable up to this limit.
     At(f64),
-    /// Every tested value is stable, up to the end of the range.
+    /// Every tested value is stable, up to this end of the range.
     Above(f64),
 }
 
 impl StabilityLimit {
-    /// The limit, if it lies in the range.
+    /// Returns the limit, if it lies in the range.
     pub fn value(self) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),
@@ -24,8 +24,8 @@ impl StabilityLimit {
     }
 }
 
-/// Searches for the limit between `low` and `high`, both positive. Scans `points` values in
-/// geometric progression, then bisects to the relative length `tolerance`.
+/// Searches for the limit between `low` and `high`, which are both positive. Tests `points` values
+/// in geometric progression, then bisects to the relative interval length `tolerance`.
 ///
 /// # Errors
 /// The first error of `stable`.
@@ -84,15 +84,15 @@ mod tests {
         assert_eq!(find(|_| false), StabilityLimit::Below(0.1));
     }
 
-    /// The parameter is stable again from 5 on: the first loss of stability counts.
+    /// The parameter is stable again from 5. The first loss of stability determines the limit.
     #[test]
     fn the_first_of_several_ends_counts() {
         let found = find(|x| x <= 1.0 || x >= 5.0).value().unwrap();
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }
 
-    /// Each interval of the scan is longer than the previous one by a constant ratio. The limit is
-    /// the middle of the last bracket, whose length is at most the tolerance.
+    /// The intervals of the scan grow by a constant ratio. The limit is the middle of the last
+    /// bracket, whose length is at most the tolerance.
     #[test]
     fn values_are_tried_in_geometric_progression() {
         let mut tried = Vec::new();

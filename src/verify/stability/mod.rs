@@ -2,7 +2,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`trial_result`](Trial) | verdict and figures of one run |
+//! | [`trial_result`](Trial) | verdict and measured values of one run |
 //! | [`trial`](trial()) | one run: energy relative to its initial value, J, largest speed |
 //! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
 //! | [`radius`](spectral_radius) | the largest eigenvalue of the amplification matrix |

@@ -10,11 +10,11 @@ use crate::verify::study_results::StudyResults;
 /// Results of a stability study: one row for each value of the swept parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StabilityStudy {
-    /// Swept parameter.
+    /// Name of the swept parameter.
     pub swept: String,
-    /// Parameter whose limit is sought, if any.
+    /// Name of the parameter whose limit is sought, if any.
     pub sought: Option<String>,
-    /// Figures for tables.
+    /// Measured values that tables show.
     pub figures: Vec<RunFigure>,
     /// The rows.
     pub rows: Vec<StabilityRow>,
@@ -25,7 +25,7 @@ pub struct StabilityStudy {
 pub struct StabilityRow {
     /// Value of the swept parameter.
     pub value: f64,
-    /// The run, if no limit is sought.
+    /// Result of the run; `None` if the study seeks a limit.
     pub trial: Option<Trial>,
     /// Stability limit, if the study seeks one.
     pub critical: Option<Critical>,
@@ -33,28 +33,29 @@ pub struct StabilityRow {
     pub refused: Option<SubjectError>,
 }
 
-/// Predicted and observed limit of stability.
+/// Predicted and observed stability limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
     /// Prediction from the amplification matrix of a frozen configuration.
     pub predicted: Option<Prediction>,
-    /// Runs below and above the prediction, each with its value as a share of the prediction.
+    /// Runs below and above the prediction. Each has its parameter value, divided by the
+    /// prediction.
     pub confirmed: Vec<(f64, Trial)>,
-    /// Limit from bisection of runs, if there is no prediction.
+    /// Limit from runs by bisection, if there is no prediction.
     pub observed: Option<StabilityLimit>,
 }
 
 /// Limit predicted from an amplification matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Value at which the spectral radius exceeds one.
+    /// Parameter value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
     /// Real part and magnitude of the imaginary part of the eigenvalue that leaves the unit circle.
     pub leaves: Option<(f64, f64)>,
 }
 
 impl Critical {
-    /// The predicted limit, or the observed one without a prediction.
+    /// Returns the predicted limit; without a prediction, the observed limit.
     pub fn limit(&self) -> Option<StabilityLimit> {
         self.predicted.map(|prediction| prediction.limit).or(self.observed)
     }
@@ -69,7 +70,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// The verdicts of the rows, or the limit that is sought.
+    /// Summarises the verdicts of the rows, or the limit that is sought.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");
@@ -84,7 +85,7 @@ impl StabilityStudy {
         words.join(", ")
     }
 
-    /// The figures that led to the verdict.
+    /// Explains the verdict with measured values.
     pub fn reason(&self) -> String {
         let count = self.rows.len();
         let rows = if count == 1 { "row" } else { "rows" };

@@ -3,17 +3,18 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Maximum number of QR iterations. After that the radius is computed from powers of the matrix.
+/// Maximum number of QR iterations. If they do not suffice, the radius is computed from powers of
+/// the matrix.
 const PATIENCE: usize = 1_000;
 
-/// Share of its diagonal neighbours below which an entry below the diagonal counts as zero.
+/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours.
 /// Thresholds below some tens of rounding errors are never reached.
 const SMALL: f64 = 1e-13;
 
-/// Number of squarings of the matrix: powers up to 2^30.
+/// Number of times that the matrix is squared: powers up to 2^30.
 const SQUARINGS: i32 = 30;
 
-/// The largest modulus of an eigenvalue.
+/// Largest modulus of the eigenvalues of a matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radius {
     /// Modulus of the largest eigenvalue; infinite if an entry of the matrix is not finite.
@@ -24,7 +25,7 @@ pub struct Radius {
 }
 
 /// Computes the spectral radius from the real Schur form of `A + s I` with s = |A|. Without this
-/// shift the QR algorithm does not converge for many amplification matrices. `nalgebra` compares an
+/// shift the QR algorithm does not converge for many amplification matrices: `nalgebra` compares an
 /// entry with its diagonal neighbours, and filters (PIC, MUSL) have defective zero eigenvalues with
 /// rounding errors on the diagonal. If the algorithm does not converge even with the shift, the
 /// radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
@@ -52,8 +53,9 @@ pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     largest
 }
 
-/// Spectral radius from repeated squaring. Rounding errors of the powers are relative to the
-/// largest eigenvalue. A defective eigenvalue of multiplicity m causes the error (m - 1) ln(k)/k.
+/// Computes the spectral radius by repeated squaring. Rounding errors of the powers are relative to
+/// the largest eigenvalue. A defective eigenvalue of multiplicity m causes the error (m - 1)
+/// ln(k)/k.
 fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     let (mut power, mut logarithm) = (matrix.clone(), 0.0);
     for k in 0..=SQUARINGS {
@@ -68,7 +70,7 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// Squares the matrix, with sums in column order. The library's matrix product adds in another
+/// Squares the matrix, with sums in column order. The matrix product of the library adds in another
 /// order, and uses fused operations on processors with wider registers.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
@@ -108,7 +110,7 @@ mod tests {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
-    /// A cyclic shift. QR without exceptional shifts does not converge for this matrix.
+    /// The matrix is a cyclic shift. QR without exceptional shifts does not converge for it.
     #[test]
     fn a_shift_has_radius_one() {
         let shift = DMatrix::from_fn(7, 7, |i, j| f64::from(u8::from(i == (j + 1) % 7)));

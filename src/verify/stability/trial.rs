@@ -3,8 +3,8 @@
 //! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is
 //! the stiffness against uniaxial strain. In 1-D and at small strain the second term is the strain
 //! energy. Otherwise it measures the size of the stress, which is sufficient to detect growth. The
-//! energy is relative to its initial value. If the body starts at rest, it is relative to the
-//! energy of a unit strain.
+//! energy is divided by its initial value. If the body starts at rest, it is divided by the energy
+//! of a unit strain.
 
 use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
@@ -12,7 +12,7 @@ use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
 /// Number of initial steps that are all checked; later checks are equally spaced. Fast growth shows
-/// in these steps. Growth that matters within ten thousand steps is slow.
+/// in the first steps. Growth that is relevant within ten thousand steps is slow.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
@@ -109,8 +109,8 @@ impl TrialMonitor {
         }
     }
 
-    /// Result of a run that exceeded the energy bound. An energy that is not finite is a failure,
-    /// not growth.
+    /// Creates the result of a run that exceeded the energy bound. An energy that is not finite is
+    /// a failure, not growth.
     fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
         let t = self.time;
         if !self.last.is_finite() {
@@ -162,7 +162,7 @@ impl TrialMonitor {
     }
 }
 
-/// Kinetic energy (J), without the energy of the centre of mass if `centred`.
+/// Computes the kinetic energy (J). `centred` excludes the energy of the centre of mass.
 fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
     let Some(totals) = subject.totals() else { return 0.0 };
     let square: f64 = totals.momentum.iter().map(|p| p * p).sum();
@@ -172,7 +172,7 @@ fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
     if rest < 0.0 { 0.0 } else { rest }
 }
 
-/// `sum V0 |sigma|^2 / (2 M)` (J).
+/// Computes `sum V0 |sigma|^2 / (2 M)` (J).
 fn stored(samples: &Samples, modulus: f64) -> f64 {
     let d = samples.dimension.max(1);
     let squares = samples.stress.chunks_exact(d * d).map(|s| s.iter().map(|s| s * s).sum::<f64>());
@@ -194,7 +194,7 @@ const MOST: usize = 4096;
 /// Maximum distance between neighbours along an axis, in units of the shortest distance.
 const NEAR: f64 = 1.2;
 
-/// Mean normal stress of each particle (Pa); `None` without stresses.
+/// Computes the mean normal stress of each particle (Pa); `None` without stresses.
 fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let mean =
@@ -202,8 +202,8 @@ fn pressures(samples: &Samples) -> Option<Vec<f64>> {
     (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
 }
 
-/// Difference between the largest and the smallest mean normal stress, relative to the largest
-/// magnitude; NaN without stresses.
+/// Computes the difference between the largest and the smallest mean normal stress, relative to the
+/// largest magnitude; NaN without stresses.
 pub(super) fn stress_spread(samples: &Samples) -> f64 {
     let pressures = pressures(samples).unwrap_or_default();
     let high = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -211,9 +211,9 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
     (high - low) / high.abs().max(low.abs())
 }
 
-/// RMS difference between the mean normal stress of a particle and that of its neighbours, relative
-/// to the RMS of the mean normal stress. NaN without stresses or neighbours, or for too many
-/// particles.
+/// Computes the RMS difference between the mean normal stress of a particle and that of its
+/// neighbours, relative to the RMS of the mean normal stress. NaN without stresses or neighbours,
+/// or for too many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
@@ -250,7 +250,8 @@ mod tests {
     use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
     use approx::assert_relative_eq;
 
-    /// One label of mass 2 under a stress of 1, with a given kinetic energy (J) for each step.
+    /// A subject with one label of mass 2 under a stress of 1, and a given kinetic energy (J) for
+    /// each step.
     struct Scripted {
         kinetic: Vec<f64>,
         step: usize,
@@ -279,7 +280,7 @@ mod tests {
         }
     }
 
-    /// With a modulus of 1/2 the stress stores 1 J.
+    /// Runs a scripted subject. With a modulus of 1/2 its stress stores 1 J.
     fn watched(kinetic: &[f64], centred: bool) -> Trial {
         let mut subject = Scripted { kinetic: kinetic.to_vec(), step: 0 };
         let scales = Scales {
@@ -293,7 +294,7 @@ mod tests {
         trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
     }
 
-    /// The energy grows from 4 J to 12 J and returns to 2 J. The growth counts.
+    /// The energy grows from 4 J to 12 J and returns to 2 J. The growth determines the verdict.
     #[test]
     fn the_largest_energy_of_a_run_decides() {
         let found = watched(&[3.0, 11.0, 1.0], false);
@@ -309,15 +310,15 @@ mod tests {
         assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
     }
 
-    /// A momentum of 4 kg m/s of 2 kg has an energy of 4 J, which does not belong to the motion
-    /// relative to the centre of mass.
+    /// A body of 2 kg with a momentum of 4 kg m/s has an energy of 4 J. This energy does not belong
+    /// to the motion relative to the centre of mass.
     #[test]
     fn a_common_motion_is_left_out_where_it_is_asked() {
         assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    /// A run with bounded growth does not confirm a prediction, neither below nor above the limit.
+    /// A run with bounded growth confirms no prediction, neither a stable nor an unstable one.
     #[test]
     fn bounded_growth_is_neither_stable_nor_unstable() {
         let trial = watched(&[3.0, 11.0, 1.0], false);
@@ -369,7 +370,7 @@ mod tests_of_checkerboard {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// A row of particles with the given stresses.
+    /// Creates a row of particles with the given stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {
@@ -393,7 +394,8 @@ mod tests_of_checkerboard {
         assert!(checkerboard(&row(&[])).is_nan());
     }
 
-    /// The third particle counts neither in the differences nor in the mean size.
+    /// The third particle has no neighbours, and counts neither in the differences nor in the mean
+    /// size.
     #[test]
     fn particles_without_neighbours_have_no_part_in_it() {
         let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };

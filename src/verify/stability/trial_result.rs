@@ -1,10 +1,10 @@
-//! Results of a trial: verdict, figures, and the scales of the figures.
+//! Results of a trial: verdict and measured values, and the scales of these values.
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};
 
 named! {
-    /// End of a run.
+    /// Verdict on a run.
     pub enum Stability {
         /// The energy stayed within the range of exchange between its kinds.
         Stable = "stable",
@@ -18,7 +18,7 @@ named! {
 }
 
 impl Stability {
-    /// Name in reports.
+    /// Returns the name for reports.
     pub fn words(self) -> &'static str {
         match self {
             Self::BoundedGrowth => "bounded growth",
@@ -27,31 +27,31 @@ impl Stability {
     }
 }
 
-/// Scales of the figures of a trial.
+/// Scales that make the results of a trial dimensionless, and the bounds on the energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// Wave speed (m/s).
     pub speed: f64,
     /// Stiffness against uniaxial strain (Pa).
     pub modulus: f64,
-    /// Maximum energy of a stable run, relative to its initial value.
+    /// Largest energy of a stable run, relative to its initial value.
     pub stable_below: f64,
     /// Energy, relative to its initial value, above which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy excludes that of the centre of mass. The common velocity of a
-    /// free body does not indicate growth.
+    /// Whether the kinetic energy excludes the energy of the centre of mass. The common velocity of
+    /// a free body does not indicate growth.
     pub centred: bool,
-    /// Whether every check measures the part of the velocities in the null space of the map to the
-    /// grid.
+    /// Whether every check measures the part of the velocities that lies in the null space of the
+    /// map to the grid.
     pub null_space: bool,
 }
 
-/// Results of a run. Figures of a failed run cover the steps up to its failure.
+/// Results of a run. After a failure they cover the steps before it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
-    /// End of the run.
+    /// Verdict on the run.
     pub verdict: Stability,
-    /// Reason why the run did not reach its end, with the failure, the particle and the step.
+    /// Reason why the run ended early, with the failure, the particle and the step.
     pub why: Option<String>,
     /// Number of steps.
     pub steps: u64,
@@ -59,7 +59,7 @@ pub struct Trial {
     pub energy: f64,
     /// Energy at the end, relative to its initial value.
     pub energy_kept: f64,
-    /// Kinetic energy at the end, relative to its initial value; NaN if the latter is zero.
+    /// Kinetic energy at the end, relative to its initial value; NaN if the initial value is zero.
     pub kinetic_kept: f64,
     /// Largest relative change of the momentum.
     pub momentum: f64,
@@ -70,15 +70,15 @@ pub struct Trial {
     /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,
     /// Kinetic energy at the end in the null space of the map to the grid, relative to the largest
-    /// kinetic energy of the run. NaN if it is not measured.
+    /// kinetic energy of the run. NaN if it was not measured.
     pub null_share: f64,
     /// Largest kinetic energy in the null space, relative to the largest kinetic energy of the run.
     pub largest_null_share: f64,
     /// Difference between the largest and the smallest mean normal stress at the end, relative to
     /// the largest magnitude.
     pub stress_spread: f64,
-    /// Pressure changes between neighbouring particles at the end, relative to the mean size of the
-    /// pressure.
+    /// Pressure differences between neighbouring particles at the end, relative to the mean size of
+    /// the pressure.
     pub checkerboard: f64,
     /// Largest stress at the end, divided by the modulus.
     pub stress: f64,

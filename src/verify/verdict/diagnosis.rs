@@ -1,35 +1,35 @@
-//! Determines why a case does not have the theoretical order, from runs with one change each.
+//! Determines why a case does not have the theoretical order. Each run changes one property.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum ratio of the finest error with a change to that without, for changes that are reported
-/// although they do not restore the order.
+/// Maximum ratio of the finest error with a change to the finest error without it. A change that
+/// does not restore the order is reported only if its ratio is lower.
 const FALL: f64 = 0.75;
 
-/// Maximum half-width of the interval of a settled order.
+/// Maximum half-width of the confidence interval of a settled order.
 const SETTLED: f64 = 0.15;
 
-/// Minimum increase of a raised order.
+/// Minimum increase of an order that counts as raised.
 const RISE: f64 = 0.25;
 
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// Maximum ratio of the distances from the theoretical order, with the change to without, for
-/// changes that restore the order.
+/// Maximum ratio of distances from the theoretical order, with the change to without it, for a
+/// change that restores the order.
 const CLOSER: f64 = 0.5;
 
-/// Effect of a change that reveals the cause.
+/// Effect by which a change reveals the cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Evidence {
-    /// The order is the theoretical one.
+    /// With the change, the order is the theoretical one.
     Restored,
-    /// The order is higher, and settled.
+    /// With the change, the order is higher, and settled.
     Raised,
-    /// The finest error is smaller.
+    /// With the change, the finest error is smaller.
     Lowered,
 }
 
@@ -38,24 +38,25 @@ pub enum Evidence {
 pub struct ChangedRun {
     /// The change, as text.
     pub change: String,
-    /// Cause that is inferred if the change helps.
+    /// Cause that is inferred if the change restores the order or reduces the error.
     pub cause: &'static str,
-    /// Change of the suite that restores the order.
+    /// Modification of the suite that restores the order.
     pub remedy: &'static str,
     /// Reason why `check` rejects the suite with this change. `None` if it accepts the suite or was
     /// not run.
     pub refusal: Option<String>,
-    /// Verdict on these levels, for an expected order near the theoretical one.
+    /// Verdict on the levels of the run, for an expected order near the theoretical one.
     pub verdict: Verdict,
-    /// Observed order on these levels.
+    /// Observed order on the levels of the run.
     pub order: Option<Interval>,
     /// Error on the finest level.
     pub error: f64,
-    /// Finest error divided by that of the unchanged case.
+    /// Finest error with the change, divided by the finest error without it.
     pub ratio: f64,
     /// `ratio` divided by the ratio of the sizes of the two exact solutions.
     pub relative_ratio: f64,
-    /// Whether the levels are finer. Finer levels have a smaller error regardless of the cause.
+    /// Whether the change refines the levels. Finer levels have a smaller error regardless of the
+    /// cause.
     pub is_finer: bool,
 }
 
@@ -83,17 +84,17 @@ pub struct KnownCause {
     pub kind: KnownCauseKind,
     /// The cause, as a clause without a full stop.
     pub cause: String,
-    /// Figures that support the finding, in whole sentences.
+    /// Measured values that support the finding, in whole sentences.
     pub evidence: String,
     /// Change of the suite that removes the cause, if any.
     pub remedy: Option<String>,
     /// Observed order without the cause, if measured.
     pub order: Option<Interval>,
-    /// Whether the cause explains the observed order. Otherwise there is a larger cause.
+    /// Whether the cause explains the observed order. Otherwise another cause has a larger effect.
     pub explains: bool,
 }
 
-/// A cause with its evidence.
+/// A cause, with the evidence for it.
 #[derive(Debug, Clone, Copy)]
 pub enum Cause<'a> {
     /// A property of the problem, the levels or the time steps.
@@ -102,33 +103,33 @@ pub enum Cause<'a> {
     Run(&'a ChangedRun, Evidence),
 }
 
-/// Diagnosis of one case.
+/// Diagnosis of one case: its possible causes and the evidence.
 #[derive(Debug, Clone)]
 pub struct Diagnosis {
     /// Name of the case.
     pub case: String,
     /// Theoretical order.
     pub formal_order: f64,
-    /// Judgement of the unchanged case on all levels of the gate.
+    /// Judgement of the unchanged case on all levels.
     pub judgement: Judgement,
-    /// Judgement of the unchanged case on the repeated levels.
+    /// Judgement of the unchanged case on the levels on which changes are tried.
     pub finest: Judgement,
     /// Error of the unchanged case on the finest level.
     pub finest_error: f64,
-    /// Names of the repeated levels.
+    /// Names of the levels on which changes are tried.
     pub levels: Vec<String>,
     /// Whether the solver is external. Its settings then cannot be changed.
     pub is_external: bool,
-    /// Causes found without changing the method.
+    /// Causes that were found without changing the method.
     pub findings: Vec<KnownCause>,
     /// Runs with one change each.
     pub runs: Vec<ChangedRun>,
-    /// Changes that were possible but too expensive.
+    /// Descriptions of changes that were not tried because they are too expensive.
     pub skipped: Vec<String>,
 }
 
 impl Cause<'_> {
-    /// The cause, as a clause without a full stop.
+    /// Returns the cause, as a clause without a full stop.
     pub fn cause(&self) -> &str {
         match self {
             Self::Known(finding) => &finding.cause,
@@ -136,7 +137,8 @@ impl Cause<'_> {
         }
     }
 
-    /// Change of the suite that removes the cause; `None` if `check` accepts no such change.
+    /// Returns the change of the suite that removes the cause; `None` if `check` accepts no such
+    /// change.
     pub fn remedy(&self) -> Option<&str> {
         match self {
             Self::Known(finding) => finding.remedy.as_deref(),
@@ -151,18 +153,18 @@ impl Diagnosis {
         self.judgement.verdict == Verdict::Converging
     }
 
-    /// Whether a finding is certainly the cause, so that no runs with one change are needed.
+    /// Whether a finding is certainly the cause. Runs with one change each are then not needed.
     pub fn is_known(&self) -> bool {
         self.findings.iter().any(|finding| finding.kind < KnownCauseKind::CoarseLevels)
     }
 
-    /// The finding of this kind, if any.
+    /// Returns the finding of this kind, if any.
     pub fn finding(&self, kind: KnownCauseKind) -> Option<&KnownCause> {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// The causes, starting with the most likely one. If a run or a level restores the theoretical
-    /// order, the exact solution does not limit the order.
+    /// Returns the causes, starting with the most likely one. If a run or a level restores the
+    /// theoretical order, the exact solution is not the cause.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {
@@ -173,7 +175,7 @@ impl Diagnosis {
         let coarse = self.finding(CoarseLevels);
         let mut causes: Vec<_> = coarse.map(Cause::Known).into_iter().collect();
         if let Some((run, evidence)) = restored {
-            // Finer cells have the same effect as fewer coarse ones.
+            // Finer cells have the same effect as omitting coarse ones.
             let is_nearer = coarse
                 .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
             causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
@@ -181,8 +183,8 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        // If the order rises, the exact solution did not limit it before, although it may limit it
-        // now.
+        // If a change raises the order, the exact solution did not limit it before, although it may
+        // limit the raised order.
         let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
         let limit = self.finding(NotSmooth);
         let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
@@ -193,21 +195,21 @@ impl Diagnosis {
         causes
     }
 
-    /// Distance of an order from the theoretical one.
+    /// Returns the distance of an order from the theoretical order.
     fn off(&self, order: Option<Interval>) -> f64 {
         order.map_or(f64::INFINITY, |order| (order.value - self.formal_order).abs())
     }
 
-    /// The run that reveals the cause, and the effect of its change. Of the runs that restore the
-    /// order, this is the first one nearest to theory. If none does, it is the first run with the
-    /// largest increase to a settled order. Otherwise it is the run with the largest decrease of
-    /// the error.
+    /// Returns the run that reveals the cause, and the effect of its change. If runs restore the
+    /// order, this is the first one nearest to theory. Otherwise it is the first run with the
+    /// largest increase to a settled order. If there is none, it is the run with the largest
+    /// decrease of the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
         // If the order was already close to theory, it counts as restored only if the new interval
-        // is within range.
+        // is within the expected range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;
@@ -247,7 +249,7 @@ mod tests {
     use crate::verify::order::level::Level;
     use crate::verify::verdict::judge::judge;
 
-    /// A judgement with the given verdict and order.
+    /// Creates a judgement with the given verdict and order.
     fn found(verdict: Verdict, order: Interval) -> Judgement {
         let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
         Judgement { verdict, order: Some(order), ..none }
@@ -300,8 +302,8 @@ mod tests {
         assert_eq!(evidence(&diagnosis(low, to(2.4))), None);
     }
 
-    /// An order whose interval extends beyond the theoretical range does not explain a nearly
-    /// correct order.
+    /// If the interval of an order extends beyond the theoretical range, the change does not
+    /// explain a nearly correct order.
     #[test]
     fn an_order_nearly_right_is_restored_by_a_whole_interval() {
         let near = (Converging, order(1.95, 0.04));
@@ -310,14 +312,15 @@ mod tests {
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
     }
 
-    /// 1.81 passes a threshold that 1.79 fails, but this explains nothing.
+    /// The order 1.81 passes a threshold that 1.79 fails, but the small difference explains
+    /// nothing.
     #[test]
     fn an_order_that_hardly_moves_is_not_restored() {
         let low = (TooLow, order(1.79, 0.05));
         assert_eq!(evidence(&diagnosis(low, (Converging, order(1.81, 0.05), 0.9))), None);
     }
 
-    /// A known cause of the given kind, with the order 1.97 after its removal.
+    /// Creates a known cause of the given kind, with the order 1.97 after its removal.
     fn finding(kind: KnownCauseKind) -> KnownCause {
         let (cause, evidence) = ("the finding".to_owned(), String::new());
         KnownCause {
@@ -344,8 +347,8 @@ mod tests {
         }
     }
 
-    /// If the order is restored, the exact solution does not limit it. A smaller error alone proves
-    /// nothing.
+    /// If a change restores the order, the exact solution does not limit it. A smaller error alone
+    /// proves nothing.
     #[test]
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
         let low = (TooLow, order(1.0, 0.05));
@@ -357,8 +360,8 @@ mod tests {
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause. An order that a change raises had
-    /// one too.
+    /// An order far below the limit of a kink has a larger cause. The same holds if a change raises
+    /// the order.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
         let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));

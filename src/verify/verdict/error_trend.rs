@@ -1,5 +1,5 @@
-//! Shapes of an error series that exclude an order. They are recognised by error ratios only, so
-//! that the units of the error and of `h` have no effect.
+//! Shapes of an error series that exclude an order. They are recognised from error ratios only, so
+//! the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
@@ -13,33 +13,33 @@ const LEAST_GROWTH: f64 = LN_2;
 /// Maximum range of ln(error) on a floor: a factor of two, which allows round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
-/// Minimum decrease in theory over the levels of a floor: the formal order would halve the error.
+/// Minimum theoretical decrease over the levels of a floor: the formal order would halve the error.
 const LEAST_LOSS: f64 = LN_2;
 
-/// Minimum number of levels of a floor, or of a divergence: two successive pairs.
+/// Minimum number of levels of a floor or a divergence: two successive pairs.
 const FEWEST_OF_TREND: usize = 3;
 
-/// Minimum order before a floor, well above the order of a flat series.
+/// Minimum order before a floor. It is well above the order of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// Minimum mean change between levels in an oscillation, as a factor. It exceeds the noise on a
+/// Minimum mean change between levels in an oscillation, as a factor. It is larger than noise on a
 /// floor.
 const LEAST_SWING: f64 = 1.5;
 
-/// Minimum ratio of total rise to total fall of an oscillation, or its inverse. A series with a
-/// smaller ratio has a trend.
+/// Minimum ratio of total rise to total fall in an oscillation, or of total fall to total rise. A
+/// series with a smaller ratio has a trend.
 const BALANCE: f64 = 1.0 / 3.0;
 
 /// Minimum number of turns of an oscillation. A single outlier causes two turns.
 const TURNS: usize = 3;
 
-/// Index of the first level from which the error grows until the fine end; `None` if it does not
-/// grow.
+/// Returns the index of the level from which the error grows until the fine end; `None` if it does
+/// not grow.
 ///
 /// This is the first level if the line through all points rises with an order below -0.2 and its
-/// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error. It
-/// must have at least three levels and grow at least twofold. It must also meet one of three
-/// conditions: it ends above the first error of the series by this factor, rises over its last two
+/// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error,
+/// has at least three levels, and grows at least twofold. It must also meet one of three
+/// conditions: it ends at twice the first error of the series or more, rises over its last two
 /// pairs, or has a rising line as above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
@@ -70,9 +70,10 @@ fn line_rises(part: &[LogPoint]) -> bool {
         .is_some_and(|order| order.value < -FLAT_ORDER && order.high < 0.0)
 }
 
-/// Index of the first level of a flat fine end. This is the longest tail whose errors lie in a band
-/// of a factor of two with an order of less than 0.2. It must follow a decreasing part or begin at
-/// the first level. `None` if even the formal order would have a negligible effect on the tail.
+/// Returns the index of the first level of a flat fine end. The flat end is the longest tail with
+/// an order of less than 0.2 whose errors lie in a band of a factor of two. It must follow a
+/// decreasing part or begin at the first level. `None` if even the formal order would change the
+/// error by less than a factor of two over the tail.
 pub(crate) fn flat_tail(points: &[LogPoint], formal_order: f64) -> Option<usize> {
     let starts = 0..=points.len().checked_sub(FEWEST_OF_TREND)?;
     starts.into_iter().find(|&start| {

@@ -1,17 +1,17 @@
 //! Determines the cause of an error floor by refining another axis.
 //!
-//! The shape of a series shows that the error has stopped decreasing, but not why. So the finest
-//! level is repeated with half the spacing of another axis, one axis at a time. An error is a sum
-//! of terms in h, dt and other spacings, and refining one spacing does not change the other terms
-//! (Roy 2005, J. Comput. Phys. 205, 131).
+//! The shape of a series shows that the error has stopped decreasing, but not why. Therefore the
+//! finest level is repeated with half the spacing of another axis, one axis at a time. An error is
+//! a sum of terms in h, dt and other spacings, and refining one spacing does not change the other
+//! terms (Roy 2005, J. Comput. Phys. 205, 131).
 
 use crate::named::named;
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
-/// Minimum relative decrease of the error that identifies an axis when its spacing is halved. The
-/// axis then causes at least half of the error if its order is one, and a third if its order is
-/// two.
+/// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
+/// is the cause. The axis then causes at least half of the error if its order is one, and a third
+/// if its order is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
@@ -30,10 +30,10 @@ named! {
     }
 }
 
-/// A run of the finest level with half the spacing of one axis.
+/// Result of repeating the finest level with half the spacing of one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
-    /// Axis with half the spacing.
+    /// Axis whose spacing is halved.
     pub axis: Axis,
     /// Error with half the spacing, or the reason why there is none.
     pub error: Result<f64, String>,
@@ -50,8 +50,8 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Cause of the floor. Of the axes that lower the error enough, this is the one with the
-    /// largest effect. [`FloorCause::Nothing`] requires that every probe reached its end.
+    /// Returns the cause of the floor. Of the axes that lower the error enough, this is the one
+    /// with the largest effect. [`FloorCause::Nothing`] requires that every probe reached its end.
     pub fn cause(&self) -> Option<FloorCause> {
         let errors =
             self.probes.iter().filter_map(|probe| Some((probe, *probe.error.as_ref().ok()?)));
@@ -74,7 +74,7 @@ impl Floor {
         !self.probes.is_empty() && self.probes.iter().all(told)
     }
 
-    /// The finding with its figures, as a sentence.
+    /// States the result and its measured errors in a sentence.
     pub fn sentence(&self) -> String {
         let of = |axis: Axis| format!("the error is that of the {}", axis.noun());
         let finding = match self.cause() {
@@ -96,7 +96,7 @@ impl Floor {
                 Err(reason) => format!("with {halved} the run fails ({reason})"),
             }
         };
-        // Failed probes come last, so that the figures are listed together.
+        // Failed probes are listed last, so the measured errors are listed together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();

@@ -1,4 +1,4 @@
-//! Determines the verdict from levels: the decision sequence.
+//! The decision sequence that determines the verdict from levels.
 //!
 //! 1. Is every level valid, and the hypothesis testable? Otherwise `failed`.
 //! 2. Are there four usable levels? Otherwise `too few levels`.
@@ -24,24 +24,24 @@ use crate::verify::order::level::{Level, arrange};
 use crate::verify::order::window;
 use crate::verify::order::window::{FEWEST_LEVELS, Window};
 
-/// Maximum half-width of the interval of a settled order: half of the gap between orders that
-/// differ by 0.5.
+/// Maximum half-width of the interval of a settled order: half of 0.5, the typical distance between
+/// the orders of two methods.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// Maximum half-width relative to the order, for high orders. At order 2 both limits are equal.
+/// Maximum half-width relative to the order, for high orders. At order 2 it equals [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
 /// Minimum change of the order along the window that counts as a drift: the width of the usual
 /// expected range.
 const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Significance of a drift: noise would cause one in only one of a thousand series.
+/// Significance level of a drift: noise alone causes a drift in one of a thousand series.
 const DRIFT_RISK: f64 = 0.001;
 
-/// Minimum number of levels before a floor for which an order is reported (but not claimed).
+/// Minimum number of levels before a floor for which an order is reported. It is not claimed.
 const FEWEST_BEFORE_FLOOR: usize = 3;
 
-/// A verdict and the figures that led to it.
+/// A verdict and the measured values that led to it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Judgement {
@@ -56,12 +56,12 @@ pub struct Judgement {
     pub pairwise: Vec<Option<f64>>,
     /// Levels from coarse to fine, with identical ones merged.
     pub levels: Vec<Level>,
-    /// The reason, in one line.
+    /// Reason of the verdict, in one line.
     pub reason: String,
 }
 
 impl Judgement {
-    /// Judgement of `levels` levels without errors.
+    /// Creates the judgement of `levels` levels without errors.
     pub(crate) fn without_comparison(levels: usize) -> Self {
         Self {
             verdict: Verdict::TooFewLevels,
@@ -92,7 +92,7 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict, with its window as points.
+/// A verdict, and the points of its window.
 struct Finding {
     verdict: Verdict,
     reason: Reason,
@@ -156,7 +156,7 @@ impl JudgedSeries {
             .then(|| Finding::without_order(Verdict::Oscillatory, Reason::Oscillatory))
     }
 
-    /// A divergence, unless the finest error is zero.
+    /// Detects a divergence. If the finest error is zero, there is none.
     fn divergent(&self) -> Option<Finding> {
         let finest = self.points.last()?.level;
         let start = error_trend::divergence(&self.points)?;
@@ -167,7 +167,7 @@ impl JudgedSeries {
         })
     }
 
-    /// A floor, if an error is zero. An error of exactly zero is at or below round-off.
+    /// Detects a floor by an error of zero, which is at or below round-off.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);
@@ -180,7 +180,7 @@ impl JudgedSeries {
         Some(self.before_floor(self.points[start].level, start, hypothesis))
     }
 
-    /// Judgement with a floor that begins at the level `from`. The order is fitted to the
+    /// Creates the judgement of a floor that begins at the level `from`. The order is fitted to the
     /// asymptotic part of the points before `end`.
     fn before_floor(&self, from: usize, end: usize, hypothesis: &OrderHypothesis) -> Finding {
         let window = window::asymptotic(&self.points, end, hypothesis.formal_order);
@@ -211,7 +211,7 @@ impl JudgedSeries {
     }
 }
 
-/// The last two steps of the decision sequence.
+/// Performs steps 5 and 6 of the decision sequence.
 fn settled(
     window: &Window,
     points: &[LogPoint],
@@ -239,7 +239,7 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// Change of the order along the window; `None` unless it is significant and material.
+/// Computes the change of the order along the window; `None` unless it is significant and material.
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

@@ -1,4 +1,4 @@
-//! Verdicts: their names, how they follow from levels, and the reasons.
+//! Verdicts: their names, the rules that determine them from levels, and the reasons.
 
 pub(crate) mod diagnosis;
 pub(crate) mod error_trend;

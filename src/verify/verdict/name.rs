@@ -24,7 +24,7 @@ pub enum Verdict {
     Divergent,
     /// A level failed, or a number is invalid as an error or a spacing.
     Failed,
-    /// Fewer usable levels than any claim requires.
+    /// There are fewer usable levels than a claimed order requires.
     TooFewLevels,
 }
 
@@ -42,7 +42,7 @@ impl Verdict {
         Self::TooFewLevels,
     ];
 
-    /// Name of the verdict in reports.
+    /// Returns the name of the verdict in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Converging => "converging",
@@ -69,14 +69,14 @@ impl fmt::Display for Verdict {
 #[error("`{word}` is not a verdict; known: {}", Verdict::ALL.map(Verdict::name).join(", "))]
 #[non_exhaustive]
 pub struct UnknownVerdict {
-    /// The given name.
+    /// Name that is not a verdict.
     pub word: String,
 }
 
 impl FromStr for Verdict {
     type Err = UnknownVerdict;
 
-    /// Reads the name as printed or in snake case (`too_good`, `pre_asymptotic`).
+    /// Parses the name as printed or in snake case (`too_good`, `pre_asymptotic`).
     fn from_str(word: &str) -> Result<Self, UnknownVerdict> {
         Self::ALL
             .into_iter()

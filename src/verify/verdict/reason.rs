@@ -1,4 +1,4 @@
-//! States the reason of a verdict in one line with figures.
+//! States the reason of a verdict in one line, with the measured values that led to it.
 
 use super::name::Verdict;
 use crate::verify::order::fit::{FittedLine, LogPoint};
@@ -6,7 +6,7 @@ use crate::verify::order::format_number::{format_number, order};
 use crate::verify::order::level::{Axis, Level};
 use crate::verify::order::window::FEWEST_LEVELS;
 
-/// Reason of a verdict, with levels as indices.
+/// Reason of a verdict. Levels are given as indices into the series.
 pub(crate) enum Reason {
     Failed(String),
     TooFew {
@@ -24,8 +24,8 @@ pub(crate) enum Reason {
     Drift {
         change: f64,
     },
-    /// The order is outside the expected range. `overlaps` is true if its interval overlaps the
-    /// range.
+    /// The order is compared with the expected range. `overlaps` is true if the order is outside
+    /// the range but its interval overlaps it.
     Against {
         verdict: Verdict,
         range: (f64, f64),
@@ -34,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// The reason as a sentence, with the order over the window if there is one.
+    /// States the reason as a sentence, with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],
@@ -74,7 +74,7 @@ impl Reason {
     }
 }
 
-/// `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`
+/// Formats an order, such as `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`.
 fn order_over(levels: &[Level], axis: Axis, points: &[LogPoint], line: &FittedLine) -> String {
     let ends = [points.first(), points.last()];
     let [coarse, fine] = ends.map(|p| p.map_or(f64::NAN, |p| levels[p.level].h));
@@ -83,7 +83,7 @@ fn order_over(levels: &[Level], axis: Axis, points: &[LogPoint], line: &FittedLi
     format!("order {order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
 }
 
-/// `0.25 at h = 0.5`
+/// Formats error and spacing of a level, such as `0.25 at h = 0.5`.
 fn place(level: &Level, axis: Axis) -> String {
     format!("{} at {} = {}", format_number(level.error), axis.symbol(), format_number(level.h))
 }

@@ -1,5 +1,5 @@
-//! Several bodies: what a scene cannot say of them, methods that know one, motions that do not obey
-//! contact, and viscosities that are none.
+//! Several bodies: scenes that are not possible with several bodies, methods that support only one,
+//! motions that violate contact, and invalid viscosities.
 
 use super::{Edits, load, refused};
 use rstest::rstest;

@@ -1,4 +1,4 @@
-//! Boundary conditions and loads on sets: unknown words, and motions that violate them.
+//! Boundary conditions and loads on sets: unknown keys, and motions that violate them.
 
 use super::samples::{BAR, PLATE};
 use super::{Edits, load, refused};
@@ -35,7 +35,7 @@ expect:
 /// A block that slides down a slope.
 const SLOPE: &str = include_str!("../../../verification/contact-and-friction/sliding-block.yaml");
 
-/// A square between rollers, with a driven set.
+/// A square between rollers, with a set of particles whose velocity is prescribed.
 const SQUARE: &str = r#"suite: square
 title: Square between rollers
 source: a textbook
@@ -66,7 +66,7 @@ expect:
     because: two levels support no claim
 "#;
 
-/// The vibrating bar with its far end driven instead of free.
+/// Changes the vibrating bar: the motion of its far end is prescribed.
 const DRIVEN: Edits<'_> = &[
     ("grid: {from: [0], to: [L + 5]}", "grid: {from: [0], to: [L]}"),
     ("{left: fixed}", "{left: roller, right: {velocity: [\"v0*mode(X)*cos(omega*t)\"]}}"),
@@ -77,7 +77,7 @@ const DRIVEN: Edits<'_> = &[
     ),
 ];
 
-/// A column under gravity, with its weight as a force on a set that is all of it.
+/// Changes a column under gravity: its weight becomes a force on a set of all particles.
 const PUSHED: Edits<'_> = &[
     ("gravity: [\"-g\"]", "force: {on: all, value: [\"-rho*g*H\"]}"),
     ("  loads:", "  sets: {all: {box: {from: [-1], to: [2]}}}\n  loads:"),
@@ -260,8 +260,8 @@ fn a_driven_end_has_the_velocity_of_the_motion() {
     refused(&wrong, &[], &["boundary condition: velocity of right in X", "m/s (off by "]);
 }
 
-/// A force on the whole body is gravity, to the solution as to both solvers; on half of it, it is
-/// another problem.
+/// A force on the whole body is equivalent to gravity, for the solution and for both solvers. A
+/// force on half of the body is another problem.
 #[test]
 fn a_force_on_a_set_enters_the_equation_of_motion() {
     let column = include_str!("../../../verification/the-talk/fem-oedometer.yaml");

@@ -8,7 +8,7 @@ const METHODS: &str = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl
   - fem: {element: linear, mass: lumped}
 ";
 
-/// Names of the cases of a bar with these methods.
+/// Returns the names of the cases of a bar with these methods.
 fn names(methods: &[&str]) -> Vec<String> {
     let entries = format!("- {}\n", methods.join("\n  - "));
     let (head, _) = BAR.split_once("\nexpect:").expect("expectations");

@@ -1,4 +1,4 @@
-//! Parts of a method that do not go together.
+//! Parts of a method that cannot be combined.
 
 use super::samples::BAR;
 use super::{Edits, refused};

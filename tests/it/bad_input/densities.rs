@@ -9,7 +9,7 @@ const SPINNING: &str =
 const RADIUS: &str =
     include_str!("../../../verification/plasticity-and-fluids/spinning-cloud-radius.yaml");
 
-/// The density of the cloud in one dimension, of the cloud in the plane, and its material.
+/// The density of the cloud in 1-D.
 const LINE: &str = "\"sqrt(A*(1 - X^2))\"";
 const PLANE: &str = "\"A*(1 - X^2 - Y^2)\"";
 const GAS: &str = "polytropic: {stiffness: K, exponent: 2, density";

@@ -1,4 +1,4 @@
-//! Bodies that come to rest, and the damping that brings them there.
+//! Bodies that come to rest, and the damping that they need.
 
 use super::{Edits, load, refused};
 use rstest::rstest;
@@ -107,7 +107,7 @@ fn local_damping_of_finite_elements() {
     refused(bar, &[(MPM, FEM)], &["the reference FEM has no damping"]);
 }
 
-/// The oedometer has a motion for its truth.
+/// The exact solution of the oedometer is a motion, not a state of rest.
 #[test]
 fn rest_is_asked_of_a_body_that_comes_to_rest() {
     let (order, bound) = ("    order: [1.5, 1.8]\n", "    ▸rest_below: 1e-6\n");

@@ -1,4 +1,4 @@
-//! Cases and what is expected of them: exactly one expectation for each.
+//! Cases and their expectations: each case has exactly one expectation.
 
 use super::samples::BAR;
 use super::{Edits, refused};

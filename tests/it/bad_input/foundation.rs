@@ -1,4 +1,4 @@
-//! Loads that depend on the displacement: names where there are none, and truths of another load.
+//! Loads that depend on the displacement: invalid names, and exact solutions for another load.
 
 use super::{load, refused};
 use mpm_verify::suite::embedded;
@@ -41,7 +41,7 @@ fn a_bar_on_springs_with(#[case] edits: &[(&str, &str)], #[case] words: &[&str])
     refused(&bar(), edits, words);
 }
 
-/// As long as no load names it, it is a name as any other.
+/// If no load uses the name, the suite may declare it like any other name.
 #[test]
 fn a_suite_without_such_a_load_may_declare_the_name() {
     let text = bar().replace("-kf*ux/rho", "-kf*v0/omega*sin(k*X)*sin(omega*t)/rho");

@@ -1,4 +1,4 @@
-//! Keys, names and types.
+//! Invalid keys, names and types.
 
 use super::samples::{BAR, FORCE, SWEPT};
 use super::{Edits, refused};
@@ -75,7 +75,7 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
 }
 
-/// Both studies have a `run`, of other keys.
+/// Convergence and stability studies both have a key `run`, with different sub-keys.
 #[test]
 fn a_stability_study_without_a_run() {
     let run = SWEPT.lines().find(|line| line.starts_with("run:")).expect("a run");

@@ -6,16 +6,16 @@ use rstest::rstest;
 /// A bar at rest that cools through one end.
 const COOLED: &str = include_str!("../../../verification/heat/heat-convection.yaml");
 
-/// A fin at rest, whose source depends on the temperature.
+/// A fin at rest, with a source that depends on the temperature.
 const FIN: &str = include_str!("../../../verification/heat/thermal-fin.yaml");
 
-/// A plate at rest, manufactured.
+/// A plate at rest with a manufactured temperature.
 const PLATE: &str = include_str!("../../../verification/heat/heat-2d.yaml");
 
 /// A bar that moves and is heated.
 const MOVING: &str = include_str!("../../../verification/heat/thermal-expansion-mms.yaml");
 
-/// A plate that is held and heated.
+/// A heated plate whose edges are fixed.
 const HELD: &str = include_str!("../../../verification/heat/thermal-expansion-clamped.yaml");
 
 const MODE: &str = "  temperature: \"Ta + 5*cos";
@@ -61,7 +61,7 @@ fn without_a_mistake_the_samples_are_sound() {
     &["heat flows, and no temperature is stated"]
 )]
 fn a_temperature(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
-    // Where nothing is stated, the complaint points at the loads.
+    // If no heat load is listed, the error points at `loads`.
     if words[0].starts_with("heat flows") {
         let edits = [("  loads:\n", "  ▸loads:\n"), edits[1]];
         return refused(COOLED, &edits, words);
@@ -113,7 +113,7 @@ fn a_source_of_the_temperature(#[case] edits: Edits<'_>, #[case] words: &[&str])
     refused(FIN, edits, words);
 }
 
-/// Only a source knows the temperature.
+/// Only heat sources may use the temperature `T`.
 #[rstest]
 #[case::start(&[(SOURCE, "initial: ▸T")])]
 #[case::conductivity(&[("conductivity: k", "conductivity: k*▸T")])]
@@ -123,7 +123,7 @@ fn no_temperature_exists(#[case] edits: Edits<'_>) {
     refused(FIN, edits, &["unknown name `T`"]);
 }
 
-/// A `T` that a suite declares is its own as long as the source does not name it.
+/// If the source does not use `T`, a suite may declare its own `T`.
 #[test]
 fn a_source_without_the_temperature_leaves_the_name_alone() {
     let own = COOLED.replace("  Ta: 20", "  T: 20\n  Ta: T");
@@ -233,7 +233,7 @@ fn a_body_that_moves(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(MOVING, edits, words);
 }
 
-/// The mark is where the effect is listed.
+/// The error points at the entry of the effect.
 #[test]
 fn thermal_expansion_needs_heat() {
     let (start, end) = (MOVING.find("    - heat:").unwrap(), MOVING.find(EXPANSION).unwrap());
@@ -260,7 +260,7 @@ fn thermal_expansion(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(MOVING, edits, words);
 }
 
-/// A free edge has no traction, and a heated plate that does not move would have one.
+/// A free edge has no traction. A heated plate that does not move would have one.
 #[test]
 fn the_expansion_is_part_of_the_equation_of_motion() {
     let edits = [

@@ -1,5 +1,5 @@
-//! Initial stresses: what a law, a scene or a study cannot have, and truths that do not balance
-//! them.
+//! Initial stresses: invalid laws, scenes and studies, and exact solutions that do not balance the
+//! stresses.
 
 use super::{Edits, load, refused};
 use rstest::rstest;
@@ -22,7 +22,7 @@ fn sound() {
     }
 }
 
-/// An initial stress is refused with some laws, scenes and studies.
+/// Some laws, scenes and studies do not allow an initial stress.
 #[rstest]
 #[case::of_a_law_that_flows(
     BAR,
@@ -100,8 +100,8 @@ fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]
     refused(suite, edits, words);
 }
 
-/// The wave of the law alone, a weight that nothing bears, a surface that is not free and a joint
-/// that does not hold.
+/// The solutions use the wave speed of the law alone, a weight without support, a surface that is
+/// not free, and an interface with different tractions.
 #[rstest]
 #[case::the_speed_of_the_law_alone(
     BAR,

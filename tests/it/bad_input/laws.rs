@@ -1,4 +1,5 @@
-//! Materials whose stress is not one of the deformation alone: what the truth knows of them.
+//! Materials whose stress depends on more than the deformation, and the exact solutions that they
+//! allow.
 
 use super::{Edits, load, refused};
 use rstest::rstest;
@@ -36,7 +37,7 @@ fn a_bar(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(YIELDING, edits, words);
 }
 
-/// Fronts of any speed satisfy the equation point by point.
+/// Fronts of any speed satisfy the equation of motion at every point.
 #[rstest]
 #[case(&[("cp: \"sqrt(K/rho)\"", "cp: \"0.9*sqrt(K/rho)\""), ("[\"front(e1", "[▸\"front(e1")])]
 #[case(&[("cl: \"sqrt((K + 4/3*mu)/rho)\"", "cl: \"0.9*sqrt((K + 4/3*mu)/rho)\""), ("[\"front(e1", "[▸\"front(e1")])]

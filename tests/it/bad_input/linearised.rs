@@ -1,16 +1,16 @@
-//! Linearised solutions: the residual that the law may have, and the conditions that keep the
+//! Linearised solutions: the residual that the law may have, and the conditions that still need the
 //! default tolerance.
 
 use super::refused;
 use mpm_verify::suite::embedded;
 use rstest::rstest;
 
-/// The column of water: its relative residual is 2e-6, and 5e-6 is allowed.
+/// Creates a column of water. Its relative residual is 2e-6, and its tolerance is 5e-6.
 fn column() -> String {
     embedded::source("acoustic-column").expect("a suite").expect("a text").text().to_owned()
 }
 
-/// The three lines that state it.
+/// The three lines that state the tolerance.
 const STATED: &str = "  linearised:
     tolerance: 5e-6
     because: strains are 1e-6 and less, and the nonlinearity of the law multiplies them by eight
@@ -63,7 +63,7 @@ fn a_solution_that_is_stated_to_leave(#[case] edits: &[(&str, &str)], #[case] wo
     refused(&column(), edits, words);
 }
 
-/// Conditions that are linear in u keep the default tolerance: only the law is linearised.
+/// Conditions that are linear in u need the default tolerance, because only the law is linearised.
 #[rstest]
 #[case::an_initial_displacement(
     &[("[\"mode(X)\"]", "[\"mode(X)*(1 + 1e-6)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],

@@ -1,4 +1,5 @@
-//! Load steps: keys of a motion in time, and loads, walls and laws that have no meaning in them.
+//! Load steps: keys that require a motion in time, and loads, walls and laws that load steps
+//! exclude.
 
 use super::{Edits, refused};
 use rstest::rstest;

@@ -106,7 +106,7 @@ fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
 }
 
-/// Against an elastic reference that the suite names; the FEM case names its law too.
+/// The bar has an elastic reference that the suite names, and the FEM case names its law too.
 #[test]
 fn a_plastic_bar_is_sound_with_a_reference_and_a_law() {
     let solid = "{j2: {young: E, poisson: 0, yield: 1, hardening: 2, density: rho}}";

@@ -1,7 +1,7 @@
-//! Suites with one mistake each: what is wrong, where, and what would be right.
+//! Suites with one mistake each. Tests check the message, its position and its suggestion.
 //!
-//! A mistake is written as edits of a sound suite. The sign `▸` in an edit is not part of the
-//! suite: it marks the place, line and column, at which the complaint must point.
+//! A mistake is written as edits of a valid suite. The sign `▸` in an edit is not part of the
+//! suite: it marks the line and column at which the error must point.
 
 mod bodies;
 mod boundaries;
@@ -48,17 +48,17 @@ use mpm_verify::suite::yaml::{Diagnostic, Source};
 use rstest::rstest;
 use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
 
-/// Where a complaint must point.
+/// Marks the position at which an error must point.
 const HERE: char = '▸';
 
-/// Pairs of what a sound suite says and what stands there instead.
+/// Pairs of a text in a valid suite and its replacement.
 type Edits<'a> = &'a [(&'a str, &'a str)];
 
 fn load(text: &str) -> Result<Suite, Diagnostic> {
     Source::from_text("wrong.yaml", text).and_then(|source| Suite::load(&source))
 }
 
-/// Makes the edits in `sound` and demands a complaint that points at the mark and contains all of
+/// Makes the edits in `sound`. Asserts that the error points at the mark and contains all of
 /// `words`.
 fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let mut marked = sound.to_owned();
@@ -80,7 +80,7 @@ fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     schema::refuses_too(&text, &diagnostic);
 }
 
-/// Whether the complaint names the place, shows the line and has a caret under the column.
+/// Asserts that the error names the position, shows the line and has a caret below the column.
 fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
     let lines: Vec<&str> = shown.lines().collect();
     let place = format!("--> wrong.yaml:{line}:{column}");
@@ -88,7 +88,7 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
     let start = format!("{line} | ");
     let at = lines.iter().position(|line| line.starts_with(&start)).expect(shown);
     let quoted = &lines[at][start.len()..];
-    // A long line is cut, and a tab is shown as spaces.
+    // A long line is shortened, and a tab is shown as spaces.
     let cut = quoted.trim_end_matches('.');
     let whole = excerpt.replace('\t', "    ");
     assert!(whole.starts_with(cut), "another line in\n{shown}");

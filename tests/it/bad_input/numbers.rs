@@ -1,4 +1,4 @@
-//! Numbers that mean nothing where they stand.
+//! Numbers that are invalid for their key.
 
 use super::samples::{BAR, COLUMN, PLATE};
 use super::{Edits, refused};

@@ -1,5 +1,5 @@
-//! Bodies with four straight sides: corners that are none, faces that are no sides, and what asks
-//! for another body.
+//! Bodies with four straight sides: invalid corners, faces that are not sides, and keys that
+//! require another body.
 
 use super::samples::PLATE;
 use super::{Edits, refused};

@@ -1,9 +1,9 @@
-//! Periodic bodies that start stretched, on a grid of another length.
+//! Periodic bodies that are stretched at the start, on a grid with another length than the body.
 
 use super::{load, refused};
 use rstest::rstest;
 
-/// A ring, held at the length of a grid that is longer than the body was.
+/// A periodic bar that is stretched to the length of the grid.
 const STRETCHED: &str = r#"suite: stretched
 title: Stretched periodic bar
 source: a textbook

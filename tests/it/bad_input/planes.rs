@@ -118,7 +118,7 @@ fn a_rod_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(ROD, edits, words);
 }
 
-/// The stress of the hoops is part of the balance at the inner face, and the pressure acts there.
+/// The hoop stress is part of the balance at the inner face, where the pressure acts.
 #[rstest]
 #[case::without_hoops(("plane: axisymmetric", "plane: strain"))]
 #[case::with_another_pressure(("p: 1e-5", "p: 1.1e-5"))]
@@ -137,7 +137,7 @@ fn a_plane_in_other_dimensions(#[case] suite: &str, #[case] dimension: usize) {
     refused(suite, &[(scene, plane)], &[&message, "expected in a scene of `dimension: 2`"]);
 }
 
-/// The pressure acts on the present thickness, and the thickness is that of a face that is free.
+/// The pressure acts on the current thickness of a face that is free across the plane.
 #[rstest]
 #[case::on_the_reference_thickness("p: \"-E*ln(a)/(a*b^2)\"", "p: \"-E*ln(a)/(a*b)\"")]
 #[case::in_plane_strain("  plane: stress\n", "")]

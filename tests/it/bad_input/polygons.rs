@@ -108,7 +108,7 @@ fn a_corner_within_a_disk_is_refused() {
     refused(DISKS, &[(SECOND, polygon)], &["body 1 and body 2 have places in common"]);
 }
 
-/// The boxes around the two overlap, the bodies do not.
+/// The bounding boxes of the two bodies overlap, but the bodies do not.
 #[test]
 fn a_polygon_may_lie_around_a_disk() {
     let polygon = "- body: {polygon: [[0.1, 0.9], [0.9, 0.1], [0.9, 0.9]]}";

@@ -1,4 +1,4 @@
-//! Precisions of a method, where they mean nothing.
+//! Precisions of a method in places where they have no effect.
 
 use super::{Edits, refused};
 use rstest::rstest;

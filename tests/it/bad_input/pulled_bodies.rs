@@ -1,10 +1,10 @@
-//! Forces on a set of a body that is not a box: solutions with a wrong volume of the set, and sets
+//! Forces on a set of a body that is not a box: solutions for a wrong volume of the set, and sets
 //! outside the body.
 
 use super::{load, refused};
 use rstest::rstest;
 
-/// A body in translation, of a constant acceleration.
+/// Creates a body in translation with a constant acceleration.
 fn pulled(dimension: usize, body: &str, volume: &str) -> String {
     let vector = |first: &str| format!("[\"{first}\"{}]", ", 0".repeat(dimension - 1));
     let corner = |x: &str| format!("[{}]", vec![x; dimension].join(", "));
@@ -61,7 +61,7 @@ fn a_force_is_that_on_the_volume_of(
     refused(&another, &other, &["equation of motion in X"]);
 }
 
-/// The part counts, not its share of the set.
+/// Only the part of the set inside the body counts, even if it is a small part of the set.
 #[test]
 fn a_set_may_be_far_larger_than_the_body() {
     let text = pulled(2, DISK, "pi");

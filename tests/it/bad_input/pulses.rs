@@ -1,4 +1,4 @@
-//! Pulses much narrower than the body: right solutions are accepted, and wrong ones are refused.
+//! Pulses much narrower than the body: correct solutions are accepted, and wrong ones are refused.
 
 use super::load;
 use rstest::rstest;
@@ -8,8 +8,8 @@ const SECH: &str = "1/cosh(s/w)^2";
 const WINDOW: &str = "cos(pi*max(-w, min(w, s))/(2*w))^6";
 const TRIANGLE: &str = "max(0, 1 - abs(s)/w)";
 
-/// A bar of length 2 with free ends and c = 1, in which a pulse of `shape` and width `w` splits
-/// into two pulses.
+/// Creates a bar of length 2 with free ends and c = 1, in which a pulse of `shape` and width `w`
+/// splits into two pulses.
 fn split(shape: &str, w: f64, displacement: &str) -> String {
     format!(
         r#"
@@ -35,7 +35,7 @@ expect: [{{order: [1.8, 2.1], because: linear functions}}]
     )
 }
 
-/// The bar of `text` in the plane.
+/// Changes the bar of `text` to a plate.
 fn in_the_plane(text: &str) -> String {
     text.replace("dimension: 1", "dimension: 2")
         .replace("from: [0], to: [2]", "from: [0, 0], to: [2, 0.5]")
@@ -72,7 +72,7 @@ fn a_wrong_pulse_is_refused(
     assert!(diagnostic.to_string().contains(" is violated at X = ("), "{diagnostic}");
 }
 
-/// A term of 1 % of the pulse, next to one place and towards the end of the run.
+/// The wrong term is 1 % of the pulse. It acts near one point and towards the end of the run.
 #[rstest]
 fn a_late_term_in_a_small_part_is_refused(
     #[values(GAUSS, SECH, WINDOW)] shape: &str,
@@ -83,7 +83,7 @@ fn a_late_term_in_a_small_part_is_refused(
     assert!(diagnostic.to_string().contains(" is violated at X = ("), "{diagnostic}");
 }
 
-/// A pulse in a plate with a force manufactured for it, far away from all faces.
+/// A pulse in a plate with a manufactured force, far away from all faces.
 #[rstest]
 fn a_manufactured_pulse_is_accepted(#[values(GAUSS, WINDOW)] shape: &str) {
     let motion = "A*f(X - 0.8 - 0.3*t)*f(Y - 0.9)";
@@ -99,7 +99,8 @@ fn a_manufactured_pulse_is_accepted(#[values(GAUSS, WINDOW)] shape: &str) {
     }
 }
 
-/// A pulse that crosses from a bar with E = 1 into one with E = 4: 2/3 of it goes on.
+/// Creates a pulse that crosses from a bar with E = 1 into one with E = 4, which transmits 2/3 of
+/// it.
 fn two_bars(w: f64, transmitted: &str) -> String {
     let bodies = r#"
   bodies:
@@ -136,7 +137,7 @@ fn a_wrong_transmission_is_refused_at_the_joint(#[values(0.03, 0.01)] w: f64) {
     }
 }
 
-/// A difference that six digits do not show is printed with more, next to the one allowed.
+/// A difference that six digits do not show is printed with more digits, next to the tolerance.
 #[test]
 fn a_small_violation_shows_the_difference_and_the_tolerance() {
     let text = split(GAUSS, 0.1, &RIGHT.replace("A/2", "(1 + 1e-7)*A/2"));

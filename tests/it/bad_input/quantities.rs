@@ -1,4 +1,4 @@
-//! Judged quantities, and bounds on figures.
+//! Judged quantities, and bounds on measured values.
 
 use super::samples::BAR;
 use super::{Edits, refused};
@@ -94,7 +94,7 @@ fn a_sum_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
 }
 
-/// In a plane: the energy of a law in rate form, and a corner that two walls hold.
+/// In a plane: the energy of a law in rate form, and a corner between two fixed walls.
 #[rstest]
 #[case::an_energy("▸of: strain_energy", &["`linear_elastic` is integrated in rate form"])]
 #[case::a_shared_edge(
@@ -148,7 +148,7 @@ fn a_drift_of_finite_elements() {
     refused(BAR, &[(FEM_EXPECTED, &bound)], &words);
 }
 
-/// The stress of a law in rate form has no energy in a plane.
+/// In a plane, the stress of a law in rate form has no energy.
 #[rstest]
 #[case::its_drift("drift: {▸energy: 1e-3}")]
 #[case::its_rate("▸energy_rate: [-1e-9, 1e-9]")]

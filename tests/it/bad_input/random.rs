@@ -8,10 +8,10 @@ use super::samples::{BAR, FORCE, PLATE};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Characters that mean something to YAML, to formulas or to nobody.
+/// Characters with a meaning in YAML or in formulas, and characters without one.
 const KEYS: &str = "09.-+*/^()[]{}:,#'\"%&!|>~ \t\neXtLé\u{0}";
 
-/// `text` without the character at `at`, with `key` in its place, or with `key` before it.
+/// Replaces the character at `at` by `key`, inserts `key` before it, or removes it.
 fn slip(text: &str, at: usize, key: char, kind: u8) -> String {
     let mut characters: Vec<char> = text.chars().collect();
     let at = at % characters.len();

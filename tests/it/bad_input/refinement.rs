@@ -1,4 +1,4 @@
-//! Refinement plans that mean nothing.
+//! Invalid refinement plans.
 
 use super::samples::BAR;
 use super::{Edits, refused};

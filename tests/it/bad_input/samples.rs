@@ -47,7 +47,7 @@ expect:
     because: two levels support no claim
 "#;
 
-/// A valid plate, for mistakes that need a second axis.
+/// A valid plate, for mistakes that require a second axis.
 pub(super) const PLATE: &str = r#"suite: plate
 title: Vibrating plate
 source: a textbook
@@ -104,14 +104,14 @@ expect:
     because: two levels support no claim
 "#;
 
-/// A column under gravity; the wave has a kink in its strain.
+/// A column under gravity. Its wave has a kink in the strain.
 pub(super) const COLUMN: &str = include_str!("../../../verification/the-talk/oedometer.yaml");
 
-/// A bar under an end load; the wave has a jump in its strain.
+/// A bar under an end load. Its wave has a jump in the strain.
 pub(super) const PULLED: &str = include_str!("../../../verification/the-talk/steffen-bar.yaml");
 
-/// A particle that moves through a node.
+/// A suite with a particle that moves through a node.
 pub(super) const FORCE: &str = include_str!("../../../verification/the-talk/grid-crossing.yaml");
 
-/// A bar whose Courant limit is sought.
+/// A bar whose Courant limit is determined.
 pub(super) const SWEPT: &str = include_str!("../../../verification/stability/tiny-nodal-mass.yaml");

@@ -1,4 +1,4 @@
-//! Bodies, grids, loads, references and the place that is observed.
+//! Bodies, grids, loads, references and the observed point.
 
 use super::samples::{BAR, COLUMN, PLATE, PULLED};
 use super::{Edits, refused};

@@ -1,4 +1,5 @@
-//! Suites that would take all memory or all time: refused at once, before anything is allocated.
+//! Suites that would need too much memory or time are refused at once, before anything is
+//! allocated.
 
 use super::samples::{BAR, CUBE, PLATE, SWEPT};
 use super::{Edits, refused};
@@ -36,7 +37,7 @@ fn a_level_with(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[
     refused_at_once(sound, edits, words);
 }
 
-/// A list that says `word` so many times.
+/// Creates a list that contains `word` this number of times.
 fn list(word: &str, times: usize) -> String {
     format!("[{}]", vec![word; times].join(","))
 }

@@ -1,9 +1,9 @@
-//! Spectrum studies: the scene of the closed form, its waves, and the expectations.
+//! Spectrum studies: invalid scenes, waves and expectations.
 
 use super::{Edits, refused};
 use rstest::rstest;
 
-/// A sound spectrum study.
+/// A valid spectrum study.
 pub(super) const WAVE: &str = "\
 suite: wave
 study: spectrum
@@ -118,7 +118,8 @@ fn a_spectrum(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(WAVE, edits, words);
 }
 
-/// The waves of two and of sixteen cells, of particles off their lattice, on any grid.
+/// The unchanged suite has waves of two and sixteen cells, and particles away from the lattice, on
+/// any grid.
 #[test]
 fn the_unchanged_suite_is_sound() {
     let shifted = WAVE.replace("ppc: 2}", "ppc: 2, shift: [-0.2]}").replace("[8, 16]", "2");

@@ -1,4 +1,4 @@
-//! Stability studies: what is swept, what is sought, what is expected of it.
+//! Stability studies: invalid sweeps, limits and expectations.
 
 use super::{Edits, SWEPT, refused};
 use rstest::rstest;
@@ -95,7 +95,7 @@ fn a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SWEPT, edits, words);
 }
 
-/// Two halves in place of the bar.
+/// Replaces the bar by two halves.
 const HALVES: [(&str, &str); 2] = [
     (
         "  body: {box: {from: [0], to: [4]}}\n",

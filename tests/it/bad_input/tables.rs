@@ -5,7 +5,7 @@ use super::{load, refused};
 use mpm_verify::suite::{ConvergencePlan, Extent};
 use rstest::rstest;
 
-/// The bar, with an amplitude that is a table in the place of a number.
+/// Creates a bar whose amplitude is a table instead of a number.
 fn edited(table: &str) -> String {
     BAR.replace("v0: 0.1", &format!("v0: {table}"))
 }

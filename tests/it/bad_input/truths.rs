@@ -1,10 +1,10 @@
-//! Solutions that solve another problem: which condition fails, where, and by how much.
+//! Exact solutions of another problem: the violated condition, its position, and the difference.
 
 use super::samples::{BAR, COLUMN, PLATE, PULLED};
 use super::{Edits, refused};
 use rstest::rstest;
 
-/// Asserts an error with a place, a time and both numbers in addition to `words`.
+/// Asserts an error with a position, a time and both values, in addition to `words`.
 fn violated(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let figures = [" is violated at X = (", "), t = ", "expected ", ", found ", " (off by "];
     let label = ["this is not a solution of the problem that the scene states"];
@@ -77,7 +77,7 @@ fn a_displacement_that_is(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &["equation of motion in X", "N/m3 (off by "]
 )]
 #[case::a_blow_that_nothing_explains(
-    // The whole column gets another velocity at once: the equation holds before and after.
+    // The whole column changes its velocity at the same time: the equation holds before and after.
     &[("max(tau, 0)^2\"", "max(tau, 0)^2 - max(tau - 0.2, 0)\""), ("    - \"fall(t) -", "    - ▸\"fall(t) -")],
     &["momentum balance across wave fronts (the equation of motion in weak form"]
 )]
@@ -87,7 +87,7 @@ fn a_column_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 
 #[rstest]
 #[case::a_front_of_another_speed(
-    // Straight on both sides of the front, so the equation holds point by point.
+    // The solution is linear on both sides of the front, so the equation holds at every point.
     &[("\"sqrt(E/rho)\"", "\"1.05*sqrt(E/rho)\""), ("- \"sum(k, 0, 2", "- ▸\"sum(k, 0, 2")],
     &["momentum balance across wave fronts (the equation of motion in weak form"]
 )]
@@ -160,8 +160,8 @@ fn a_manufactured_motion_is_refused_with(#[case] edits: Edits<'_>, #[case] words
     refused(FORCED, edits, words);
 }
 
-/// Shear, and principal stretches that coincide at times: two differentiations of the stress agree
-/// and the weak form is balanced, or the suite would be refused.
+/// With shear, and with principal stretches that coincide at times, two methods of differentiating
+/// the stress must agree, and the weak form must be balanced.
 #[rstest]
 #[case::bar(FORCED, &[])]
 #[case::plate(
@@ -183,7 +183,7 @@ fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits
         panic!("{diagnostic}");
     }
 }
-/// The suite `FORCED` with its force stated (for nu = 0) instead of manufactured.
+/// Creates the suite `FORCED` with a stated force (for nu = 0) instead of a manufactured one.
 fn with_its_force(force: &str) -> String {
     let load =
         format!("  loads: [{{body_force: [\"{force}\"]}}]\n\nexact:\n  equation: neo_hookean\n");

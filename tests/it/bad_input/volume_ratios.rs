@@ -1,4 +1,4 @@
-//! Averaged volume ratios, where they mean nothing.
+//! Averaged volume ratios in places where they have no effect.
 
 use super::samples::BAR;
 use super::{Edits, load, refused};
@@ -91,7 +91,7 @@ fn around_an_axis() {
     assert!(refused.contains("`volume: averaged`") || refused.contains("axisymmetric"));
 }
 
-/// A law of each name, in a plane: those of F or of J alone go with an average.
+/// In a plane, every law is tried. Laws of F or of J alone can be combined with an average.
 #[test]
 fn a_law_that_reads_neither_f_nor_j_is_refused_by_name() {
     let (averaged, updated) = (VolumeName::Averaged, FrameName::Updated);

@@ -1,8 +1,8 @@
-//! A published force of the wrong sign, and the bodies that are not boxes.
+//! A published force with a wrong sign, and bodies that are not boxes.
 //!
-//! The generalized vortex of Kamojjala, Brannon, Sadeghirad & Guilkey (2015): an annulus whose
-//! circles turn by `alpha = sin(pi t) h(R)`. The force that goes with it stands in several public
-//! codes in the basis of the reference position, with one tangential term of the wrong sign.
+//! The generalized vortex of Kamojjala, Brannon, Sadeghirad & Guilkey (2015) is an annulus whose
+//! circles rotate by `alpha = sin(pi t) h(R)`. Several public codes contain its force in the basis
+//! of the reference position, with one tangential term of the wrong sign.
 
 use super::{Edits, load, refused};
 use rstest::rstest;
@@ -77,7 +77,7 @@ fn the_right_force_is_taken(#[case] force: &str) {
     }
 }
 
-/// docs/wrong-force.md quotes the message.
+/// docs/wrong-force.md quotes this error.
 #[test]
 fn the_published_force_is_refused() {
     let wrong = PUBLISHED.replace("- centripetal(r, s)*sin", "+ centripetal(r, s)*sin");
@@ -148,7 +148,7 @@ fn an_annulus_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(&VORTEX.replace("FORCE", CURRENT), edits, words);
 }
 
-/// One particle in the middle of the hole, and a body that flies through space.
+/// One particle is in the middle of the hole; another body flies through space.
 #[test]
 fn a_level_without_particles() {
     let (head, _) = VORTEX.split_once("  loads:").expect("loads");

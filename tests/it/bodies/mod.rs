@@ -10,7 +10,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
-/// The methods; in 3-D only fast ones.
+/// Returns the methods for these tests; in 3-D only fast ones.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let few = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => matches!(basis, BasisName::Linear | BasisName::ContiguousGimp),
@@ -20,14 +20,14 @@ fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     methods().filter(move |method| dimension < 3 || few(method))
 }
 
-/// Methods that support coupled bodies.
+/// Returns the methods that support coupled bodies.
 fn coupled_methods(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| {
         !matches!(transfer.kind(), TransferKind::Series | TransferKind::Cells)
     })
 }
 
-/// The part of the free body between two coordinates on the first axis.
+/// Creates the part of the free body between two coordinates on the first axis.
 fn part<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -75,7 +75,7 @@ fn one_body_with_contact_is_its_solver_bit_for_bit(
     in_dimension!(dimension, is_the_solver(scheme, friction));
 }
 
-/// Two bodies without common nodes.
+/// Asserts that two bodies without common nodes do not affect each other.
 fn do_not_know_each_other<const D: usize>(scheme: SchemeName) {
     for method in coupled_methods(D) {
         let setups = || [[0.6, 1.6], [5.6, 6.4]].map(|ends| part::<D>(method, scheme, ends));
@@ -96,7 +96,7 @@ fn bodies_far_apart_are_two_solvers_bit_for_bit(
     in_dimension!(dimension, do_not_know_each_other(scheme));
 }
 
-/// A body cut in two, with one velocity field.
+/// Asserts that a body cut in two, with one velocity field, moves like the whole body.
 fn halves_are_the_whole<const D: usize>(scheme: SchemeName, start: Start) {
     for method in coupled_methods(D) {
         let of = |ends: [f64; 2]| Setup { start, ..part::<D>(method, scheme, ends) };
@@ -124,7 +124,7 @@ fn bodies_that_share_one_field_are_one_body(
     in_dimension!(dimension, halves_are_the_whole(scheme, start));
 }
 
-/// Three bodies in an oblique collision; the middle one is heavy.
+/// Creates three bodies in an oblique collision; the middle one is heavy.
 fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Vec<Setup<D>> {
     let ends = [[1.4, 2.4], [2.7, 3.7], [4.0, 5.0]];
     let speeds = [0.8, 0.0, -0.6];
@@ -141,7 +141,7 @@ fn crash<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) 
     ends.into_iter().zip(speeds).map(body).collect()
 }
 
-/// A distant body that is listed before two colliding bodies does not change their result, bit for
+/// A distant body that is listed before two colliding bodies must not change their result, bit for
 /// bit.
 #[rstest]
 fn a_body_far_away_changes_no_contact(
@@ -191,7 +191,7 @@ fn bodies_that_collide_keep_their_momentum(
     in_dimension!(dimension, momentum_is_kept(scheme));
 }
 
-/// Two periodic layers that are pressed together and slide: impulses on the upper layer along the
+/// Presses and slides two periodic layers. Returns the impulses on the upper layer along the
 /// interface and normal to it.
 fn pressed(method: (BasisName, TransferName), scheme: SchemeName, friction: f64) -> [f64; 2] {
     let layer = |low: f64, v: Vector<2>| {
@@ -225,9 +225,9 @@ fn friction_is_a_share_of_the_pressure_and_none_without(
     }
 }
 
-/// Bars of length 1 with rho = c = 1 that collide with a velocity v0 each (V14). Returns the end of
-/// the time with a contact force above rho c v0/2, and the share of its velocity that each bar has
-/// afterwards. The force follows from the momentum of one bar.
+/// Collides bars of length 1 with rho = c = 1 and a velocity v0 each (V14). Returns the time at
+/// which the contact force falls below rho c v0/2, and the final velocity of each bar as a fraction
+/// of its initial one. The force is computed from the momentum of one bar.
 fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     let (h, v0) = (1.0 / cells as f64, 1e-3);
     let bar = |from: f64, v: f64| {
@@ -254,10 +254,10 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
     (last, -before / v0)
 }
 
-/// Contact ends when the wave has travelled to the free ends and back, after 2L/c. In any scheme of
-/// second order the width of its front grows like h^(2/3) over a long distance (Brenner & Thomee
-/// 1971), and so does the error of the contact time: within h/c on these grids, but not on much
-/// finer ones.
+/// Contact ends when the wave has travelled to the free ends and back, after 2L/c. In any
+/// second-order scheme the width of the wave front grows like h^(2/3) over a long distance (Brenner
+/// & Thomee 1971), and so does the error of the contact time. It is below h/c on these grids, but
+/// not on much finer ones.
 #[rstest]
 fn two_bars_part_when_the_wave_is_back(
     #[values(10, 20, 40)] cells: usize,
@@ -267,7 +267,7 @@ fn two_bars_part_when_the_wave_is_back(
     assert!(off.abs() <= 1.0 + 1e-9, "the bars part {off:.2} h/c after 2L/c");
 }
 
-/// The bars rebound with their initial speed, except for the energy of oscillations behind the
+/// The bars rebound with their initial speed, except for the energy of the oscillations behind the
 /// front.
 #[rstest]
 fn two_bars_bounce_with_an_error_of_the_order_of_the_front(

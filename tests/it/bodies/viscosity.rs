@@ -8,8 +8,8 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::Subject;
 use rstest::rstest;
 
-/// Two bars with rho = c = 1 that have run into each other with `v0`: the largest pressure over
-/// rho c v0, and that in the middle between contact and front, when the waves are half-way.
+/// Collides two bars with rho = c = 1 and the velocity `v0`. Returns the largest pressure over rho
+/// c v0, and the pressure in the middle between contact and front when the waves are half-way.
 fn pressures(cells: usize, scheme: SchemeName, v0: f64, [linear, quadratic]: [f64; 2]) -> [f64; 2] {
     let h = 1.0 / cells as f64;
     let bar = |from: f64, v: f64| {
@@ -36,8 +36,8 @@ fn pressures(cells: usize, scheme: SchemeName, v0: f64, [linear, quadratic]: [f6
     [largest, pressure(body.len() * 3 / 4)]
 }
 
-/// Without viscosity a scheme of second order overshoots by 20 to 25 % behind the front, on every
-/// grid; the linear term reduces this overshoot, more so for a larger coefficient.
+/// Without viscosity a second-order scheme overshoots by 20 to 25 % behind the front, on every
+/// grid. The linear term reduces this overshoot, and a larger coefficient reduces it more.
 #[rstest]
 fn the_linear_term_bounds_the_overshoot_of_a_weak_shock(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -54,7 +54,7 @@ fn the_linear_term_bounds_the_overshoot_of_a_weak_shock(
     }
 }
 
-/// The quadratic term acts in strong shocks: at a thousandth of the wave speed it is negligible.
+/// The quadratic term acts in strong shocks. It is negligible at a thousandth of the wave speed.
 #[rstest]
 fn the_quadratic_term_does_nothing_to_a_weak_shock(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,

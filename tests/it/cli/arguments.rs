@@ -1,4 +1,4 @@
-//! Values of options that are not finite, out of range, or of another type.
+//! Invalid values of options: not finite, out of range, or of another type.
 
 use super::{BAD_INPUT, BAR, Folder, refusals};
 
@@ -68,7 +68,7 @@ fn values_of_options_are_refused_with_what_is_expected() {
     "#);
 }
 
-/// The advice of the library, `-- -1`, would pass the number as a suite.
+/// The suggestion of `clap`, `-- -1`, would pass the number as a suite.
 #[test]
 fn a_stray_negative_number_gets_no_advice_that_fails() {
     let folder = Folder::with("bar.yaml", BAR);

@@ -3,14 +3,14 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
 
-/// The bar with a time step beyond the stable one, followed by `more`.
+/// Creates the bar with a time step longer than the stable one, followed by `more`.
 fn long_step(more: &str) -> String {
     let text = BAR.replace("dt: 1e-3", "dt: \"1.3*h/10\"");
     assert_ne!(text, BAR);
     format!("{text}\n{more}\n")
 }
 
-/// The bar with the same short step on all levels, which is a note.
+/// Creates the bar with the same short step on all levels, which causes a note.
 fn with_note(name: &str) -> String {
     let text = BAR.replace("suite: short-bar", &format!("suite: {name}"));
     assert_ne!(text, BAR);

@@ -1,17 +1,17 @@
-//! `compare`: the changes between two runs, its outputs, and the exit status.
+//! `compare`: the changes between two runs, the output formats, and the exit status.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, assert_contains};
 use rstest::rstest;
 
-/// A folder with the JSON of two runs: of a bar, and of the same bar with twice the particles and
-/// one method less.
+/// Creates a folder with the JSON of two runs: of a bar, and of the same bar with twice the
+/// particles and one method less.
 fn two_runs() -> Folder {
     runs_of(
         &BAR.replace("ppc: 4", "ppc: 8").replace("  - fem: {element: linear, mass: lumped}\n", ""),
     )
 }
 
-/// The JSON of the bar, and of another suite in its place.
+/// Creates a folder with the JSON of the bar, and of the suite `other` in its place.
 fn runs_of(other: &str) -> Folder {
     let folder = Folder::new();
     for (name, text) in [("old", BAR), ("new", other)] {
@@ -45,7 +45,8 @@ fn twice_the_particles_are_more_expensive() {
             "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
             "\nmore expensive\n",
             "  short-bar::mpm-linear-flip-musl  converging ",
-            // Other levels do not prevent the comparison: both series have a common range.
+            // Different levels do not prevent the comparison, because both series have a common
+            // range.
             "levels: 4 -> 4, 0 in common\n",
             " x at 1e-7\n",
             "\ngone\n",
@@ -62,7 +63,7 @@ fn markdown_is_a_comment() {
     assert_contains(&found.out, &["\n<details><summary>1 gone</summary>\n"]);
 }
 
-/// The bar with a larger error, as from a worse solver.
+/// Creates runs of the bar in which the new error is larger, as from a worse solver.
 fn a_worse_run() -> Folder {
     let folder = runs_of(BAR);
     let text = folder.read("new.json");
@@ -72,8 +73,8 @@ fn a_worse_run() -> Folder {
     folder
 }
 
-/// The steps of the CI action that compare and comment, with a mock `gh` that returns the reports
-/// of the last run and stores the comment.
+/// Runs the steps of the CI action that compare and comment, with a mock `gh` that returns the
+/// reports of the last run and stores the comment.
 #[cfg(unix)]
 #[test]
 fn the_workflow_comments_what_moved() {
@@ -185,7 +186,7 @@ const REPORT: &str = "---\nsource: a\n---\nbar: A bar\n\n  source        a book\
     \x20               0.1*h/c\n\
     \x20 methods       until: t = 1 s\n";
 
-/// A folder with the snapshots of an old and a new run.
+/// Creates a folder with the snapshots of an old and a new run.
 fn snapshots(overview: &str, report: &str) -> Folder {
     let folder = Folder::new();
     for (name, overview, report) in [("old", OVERVIEW, REPORT), ("new", overview, report)] {
@@ -262,7 +263,7 @@ fn a_commit_that_is_not_there_is_an_error() {
     );
 }
 
-/// Snapshots have the finest level only.
+/// Snapshots contain the finest level only.
 #[test]
 fn a_run_is_not_compared_with_snapshots() {
     let folder = snapshots(OVERVIEW, REPORT);

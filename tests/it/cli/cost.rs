@@ -1,5 +1,5 @@
-//! `cost`: the cost of accuracy on this machine. Seconds differ from run to run; the tests only
-//! check what does not.
+//! `cost`: the cost of accuracy on this machine. Times differ from run to run; the tests check only
+//! what is the same in all runs.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use serde_json::Value;
@@ -32,7 +32,7 @@ fn the_report_has_levels_a_model_and_both_rankings() {
     );
     let rows = |name: &str| out.lines().filter(|line| line.contains(name)).count();
     // Four levels, a model, and two rows in each of two rankings. If other tests run at the same
-    // time, a finer level can take less time than a coarser one: then seconds have no exponent.
+    // time, a finer level can take less time than a coarser one. Its time then has no exponent.
     assert!((8..=9).contains(&rows("mpm-linear-flip-musl")), "{out}");
 }
 
@@ -62,7 +62,7 @@ fn every_level_has_its_seconds_and_its_work() {
     assert_eq!(works, ["seconds", "transfers"]);
 }
 
-/// With steps of twice its limit a method fails; its levels are still rows.
+/// With twice the stable time step a method fails. Its levels must still be in the table.
 #[test]
 fn what_breaks_is_a_row() {
     let folder = Folder::with(
@@ -91,7 +91,7 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     let [low, high] = ["low", "high"].map(|end| best["error"][end].as_f64().expect("an end"));
     assert!(low < errors[0] && errors[0] < high && high < 4.0 * low, "{best}");
     assert!(low < errors[1] && errors[1] < high, "{best}");
-    // Four levels with up to 12 cells take a fraction of this.
+    // Four levels with up to 12 cells take a fraction of the budget.
     assert!(best["cells"].as_u64() > Some(12) && best["beyond"] == true, "{best}");
     assert_eq!(best["failure"], Value::Null);
     let text = folder.call(&["cost", "bar.yaml", "--budget", "30ms"]).out;
@@ -101,7 +101,7 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
     );
 }
 
-/// The order is not the expected one, so that no error is predicted beyond the levels that ran.
+/// The order is not the expected one. Therefore no error is predicted for finer levels.
 #[test]
 fn no_budget_buys_an_error_that_is_not_predicted() {
     let folder = Folder::with("bar.yaml", ambitious());

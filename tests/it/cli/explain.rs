@@ -110,8 +110,8 @@ fn what_a_mechanician_looks_for_comes_first() {
     assert!(none.code != SOUND && none.errors.contains("has no scene to draw"));
 }
 
-/// The picture of a scene shows rims with holes, materials, symbols of faces, directions of loads,
-/// and the rest as text.
+/// The sketch of a scene must show rims with holes, materials, symbols of faces and directions of
+/// loads. All other information must be text.
 #[rstest]
 #[case::a_hole("expanding-ring", &["fill-rule=\"evenodd\"", "annulus about (0, 0)"], 2)]
 #[case::two_materials("bar-of-two-materials", &["#d55e00", ">body 2<", ">contact<"], 2)]
@@ -127,7 +127,7 @@ fn the_scene_is_drawn(#[case] name: &str, #[case] marks: &[&str], #[case] rims: 
     assert_eq!(paths.map(|path| path.matches('M').count()).sum::<usize>(), rims, "{svg}");
 }
 
-/// The load of Cook's membrane is one along its face.
+/// The load of Cook's membrane acts along its face.
 #[test]
 fn arrows_have_the_direction_of_tractions() {
     let folder = Folder::new();

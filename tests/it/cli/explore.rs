@@ -1,9 +1,9 @@
-//! Suites without expectations: the output of a run, and the expectations that it would support.
+//! Suites without expectations: the output of a run, and the expectations that it suggests.
 
 use super::{BAD_INPUT, BAR, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
-/// The part of a suite before `expect`.
+/// Returns the part of a suite before `expect`.
 fn open(text: &str) -> &str {
     text.split("expect:").next().expect("the part before")
 }
@@ -43,7 +43,7 @@ fn a_run_that_fails_is_no_failure_of_a_suite_that_explores() {
     assert_contains(&found.out, &["failed"]);
 }
 
-/// Two cases of different order: FEM starts as a leapfrog, MPM with `v(0)`.
+/// Two cases with different orders: FEM starts as a leapfrog, MPM with `v(0)`.
 const STEPS: &str = r#"suite: steps
 title: Steps
 source: a textbook
@@ -90,7 +90,7 @@ fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
     assert_eq!(proposals[0], proposals[1]);
 }
 
-/// A proposal states the gain of a smaller amplitude in addition to the results of the run.
+/// In addition to the results of the run, a proposal states the gain of a smaller amplitude.
 #[test]
 fn a_proposal_says_what_the_amplitude_leaves() {
     let folder = Folder::with("large.yaml", STEPS.replace("1e-3*", "0.1*"));

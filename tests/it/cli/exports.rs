@@ -6,7 +6,7 @@ use rstest::rstest;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// The value in a JSON document that a column such as `errors.rms` names.
+/// Returns the value in a JSON document that a column name such as `errors.rms` refers to.
 fn member<'a>(row: &'a Value, column: &str) -> &'a Value {
     column.split('.').fold(row, |value, key| match key.parse::<usize>() {
         Ok(index) => &value[index],

@@ -32,7 +32,7 @@ fn a_file_that_is_not_there() {
     refused(&Folder::new(), &["run", "missing.yaml"], &words);
 }
 
-/// Exit status 2, a message on standard error, nothing on standard output, and no delay.
+/// Asserts exit status 2, an error message, no output, and no delay.
 fn refused(folder: &Folder, arguments: &[&str], words: &[&str]) {
     let start = Instant::now();
     let found = folder.call(arguments);

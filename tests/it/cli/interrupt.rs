@@ -4,7 +4,7 @@ use super::{BAR, Folder, assert_contains};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
-/// Exit status of a run that Ctrl-C ended.
+/// Exit status of a run that was ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
 #[cfg(unix)]
@@ -20,7 +20,7 @@ fn a_run_that_is_interrupted_says_how_to_go_on() {
         let mut command = folder.command(&[&["run", "first.yaml", "long.yaml"], more].concat());
         let mut child =
             command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a program");
-        // The first suite has been printed, so that the second one runs.
+        // The first suite has been printed, so the second one is running.
         let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
         lines.read_line(&mut String::new()).expect("a first line");
         let id = child.id().to_string();

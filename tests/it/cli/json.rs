@@ -1,4 +1,4 @@
-//! `--format json`: one document, with the keys that the documentation promises.
+//! `--format json`: one document with the documented keys.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, mistaken};
 use crate::common::json_schema::JsonSchema;
@@ -209,7 +209,7 @@ fn a_bad_file_leaves_one_document_of_the_good_ones() {
     assert_eq!((suites.len(), &suites[0]["suite"]), (1, &"grid-crossing".into()));
 }
 
-/// The ranking by transfers, with the keys that the documentation promises.
+/// The ranking by transfers must have the documented keys.
 #[test]
 fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
     let folder = Folder::with("bar.yaml", BAR);
@@ -233,7 +233,7 @@ fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
     assert_eq!(methods[0]["reached"][0]["times"], 1.0);
 }
 
-/// One flag for every command that prints something, and one document of it.
+/// Every command that prints something must have the flag, and must print one document.
 #[rstest]
 #[case(&["list", "bar.yaml"], "/suites/0/cases/0/case", &json!("mpm-linear-flip-musl"))]
 #[case(&["check", "bar.yaml"], "/suites/0/cases", &json!(2))]

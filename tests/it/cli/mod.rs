@@ -24,16 +24,16 @@ mod time_series;
 pub(crate) use crate::common::folder::{Folder, assert_contains};
 use rstest::rstest;
 
-/// Exit status of a run with expected results only.
+/// Exit status of a run in which all results are as expected.
 pub(crate) const SOUND: i32 = 0;
 
 /// Exit status if some expectation was not met.
 pub(crate) const FAILED: i32 = 1;
 
-/// Exit status if something that was given cannot be used.
+/// Exit status if an input cannot be used.
 pub(crate) const BAD_INPUT: i32 = 2;
 
-/// A suite of two subjects that runs in milliseconds.
+/// A suite with two cases that runs in milliseconds.
 pub(crate) const BAR: &str = r#"suite: short-bar
 title: Short bar
 source: a textbook
@@ -66,13 +66,13 @@ expect:
     because: linear basis functions have order 2
 "#;
 
-/// A suite with the cells of [`BAR`] on one grid: each level is timed for a while, and some tests
-/// need one only.
+/// Changes the cells of a suite like [`BAR`] to one level. Each level is timed for a while, and
+/// some tests need only one.
 pub(crate) fn on_one_grid(suite: &str) -> String {
     suite.replace("[4, 6, 8, 12]", "[4]")
 }
 
-/// Messages of refused calls, each below its arguments.
+/// Returns the messages of refused calls, each below its arguments.
 pub(crate) fn refusals(folder: &Folder, calls: &[&str]) -> String {
     let mut text = String::new();
     for call in calls {
@@ -84,12 +84,12 @@ pub(crate) fn refusals(folder: &Folder, calls: &[&str]) -> String {
     text
 }
 
-/// [`BAR`], which expects too much.
+/// Creates a [`BAR`] with an expectation that it does not meet.
 fn ambitious() -> String {
     BAR.replace("short-bar", "ambitious-bar").replace("[1.7, 2.3]", "[2.9, 3.1]")
 }
 
-/// [`BAR`] with a mistake in line nine.
+/// Creates a [`BAR`] with a mistake in line nine.
 fn mistaken() -> String {
     BAR.replace("short-bar", "mistaken-bar").replace("dimension:", "dimensions:")
 }
@@ -111,7 +111,7 @@ fn a_folder_of_suites_takes_the_place_of_the_ones_built_in() {
     assert_eq!(folder.call(&["list"]).out, wanted);
     assert_eq!(folder.call(&["list", "short-bar"]).out, wanted);
     assert_eq!(folder.call(&["list", "verification"]).out, wanted);
-    // Built-in suites can still be named.
+    // Built-in suites can still be selected by name.
     assert!(folder.call(&["list", "oedometer"]).out.starts_with("oedometer: "));
 }
 

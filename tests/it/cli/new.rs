@@ -21,7 +21,7 @@ fn a_new_suite_is_sound_and_shows_an_order(
     let case = &document["suites"][0]["cases"][0];
     let order = case["observed_order"]["value"].as_f64().expect("an order");
     assert!((1.9..=2.1).contains(&order), "{order}");
-    // In space it takes finer levels to settle.
+    // In 3-D the order settles only on finer levels.
     assert!(case["verdict"] == "converging" || dimension == "3", "{}", case["verdict"]);
     let long = folder.read("first.yaml").lines().find(|line| line.len() > 100).map(str::to_owned);
     assert_eq!(long, None);
@@ -69,7 +69,7 @@ fn a_truth_that_the_material_does_not_have_is_refused() {
     assert!(folder.files(".").is_empty());
 }
 
-/// Every offered choice gives a suite, or is refused as an invalid pair.
+/// Every combination of offered choices gives a suite, or is refused as an invalid combination.
 #[test]
 fn every_choice_that_is_offered_makes_a_suite() {
     let bases = BasisName::ALL.iter().map(|basis| ("--basis", basis.name()));
@@ -137,7 +137,7 @@ fn what_cannot_be_used_is_shown_where_it_was_given(
     assert!(folder.files(".").is_empty());
 }
 
-/// Not taken for other values of YAML.
+/// YAML must not read such names as values of another type.
 #[rstest]
 fn names_that_look_like_numbers_are_names(#[values("2", "1e3", "true", "null")] name: &str) {
     let folder = Folder::new();

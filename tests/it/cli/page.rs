@@ -1,4 +1,4 @@
-//! `run --html`: one page with all of it.
+//! `run --html`: one page with all results.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains, mistaken};
 
@@ -21,7 +21,7 @@ fn a_page_has_verdicts_figures_reports_and_the_suites() {
             "initial_velocity: [&quot;1e-3*sin(pi*X/2)&quot;]",
         ],
     );
-    // The printed text is that without a page, and each run writes the same bytes.
+    // The printed text is the same as without a page, and each run writes the same bytes.
     assert_eq!(out, folder.call(&arguments[..3]).out);
     folder.call(&["run", "bar.yaml", "grid-crossing", "--html", "again.html", "--jobs", "1"]);
     assert!(page == folder.read("again.html"), "the page depends on more than the run");
@@ -39,7 +39,7 @@ fn a_page_begins_with_the_achievements_of_each_method() {
     assert_contains(
         &page,
         &[
-            // Two of three time schemes have the expected order, the third has a lower one.
+            // Two of three time schemes have the expected order; the third has a lower one.
             "<a href=\"#group-the-talk\">the-talk</a></th><td><span class=\"low-order\">2 of 3</span></td>",
             "<td><span class=\"low-order\">1.75..1.96</span></td>",
             // A study of internal forces has no order.

@@ -3,7 +3,7 @@
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
-/// The bar with another plan and another time step, without expected orders.
+/// Creates the bar with another plan and another time step, without expected orders.
 fn bar(run: &str, refine: &str, expect: &str) -> String {
     let text = BAR
         .replace("run: {until: 0.05, dt: 1e-3}", run)
@@ -30,7 +30,7 @@ fn column(case: &Value, key: &str) -> Vec<f64> {
 }
 
 /// A run has a whole number of steps: a step of 7e-4 s becomes 1/71 of the run. The judge must use
-/// the actual step.
+/// this actual step.
 #[test]
 fn refined_time_steps_are_the_ones_that_are_taken() {
     let text =
@@ -62,8 +62,8 @@ fn cells_and_time_steps_go_together_level_by_level() {
     assert_eq!(column(&case, "steps")[..2], [50.0, 100.0]);
 }
 
-/// Four cells leave an error that no time step removes: the verdict is a floor, and the probe finds
-/// its cause.
+/// Four cells cause an error that smaller time steps do not reduce. The verdict is a floor, and the
+/// probe must find its cause.
 #[test]
 fn the_axis_that_was_not_refined_is_named() {
     let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4, 1.25e-4, 6.25e-5], cells: 4, ppc: 4}";

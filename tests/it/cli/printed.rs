@@ -1,11 +1,12 @@
-//! Output of a run: its extent, its colours, and errors of writing.
+//! Output of a run: its length, its colours, and write errors.
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;
 use std::io::Write;
 use std::process::Stdio;
 
-/// Six suites, so that not every report is printed; the last has an expectation that fails.
+/// Creates six suites, which are too many for full reports. The last one has an expectation that
+/// fails.
 fn six() -> Folder {
     let folder = Folder::new();
     for number in 1..6 {
@@ -93,7 +94,7 @@ fn groups_and_patterns_are_those_of_the_built_in_suites_where_there_is_no_folder
     assert!(fitting.code == SOUND && fitting.out.starts_with("heat-mms: "), "{}", fitting.out);
 }
 
-/// Standard output and standard error of the program that reads `input`.
+/// Returns exit status, standard output and standard error of the program that reads `input`.
 fn fed(folder: &Folder, arguments: &[&str], input: &str) -> (Option<i32>, String, String) {
     let mut command = folder.command(arguments);
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -124,7 +125,7 @@ fn standard_input_has_a_name_and_a_limit() {
     let folder = Folder::new();
     let (code, _, errors) = fed(&folder, &["check", "-"], &super::mistaken());
     assert!(code == Some(BAD_INPUT) && errors.contains("<stdin>:9:3"), "{errors}");
-    // Short enough for a pipe whose reader stops early.
+    // The input is short enough for a pipe whose reader stops early.
     let (code, _, errors) = fed(&folder, &["check", "-"], &"a".repeat(65 * 1024));
     assert!(code == Some(BAD_INPUT) && errors.contains("too large"), "{errors}");
 }

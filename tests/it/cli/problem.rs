@@ -1,4 +1,4 @@
-//! `mpm-verify problem`: a level of a suite as a file.
+//! `mpm-verify problem`: writes a level of a suite to a file.
 
 use super::{BAR, Folder, refusals};
 use serde_json::Value;
@@ -8,7 +8,7 @@ fn problem(arguments: &[&str]) -> String {
     folder.accepted(&[&["problem", "bar.yaml"], arguments].concat())
 }
 
-/// Numbers of one column of a table.
+/// Returns the numbers of one column of a table.
 fn column(table: &str, name: &str) -> Vec<f64> {
     let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let head = lines.next().expect("a head");
@@ -31,7 +31,7 @@ fn a_level_is_a_table_of_its_particles() {
     assert_eq!(problem(&[]).lines().count(), 1 + 48);
 }
 
-/// The state of the formula, which is another one than at the start.
+/// The exact state at a later time differs from the initial state.
 #[test]
 fn the_exact_state_is_that_of_the_formula() {
     let table = problem(&["--level", "2", "--at", "0.05"]);

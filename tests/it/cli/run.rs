@@ -121,7 +121,7 @@ fn one_thread_and_two_give_the_same_bytes() {
     };
     assert_eq!(run("1"), run("2"));
     let files = folder.files("1");
-    // The document of `--format json` is one of them.
+    // One of the files contains the document of `--format json`.
     assert!(files.contains(&"report.json".to_owned()), "{files:?}");
     assert_eq!(files, folder.files("2"));
     for file in files {
@@ -156,7 +156,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 
 #[test]
 fn a_reader_that_goes_away_is_no_reason_to_panic() {
-    // Enough suites that most remain to be printed when the reader closes the pipe.
+    // There are so many suites that most remain to be printed when the reader closes the pipe.
     let folder = Folder::new();
     for number in 0..40 {
         let suite = BAR.replace("short-bar", &format!("bar-{number}"));
@@ -187,8 +187,8 @@ fn a_reader_that_never_came_is_no_reason_either() {
     assert!(folder.path().is_dir());
 }
 
-/// The first two levels are stored, one of them truncated; text, JSON and figures equal those of an
-/// uninterrupted run. A path that is not a folder is bad input.
+/// The first two levels are stored, one of them truncated. Text, JSON and drawings equal those of
+/// an uninterrupted run. A path that is not a folder is bad input.
 #[test]
 fn a_resumed_run_prints_the_same_bytes() {
     let folder = Folder::with("bar.yaml", BAR);
@@ -214,7 +214,7 @@ fn a_resumed_run_prints_the_same_bytes() {
     assert_contains(&none.errors, &["--resume bar.yaml"]);
 }
 
-/// Cached levels are marked, and read back instead of being run again.
+/// Cached levels are marked. They must be read back instead of being run again.
 #[test]
 fn a_kept_level_is_taken_and_one_of_another_suite_is_not() {
     let folder = Folder::with("bar.yaml", BAR);

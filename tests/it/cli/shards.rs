@@ -1,10 +1,10 @@
-//! Parts of a run, and the report of all of them.
+//! Parts of a run, and the merged report of all parts.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;
 use serde_json::Value;
 
-/// Two suites of two and three cases.
+/// Creates two suites with two and three cases.
 fn suites() -> Folder {
     let folder = Folder::with("verification/a.yaml", BAR);
     let other = BAR.replace("short-bar", "other-bar").replace("[4, 6, 8, 12]", "[3, 6, 9, 12]");
@@ -12,7 +12,7 @@ fn suites() -> Folder {
     folder
 }
 
-/// Runs every part, each with its own folder.
+/// Runs every part with its own folder.
 fn in_parts(folder: &Folder, count: usize) -> Vec<String> {
     let parts = (1..=count).map(|number| {
         let (shard, kept) = (format!("{number}/{count}"), format!("part-{number}"));

@@ -1,9 +1,9 @@
-//! Automatic time steps, and the warning of a step that is too long.
+//! Automatic time steps, and the warning about a step that is too long.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
 use serde_json::Value;
 
-/// The bar without its FEM, with another time step.
+/// Creates the bar without its FEM case, with another time step.
 fn bar(dt: &str) -> String {
     BAR.replace("dt: 1e-3", dt)
         .replace("  - fem: {element: linear, mass: lumped}\n", "")
@@ -34,7 +34,7 @@ fn warnings(errors: &str) -> Vec<&str> {
     errors.lines().filter(|line| line.starts_with("warning: ")).collect()
 }
 
-/// A suite with an expectation about such steps gives no warning.
+/// If a suite has an expectation about such steps, no warning is printed.
 #[test]
 fn steps_that_are_too_long_warn_where_what_was_expected_did_not_come() {
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");

@@ -1,11 +1,11 @@
-//! `run --vtu`: cases as files for ParaView.
+//! `run --vtu`: writes cases as files for ParaView.
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use crate::common::vtk::{attribute, numbers, parts};
 use serde_json::Value;
 use std::fs;
 
-/// Series in the folder `vtu`.
+/// Returns the series in the folder `vtu`.
 fn series(folder: &Folder) -> Vec<String> {
     let mut names = Vec::new();
     for suite in fs::read_dir(folder.path().join("vtu")).expect("the folder of the series") {
@@ -21,7 +21,8 @@ fn series(folder: &Folder) -> Vec<String> {
     names
 }
 
-/// Files of the last instant of a series, particles first, and its time.
+/// Returns the files of the last instant of a series, particles first, and the time of this
+/// instant.
 fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
     let list = fs::read_to_string(series).expect("the series");
     let time = |line: &str| attribute(line, "timestep").parse::<f64>().expect("a time");
@@ -32,7 +33,7 @@ fn last(series: &str) -> (Vec<Vec<u8>>, f64) {
     (lines.iter().filter(|line| time(line) == end).map(read).collect(), end)
 }
 
-/// The written errors are those that were judged.
+/// The written errors must equal the judged ones.
 #[test]
 fn the_errors_of_the_particles_are_those_of_the_report() {
     let folder = Folder::with("bar.yaml", BAR);
@@ -50,7 +51,7 @@ fn the_errors_of_the_particles_are_those_of_the_report() {
     let levels = &report["suites"][0]["cases"][0]["levels"];
     let told = levels[3]["errors"]["rms"].as_f64().expect("a number");
     assert!((rms / told - 1.0).abs() < 1e-12, "{rms} of {told}");
-    // Position, and not the label: both have three components.
+    // The position, not the label, is written: both have three components.
     let (x, u) = (numbers(particles, "position"), numbers(particles, "u"));
     let label = numbers(particles, "X");
     assert_eq!((x.len(), u.len(), label.len()), (3 * 48, 48, 48));
@@ -72,12 +73,12 @@ fn what_did_not_come_as_expected_is_shown_and_no_more() {
         let shown = series.split("vtu/").nth(1).expect("a path below the folder");
         assert_contains(&found.errors, &[shown]);
     }
-    // FEM has no particles and no grid of nodes: its samples are shown.
+    // FEM has no particles and no grid nodes, so its samples are written.
     let (files, _) = last(&all[0]);
     assert_eq!((files.len(), numbers(&files[0], "error of velocity").len() % 12), (1, 0));
 }
 
-/// The last frame is the state at the failure, on the level that failed.
+/// The last frame must be the state at the failure, on the level that failed.
 #[test]
 fn a_run_that_breaks_is_shown_up_to_there() {
     let folder = Folder::new();

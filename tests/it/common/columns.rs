@@ -1,9 +1,9 @@
-//! Every number that particles carry: a column that is added to them is missed here by the
-//! compiler.
+//! Lists every number that particles store. If a column is added to particles, this file does not
+//! compile without it.
 
 use mpm_verify::mpm::Particles;
 
-/// The temperatures, and all other numbers.
+/// Returns the temperatures, and all other numbers.
 pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<f64>) {
     let Particles {
         x0,

@@ -1,4 +1,4 @@
-//! Effects of every kind, built from the examples with which their keys register them.
+//! Effects of every kind, built from the examples that are registered with their keys.
 
 use super::H;
 use mpm_verify::mpm::{BasisName, Setup};
@@ -20,7 +20,8 @@ pub(crate) fn add<const D: usize>(
     setup.effects.extend(made);
 }
 
-/// A suite of the free body with the example of an effect, and of those that it requires.
+/// Creates a suite of the free body with the example of an effect, and of the effects that it
+/// requires.
 fn suite(name: EffectName, dimension: usize, size: f64) -> String {
     let corner = |cells: f64| format!("{:?}", vec![cells * H; dimension]);
     let (from, to) = (corner(2.03), corner(5.03));

@@ -1,4 +1,4 @@
-//! A temporary folder for each test, and the program run in it.
+//! A temporary folder for each test. The program runs in this folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// A new, empty folder that is deleted at the end of the test.
 pub(crate) struct Folder(PathBuf);
 
-/// Printed text of a call, and its exit status.
+/// Printed text and exit status of a call.
 pub(crate) struct Answer {
     pub(crate) code: i32,
     pub(crate) out: String,
@@ -25,14 +25,14 @@ impl Folder {
         Self(path)
     }
 
-    /// A new folder with one file.
+    /// Creates a new folder with one file.
     pub(crate) fn with(name: &str, bytes: impl AsRef<[u8]>) -> Self {
         let folder = Self::new();
         folder.write(name, bytes);
         folder
     }
 
-    /// Writes a file, and the folders that it needs.
+    /// Writes a file, and creates the folders of its path.
     pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         let folder = path.parent().expect("a folder");
@@ -44,7 +44,7 @@ impl Folder {
         fs::read_to_string(self.0.join(name)).expect(name)
     }
 
-    /// Names of the files in a folder, sorted.
+    /// Returns the names of the files in a folder, sorted.
     pub(crate) fn files(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.0.join(folder)).expect(folder);
         let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
@@ -53,7 +53,7 @@ impl Folder {
         names
     }
 
-    /// The program with these arguments, with this folder as working directory.
+    /// Prepares a call of the program with these arguments, with this folder as working directory.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_mpm-verify"));
         command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
@@ -71,7 +71,7 @@ impl Folder {
         }
     }
 
-    /// Standard output of a call that ends with status 0 and prints nothing to standard error.
+    /// Returns the standard output of a call that must end with status 0 and print no error.
     #[track_caller]
     pub(crate) fn accepted(&self, arguments: &[&str]) -> String {
         let Answer { code, out, errors } = self.call(arguments);
@@ -79,7 +79,7 @@ impl Folder {
         out
     }
 
-    /// Standard error of a call that ends with status 2 and prints nothing to standard output.
+    /// Returns the standard error of a call that must end with status 2 and print no output.
     #[track_caller]
     pub(crate) fn refused(&self, arguments: &[&str]) -> String {
         let Answer { code, out, errors } = self.call(arguments);

@@ -1,8 +1,8 @@
-//! Comparison of resumed runs with uninterrupted runs.
+//! Compares resumed runs with uninterrupted runs.
 
 use mpm_verify::subject::{Checkpoint, Memory, Samples, Subject};
 
-/// Steps after which a run is interrupted, and steps to its end.
+/// Number of steps before a run is interrupted, and number of all its steps.
 const BREAKS: [usize; 2] = [1, 5];
 const STEPS: usize = 9;
 
@@ -18,7 +18,7 @@ fn state(subject: &mut impl Subject) -> Vec<u8> {
     checkpoint.into_bytes()
 }
 
-/// All observable state of a subject, as bits.
+/// Returns all observable state of a subject, as bits.
 fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
@@ -26,8 +26,8 @@ fn seen(subject: &mut impl Subject) -> (Vec<u8>, Vec<u8>, Vec<u8>, String) {
     (state(subject), written(&mut samples), written(&mut totals), counters)
 }
 
-/// Asserts that an uninterrupted run, and one that is resumed by a new subject, end in the same
-/// state, also if a step fails. Returns whether no step failed.
+/// Asserts that an uninterrupted run, and one that a new subject resumes, end in the same state,
+/// even if a step fails. Returns whether all steps succeeded.
 pub(crate) fn goes_on<S: Subject>(make: impl Fn() -> S, dt: f64, what: &str) -> bool {
     let step = |subject: &mut S, steps| (0..steps).try_for_each(|_| subject.step(dt));
     let mut whole = make();

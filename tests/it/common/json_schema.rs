@@ -1,13 +1,13 @@
-//! The part of JSON Schema that the crate's own schemas use. A validator of all of it would bring
-//! forty packages, and features that a build without tests does not have.
+//! Validates values against the part of JSON Schema that the schemas of this crate use. A complete
+//! validator would require forty packages, and features that a build without tests does not have.
 
 use serde_json::{Map, Value};
 
-/// Keywords without constraints.
+/// Keywords that impose no constraint.
 const NOTES: [&str; 7] =
     ["$schema", "title", "description", "default", "definitions", "$defs", "format"];
 
-/// A schema for the validation of values.
+/// A schema that values are validated against.
 pub(crate) struct JsonSchema(Value);
 
 impl JsonSchema {
@@ -15,7 +15,7 @@ impl JsonSchema {
         Self(serde_json::from_str(text).expect("JSON"))
     }
 
-    /// Place and reason of the first refusal.
+    /// Returns position and reason of the first violation.
     pub(crate) fn refusal(&self, value: &Value) -> Option<String> {
         self.check(&self.0, value).err()
     }

@@ -1,4 +1,4 @@
-//! Builders of scenes: bodies in any number of dimensions, and the methods to run them with.
+//! Creates scenes: bodies in any number of dimensions, and the methods to run them with.
 
 pub(crate) mod columns;
 pub(crate) mod effect;
@@ -16,8 +16,9 @@ use mpm_verify::subject::Start;
 /// Cell size (m).
 pub(crate) const H: f64 = 0.25;
 
-/// A step (s) at a Courant number of about 0.01: the wave speed of the body is 1.16 m/s. At 0.1
-/// (and not at 0.05) a body like this one is inverted by USL in 3-D, within 200 steps.
+/// Time step (s) at a Courant number of about 0.01: the wave speed of the body is 1.16 m/s. At a
+/// Courant number of 0.1 (but not at 0.05), USL inverts a body like this one in 3-D within 200
+/// steps.
 pub(crate) const DT: f64 = 2e-3;
 
 /// Calls a function that is generic in the dimension.
@@ -33,8 +34,8 @@ macro_rules! in_dimension {
 }
 pub(crate) use in_dimension;
 
-/// Every basis with FLIP and with APIC, and every transfer with quadratic B-splines: the subset of
-/// [`pairs`] for whole runs.
+/// Lists every basis with FLIP and with APIC, and every transfer with quadratic B-splines. This is
+/// the subset of [`pairs`] for whole runs.
 pub(crate) fn methods() -> impl Iterator<Item = (BasisName, TransferName)> {
     pairs().filter(|(basis, transfer)| {
         matches!(transfer, TransferName::Flip | TransferName::Apic)
@@ -42,7 +43,7 @@ pub(crate) fn methods() -> impl Iterator<Item = (BasisName, TransferName)> {
     })
 }
 
-/// Every valid registered pair of basis and transfer.
+/// Lists every valid pair of a registered basis and a registered transfer.
 pub(crate) fn pairs() -> impl Iterator<Item = (BasisName, TransferName)> {
     let with_every_transfer = |&basis| TransferName::ALL.iter().map(move |&t| (basis, t));
     let together = |(basis, transfer): &(BasisName, TransferName)| {
@@ -51,8 +52,9 @@ pub(crate) fn pairs() -> impl Iterator<Item = (BasisName, TransferName)> {
     BasisName::ALL.iter().flat_map(with_every_transfer).filter(together)
 }
 
-/// A body of three cells a side in the middle of a grid of seven, no end of it on a node, with no
-/// fixed face and no effect. It moves, spins, stretches and is under stress.
+/// Creates a body of three cells a side in the middle of a grid of seven. No end of the body is on
+/// a node, no face is fixed, and there is no effect. It moves, spins, stretches and is under
+/// stress.
 pub(crate) fn free_body<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -68,8 +70,9 @@ pub(crate) fn free_body<const D: usize>(
     body(method, scheme, particles, (H, 7))
 }
 
-/// `particles` on a grid of `cells` cells of size `h` (m) along every axis, with a lumped mass
-/// matrix and a linear elastic material of modulus 1 Pa; no boundary conditions, no effects.
+/// Creates a set-up of `particles` on a grid of `cells` cells of size `h` (m) along every axis,
+/// with a lumped mass matrix and a linear elastic material of modulus 1 Pa; no boundary conditions,
+/// no effects.
 pub(crate) fn body<const D: usize>(
     (basis, name): (BasisName, TransferName),
     scheme: SchemeName,

@@ -1,6 +1,6 @@
-//! A reader of our own files for ParaView.
+//! Reads the files for ParaView that this crate writes.
 
-/// Numbers of the array called `name`.
+/// Returns the numbers of the array called `name`.
 pub(crate) fn numbers(file: &[u8], name: &str) -> Vec<f64> {
     let (xml, appended) = parts(file);
     let head = format!("<DataArray Name=\"{name}\" type=\"Float64\" ");
@@ -13,13 +13,13 @@ pub(crate) fn numbers(file: &[u8], name: &str) -> Vec<f64> {
     (from..from + length).step_by(8).map(|at| f64::from_le_bytes(bytes(at))).collect()
 }
 
-/// Value of an attribute in the first line that has it.
+/// Returns the value of an attribute in the first line that has this attribute.
 pub(crate) fn attribute<'a>(xml: &'a str, name: &str) -> &'a str {
     let (_, behind) = xml.split_once(&format!(" {name}=\"")).unwrap_or_else(|| panic!("{xml}"));
     behind.split('"').next().expect("a quote at its end")
 }
 
-/// The text before the numbers, and the bytes from there on.
+/// Returns the text before the numbers, and the bytes after it.
 pub(crate) fn parts(file: &[u8]) -> (&str, &[u8]) {
     let mark = b"<AppendedData encoding=\"raw\">\n_";
     let at = file.windows(mark.len()).position(|bytes| bytes == mark).expect("appended data");

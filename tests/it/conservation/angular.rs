@@ -1,7 +1,7 @@
 //! Angular momentum of a free body (Jiang et al. 2015; problem V10).
 //!
-//! The share of a particle is `m x cross v`, plus the antisymmetric part of `m C D` with an affine
-//! field.
+//! The contribution of a particle is `m x cross v`, plus the antisymmetric part of `m C D` if it
+//! has an affine field.
 
 use crate::common::{H, body, pairs};
 use mpm_verify::mpm::{
@@ -12,11 +12,12 @@ use mpm_verify::subject::Subject;
 use rstest::rstest;
 
 const CELLS: usize = 12;
-/// Some 35 degrees; without stress, particles fly on straight ahead, some over two cells.
+/// Number of steps, for a rotation of some 35 degrees. Without stress, particles move on straight
+/// lines, some over two cells.
 const STEPS: usize = 60;
 const DT: f64 = 0.01;
 
-/// A square or cube that rotates about its centre at one radian per second.
+/// Creates a square or cube that rotates about its centre at one radian per second.
 fn turning<const D: usize>() -> Particles<D> {
     let side = H * CELLS as f64;
     let centre = Vector::<D>::from_fn(|axis, _| 0.5 * side + 0.01 * axis as f64);
@@ -34,7 +35,7 @@ fn turning<const D: usize>() -> Particles<D> {
     particles
 }
 
-/// Rotation about the last axis, in 3-D about all of them a little.
+/// Returns a rotation about the last axis, in 3-D with small rotations about the others.
 fn spin<const D: usize>() -> Matrix<D> {
     Matrix::from_fn(|i, j| match (i, j) {
         (0, 1) => -1.0,
@@ -43,7 +44,7 @@ fn spin<const D: usize>() -> Matrix<D> {
     })
 }
 
-/// Antisymmetric matrix of `sum_p m_p (v_p x_p^T + C_p D_p)`.
+/// Returns the antisymmetric matrix of `sum_p m_p (v_p x_p^T + C_p D_p)`.
 fn angular<const D: usize>(particles: &Particles<D>, transfer: &dyn Transfer<D>) -> Matrix<D> {
     let mut sum = Matrix::zeros();
     for p in 0..particles.len() {
@@ -54,12 +55,13 @@ fn angular<const D: usize>(particles: &Particles<D>, transfer: &dyn Transfer<D>)
 }
 
 fn setup<const D: usize>(basis: BasisName, name: TransferName, scheme: SchemeName) -> Setup<D> {
-    // So soft that no force acts: the transfers are alone.
+    // The material is so soft that no force acts, and only the transfers have an effect.
     let material = Box::new(LinearElastic::new(1e-300, 0.0));
     Setup { material, ..body((basis, name), scheme, turning(), (H, CELLS)) }
 }
 
-/// Largest change of the angular momentum in a run, relative to its start.
+/// Runs `steps` steps. Returns the largest change of the angular momentum, relative to its initial
+/// value.
 fn drift<const D: usize>(setup: Setup<D>, steps: usize) -> f64 {
     let mut solver = Solver::new(setup).unwrap();
     let angular = |solver: &Solver<D>| angular(solver.particles(), solver.transfer());
@@ -71,7 +73,8 @@ fn drift<const D: usize>(setup: Setup<D>, steps: usize) -> f64 {
     })
 }
 
-/// Whether theory promises angular momentum to the pair under a scheme that maps velocities once.
+/// Whether the transfer conserves angular momentum in theory, under a scheme that maps velocities
+/// once.
 fn claims(transfer: TransferName) -> bool {
     matches!(transfer, TransferName::Flip | TransferName::Apic | TransferName::Mls)
 }
@@ -104,8 +107,8 @@ fn pic_loses_angular_momentum() {
     }
 }
 
-/// MUSL maps velocities twice, and positions follow the second map: the proof for APIC, which needs
-/// one velocity for both, does not hold.
+/// MUSL maps velocities twice, and positions follow the second map. The proof for APIC requires one
+/// velocity for both, so it does not hold.
 #[test]
 fn apic_under_musl_does_not_keep_it() {
     let drift = drift(setup::<2>(BasisName::Linear, TransferName::Apic, SchemeName::Musl), STEPS);

@@ -1,4 +1,4 @@
-//! A step that fails names the quantity and the particle, and never panics.
+//! A failed step names the quantity and the particle, and never panics.
 
 use crate::common::{DT, body, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
@@ -13,7 +13,7 @@ const METHOD: (BasisName, TransferName) = (BasisName::Linear, TransferName::Flip
 const NAN: f64 = f64::NAN;
 const INF: f64 = f64::INFINITY;
 
-/// Outcome of a step for the particle in question.
+/// Result of a step for the tested particle.
 #[derive(Debug)]
 enum Fate {
     GoesOn,
@@ -21,8 +21,9 @@ enum Fate {
     NotFinite(&'static str),
 }
 
-/// Four particles in a grid of eight unit cells a side, so far apart that no two share a node.
-/// Number 2 is the one in question: it is at `x` and has the velocity `v` along every axis.
+/// Creates four particles in a grid of eight unit cells a side, so far apart that no two of them
+/// have a common node. Particle 2 is tested: it is at `x` and has the velocity `v` along every
+/// axis.
 fn scene<const D: usize>(scheme: SchemeName, x: f64, v: f64) -> Setup<D> {
     let block = Block { from: Vector::zeros(), to: Vector::<D>::from_element(1.0), density: 1.0 };
     let mut particles = Particles::fill(&block, 1.0, 4);
@@ -84,7 +85,7 @@ fn a_particle_that(
     in_dimension!(dimension, meets(x, v, dt, &fate));
 }
 
-/// Particles 2 and 3 run into each other inside one cell, faster than the step can follow.
+/// Particles 2 and 3 collide inside one cell, faster than the step can resolve.
 fn inverts<const D: usize>() {
     for &scheme in SchemeName::ALL {
         let mut setup = scene::<D>(scheme, 4.5, 0.0);
@@ -107,7 +108,8 @@ fn an_inverted_particle_is_named(#[values(1, 2, 3)] dimension: usize) {
 
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
-/// The failing particle has neighbours with common nodes, which would otherwise be found first.
+/// The failing particle has neighbours with common nodes. The failure must not be reported for
+/// them.
 fn the_culprit_is_named<const D: usize>() {
     let columns: [(&str, Spoil<D>); 5] = [
         ("deformation gradient", |particles| {
@@ -135,7 +137,7 @@ fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimens
     in_dimension!(dimension, the_culprit_is_named());
 }
 
-/// Only domains that follow the deformation read it; their gradient is undefined there.
+/// Only domains that follow the deformation use F; their gradient is undefined for this F.
 fn a_collapsed_domain_ends_the_run<const D: usize>() {
     for basis in [BasisName::ContiguousGimp, BasisName::Cpdi] {
         for &scheme in SchemeName::ALL {

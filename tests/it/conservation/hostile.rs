@@ -1,6 +1,6 @@
-//! Invalid states of particles: every method, scheme and material meets every extreme state in one,
-//! two and three dimensions. A step ends with finite numbers, or names the particle of the failure;
-//! it never panics, and never hides a NaN.
+//! Invalid states of particles: every method, scheme and material is run with every extreme state
+//! in one, two and three dimensions. A step must end with finite numbers, or name the particle of
+//! the failure. It must never panic or hide a NaN.
 
 #[path = "../fuzz_input/scene.rs"]
 mod scene;
@@ -14,10 +14,10 @@ use proptest::prelude::*;
 use rstest::rstest;
 use scene::{Scene, body, every_method, materials};
 
-/// A change that makes particle 1 unusable.
+/// A change that makes the state of particle 1 extreme.
 type Spoil<const D: usize> = fn(&mut Particles<D>);
 
-/// Extreme states that are made of numbers.
+/// Returns extreme states without NaN or infinite numbers.
 fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     vec![
         ("on a node", |b| b.x[1] = Vector::from_element(1.0)),
@@ -73,7 +73,7 @@ fn extremes<const D: usize>() -> Vec<(&'static str, Spoil<D>)> {
     ]
 }
 
-/// Particles with one invalid number, each with the name of its column.
+/// Particles in which one number is `value`, each with the name of its column.
 fn torn<const D: usize>(value: f64) -> Vec<(&'static str, Particles<D>)> {
     let mut bodies = vec![body::<D>(); 8];
     bodies[0].x[1][D - 1] = value;
@@ -95,9 +95,9 @@ const CELLS: usize = 4;
 
 const DTS: [f64; 5] = [1e-2, 1e-30, 1e30, 1.0, -1e-2];
 
-/// A part of all combinations. In one dimension each method meets each extreme with several schemes
-/// and materials; steps take longer in more dimensions, where each scheme and material meets each
-/// extreme with several methods.
+/// Runs a part of all combinations. In one dimension each method is run with each extreme under
+/// several schemes and materials. Steps take longer in more dimensions, where each scheme and
+/// material is run with each extreme under several methods.
 fn meets_every_extreme<const D: usize>() {
     let mut turn = 0;
     for method in every_method() {
@@ -105,7 +105,7 @@ fn meets_every_extreme<const D: usize>() {
             for material in materials() {
                 for (what, spoil) in extremes::<D>() {
                     turn += 1;
-                    // A stride without common factor with the periods of the choices.
+                    // The stride has no common factor with the periods of the choices.
                     if turn % [1, 7, 13, 61][D] != 0 {
                         continue;
                     }
@@ -127,7 +127,7 @@ fn no_extreme_makes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize)
     in_dimension!(dimension, meets_every_extreme());
 }
 
-/// The failing particle is named before the failure spreads through common nodes.
+/// The failing particle must be named before the failure spreads through common nodes.
 fn names_the_culprit<const D: usize>(value: f64) {
     let start = Start::AtZero;
     for method in every_method() {
@@ -158,7 +158,7 @@ fn a_field_that_is_no_number_is_named(
     in_dimension!(dimension, names_the_culprit(value));
 }
 
-/// A body in which the numbers set the state of one particle.
+/// Runs a body in which `numbers` set the state of one particle.
 fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     let mut particles = body::<D>();
     let mut numbers = numbers.iter().copied();
@@ -176,7 +176,7 @@ fn survives<const D: usize>(scene: &Scene, numbers: &[f64]) {
     scene.holds("numbers", particles);
 }
 
-/// Numbers for a column: some are replaced by the right number (NaN), some are moderate, some
+/// Generates numbers for a column. Some mean the unchanged number (NaN), some are moderate, some
 /// extreme.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![

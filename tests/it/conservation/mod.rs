@@ -11,14 +11,15 @@ mod walls;
 use crate::common::{methods, pairs};
 use mpm_verify::mpm::{BasisName, TransferName};
 
-/// Taylor least squares conserves the momentum of every cell in P2G, but its nodal masses are not
-/// those with which G2P would return the change of momentum: the only transfer with a weaker claim.
+/// Taylor least squares is excluded. It conserves the momentum of every cell in P2G, but G2P would
+/// need other nodal masses to return the change of momentum. No other transfer has such a weak
+/// property.
 fn conservative(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     some(dimension).filter(|(_, transfer)| *transfer != TransferName::Tls)
 }
 
-/// The methods in 1-D and 2-D. In 3-D, where a run costs ten times as much, every basis with FLIP
-/// and every transfer with linear functions or, if this is invalid, with GIMP.
+/// Methods for whole runs. In 3-D, where a run costs ten times as much, these are every basis with
+/// FLIP, and every transfer with linear functions or, if this is invalid, with GIMP.
 fn some(dimension: usize) -> impl Iterator<Item = (BasisName, TransferName)> {
     let in_space = |(basis, transfer): &(BasisName, TransferName)| match transfer {
         TransferName::Flip => true,

@@ -1,4 +1,4 @@
-//! Whole steps of a free body.
+//! Conservation over whole steps of a free body.
 
 use super::{conservative, some};
 use crate::common::{DT, body, free_body, in_dimension};
@@ -16,7 +16,7 @@ fn momentum<const D: usize>(particles: &Particles<D>) -> Vector<D> {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v * *m).sum()
 }
 
-/// Sum of |m v|, the scale of round-off in the momentum.
+/// Returns the sum of |m v|, the scale for round-off in the momentum.
 fn size<const D: usize>(particles: &Particles<D>) -> f64 {
     particles.v.iter().zip(&particles.mass).map(|(v, m)| v.norm() * m).sum()
 }
@@ -45,9 +45,9 @@ fn a_free_body_keeps_its_linear_momentum(
     in_dimension!(dimension, momentum_is_kept(scheme, start));
 }
 
-/// The node ahead of a body whose last particle lies exactly on a node has no mass: with linear
-/// functions it takes a force V sigma/h from the particle, which is lost, and its zero velocity
-/// strains the particle by v dt/h.
+/// The last particle of the body is exactly on a node, and the node ahead of it has no mass. With
+/// linear functions this node receives a force V sigma/h from the particle, which is lost, and its
+/// zero velocity strains the particle by v dt/h.
 #[rstest]
 fn linear_functions_know_no_body_that_ends_on_a_node(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -69,13 +69,13 @@ fn linear_functions_know_no_body_that_ends_on_a_node(
     let is_blind = basis == BasisName::Linear && beside == 0.0;
     let (lost, strain) = if is_blind { (0.5 * stress * dt, v * dt) } else { (0.0, 0.0) };
     let change = momentum(solver.particles())[0] - before;
-    // Under USF the strain has changed the volume by then.
+    // Under USF the strain has already changed the volume.
     assert_abs_diff_eq!(change, lost, epsilon = 1e-13 + strain * lost);
     assert_abs_diff_eq!(solver.counters().min_j, 1.0 - strain, epsilon = 1e-5);
 }
 
-/// Gravity grows with time; a step from t to t + dt takes it at t. [`Start::HalfStepBack`] adds
-/// half a step back at t = 0.
+/// Gravity grows with time. A step from t to t + dt must use its value at t.
+/// [`Start::HalfStepBack`] adds half a step at t = 0.
 fn impulse_arrives<const D: usize>(scheme: SchemeName, start: Start) {
     let gravity = |t: f64| Vector::<D>::from_fn(|i, _| (i as f64 - 1.5) * (1.0 + t));
     for method in conservative(D) {
@@ -135,7 +135,7 @@ fn a_rigid_translation_without_stress_moves_every_particle_by_v_t(
     in_dimension!(dimension, translates(scheme));
 }
 
-/// The rate grows with time; a step takes that at its middle, t.
+/// The damping rate grows with time. A step must use its value in the middle of the step, t.
 fn slows_down<const D: usize>(scheme: SchemeName, start: Start) {
     let rate = |t: f64| 3.0 + 100.0 * t;
     for method in conservative(D) {

@@ -1,8 +1,9 @@
 //! One free particle at the fraction xi of a linear cell, under the stress sigma, in 1-D.
 //!
-//! All it shows to the nodes is its own velocity, so only a scheme that strains with *updated*
-//! grid velocities moves its stress. With the Courant number C = c dt / h one step of USL gives
-//! `sigma <- (1 - C^2 / (xi (1 - xi))) sigma`; under USF and MUSL the stress never changes.
+//! The only velocity on the nodes is that of the particle, so only a scheme that computes strains
+//! from *updated* grid velocities changes its stress. With the Courant number C = c dt / h one step
+//! of USL gives `sigma <- (1 - C^2 / (xi (1 - xi))) sigma`; under USF and MUSL the stress never
+//! changes.
 
 use crate::common::{H, body};
 use mpm_verify::mpm::{
@@ -15,7 +16,7 @@ use proptest::prelude::*;
 const YOUNG: f64 = 100.0;
 const DENSITY: f64 = 4.0;
 
-/// The particle is alone in the middle cell of three.
+/// Creates the particle, alone in the middle cell of three.
 fn particle(name: TransferName, scheme: SchemeName, xi: f64, sigma: f64) -> Solver<1> {
     let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(2.0 * H));
     let mut particles = Particles::fill(&Block { from, to, density: DENSITY }, H, 1);
@@ -25,7 +26,8 @@ fn particle(name: TransferName, scheme: SchemeName, xi: f64, sigma: f64) -> Solv
     Solver::new(Setup { material: Box::new(LinearElastic::new(YOUNG, 0.0)), ..plain }).unwrap()
 }
 
-/// sigma after `steps` steps at the Courant number `courant`, relative to sigma before.
+/// Returns sigma after `steps` steps at the Courant number `courant`, relative to its initial
+/// value.
 fn ratio(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> f64 {
     let mut solver = particle(TransferName::Flip, scheme, xi, sigma);
     let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
@@ -61,7 +63,7 @@ proptest! {
     }
 }
 
-/// sigma after each of `steps` steps of APIC, relative to sigma before.
+/// Returns sigma after each of `steps` steps of APIC, relative to its initial value.
 fn apic(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> Vec<f64> {
     let mut solver = particle(TransferName::Apic, scheme, xi, sigma);
     let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
@@ -75,9 +77,10 @@ fn apic(scheme: SchemeName, xi: f64, sigma: f64, courant: f64, steps: usize) -> 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
 
-    /// The affine field stores the effect of the force. With `s = C^2 / (xi (1 - xi))` and g the
-    /// velocity gradient times dt, over E: USL and MUSL `g <- g - s sigma`, `sigma <- sigma + g`;
-    /// USF in the opposite order. These are leapfrogs, in a fixed frame (sigma is tiny).
+    /// The affine field stores the effect of the force. Let `s = C^2 / (xi (1 - xi))`, and g be the
+    /// velocity gradient times dt, in units of 1/E. USL and MUSL: `g <- g - s sigma`, then `sigma
+    /// <- sigma + g`; USF in the opposite order. These are leapfrogs, in a fixed frame (sigma is
+    /// tiny).
     #[test]
     fn apic_follows_the_recursion_of_an_oscillator(
         xi in 0.05..0.95_f64,
@@ -103,8 +106,8 @@ proptest! {
         }
     }
 
-    /// PIC and FLIP differ by the velocity relative to the grid, which a single particle does not
-    /// have: the factors are equal.
+    /// PIC and FLIP differ by the velocity relative to the grid. A single particle has no such
+    /// velocity, so the factors are equal.
     #[test]
     fn pic_has_the_factors_of_flip(xi in 0.02..0.98_f64, courant in 0.01..1.5_f64) {
         let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
@@ -120,9 +123,8 @@ proptest! {
     }
 }
 
-/// The factor of `sigma` and of the velocity gradient in one step of an affine transfer: the
-/// eigenvalues of the oscillator in `(sigma, C)` are on the unit circle up to `C = 2 sqrt(xi (1 -
-/// xi))`; beyond this limit one leaves it.
+/// In an affine transfer, the oscillator in `(sigma, C)` has the eigenvalues of a step on the unit
+/// circle up to `C = 2 sqrt(xi (1 - xi))`. Above this limit one eigenvalue leaves the circle.
 #[test]
 fn apic_is_an_oscillator_up_to_its_courant_limit() {
     for xi in [0.1, 0.25, 0.5, 0.9] {
@@ -141,7 +143,7 @@ fn apic_is_an_oscillator_up_to_its_courant_limit() {
     }
 }
 
-/// One step of APIC from rest: `a = -sigma V grad N / m`, and its strain is that of USL.
+/// In one step from rest, `a = -sigma V grad N / m`, and the strain is that of USL.
 #[test]
 fn apic_and_flip_make_the_same_first_step() {
     for scheme in [SchemeName::Usl, SchemeName::Usf] {
@@ -163,8 +165,8 @@ fn usl_is_neutral_at_its_courant_limit() {
     }
 }
 
-/// One particle in the middle of one cell, whose left node is fixed: the velocity of the right node
-/// is that of the particle, `x' / x = eps' = v / L`, and a law with `sigma V = E eps V0` (Hencky's)
+/// One particle is in the middle of one cell, whose left node is fixed. The right node has the
+/// velocity of the particle, `x' / x = eps' = v / L`. A law with `sigma V = E eps V0` (Hencky's)
 /// gives `v = v0 cos(w t)`, `x = x0 exp(v0/(L w) sin(w t))`, `w = sqrt(E/rho)/L`.
 fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
     let (length, speed, until) = (1.0, 0.8, 1.0);
@@ -183,8 +185,8 @@ fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
     solver.particles().x[0][0] - exact
 }
 
-/// F grows by `1 + dt v/L` where the solution grows by the exponential: order 1, and no start of
-/// the velocity mends that.
+/// F grows by `1 + dt v/L`, while the solution grows by the exponential. The order is therefore 1,
+/// for any start of the velocity.
 #[test]
 fn a_particle_on_a_spring_of_one_cell_follows_the_closed_form_with_order_1() {
     for scheme in [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl] {

@@ -1,4 +1,4 @@
-//! P2G and G2P alone: particles anywhere in the grid, of any mass, in any state of stress.
+//! P2G and G2P without a step: particles anywhere in the grid, of any mass, with any stress.
 
 use crate::common::{H, in_dimension, pairs};
 use approx::assert_abs_diff_eq;
@@ -9,7 +9,8 @@ use proptest::prelude::*;
 
 const CELLS: usize = 4;
 
-/// Position in units of the grid's side, velocity (m/s), stress (Pa), mass (kg) and volume (m^D).
+/// Position relative to the length of the grid, velocity (m/s), stress (Pa), mass (kg) and volume
+/// (m^D) of a particle.
 type Row = ([f64; 3], [f64; 3], [[f64; 3]; 3], f64, f64);
 
 fn rows() -> impl Strategy<Value = Vec<Row>> {

@@ -11,8 +11,8 @@ use rstest::rstest;
 
 const CELLS: usize = 4;
 
-/// A body that fills a grid of [`CELLS`] cells along every axis, moves and is under stress; only
-/// the last axis has walls, and that only if `walls`.
+/// Creates a body that fills a grid of [`CELLS`] cells along every axis, moves and is under stress.
+/// Only the last axis has walls, if `walls` is set.
 fn full<const D: usize>(
     method: (BasisName, TransferName),
     scheme: SchemeName,
@@ -62,7 +62,7 @@ fn a_periodic_body_keeps_mass_and_momentum(
     in_dimension!(dimension, nothing_is_lost_around_the_corner(scheme, start));
 }
 
-/// The walls change the momentum along their normal, but not along themselves.
+/// Asserts that walls change only the momentum along their normal.
 fn slides<const D: usize>(scheme: SchemeName) {
     for method in conservative(D) {
         let mut setup = full::<D>(method, scheme, true);
@@ -89,7 +89,7 @@ fn rollers_carry_no_force_along_themselves(
     in_dimension!(dimension, slides(scheme));
 }
 
-/// An unsteady velocity along the first axis.
+/// Returns a velocity along the first axis that changes with time.
 fn swing<const D: usize>() -> VelocityField<D> {
     Box::new(|_, t| {
         assert!(t >= 0.0, "no velocity is asked for before the start");
@@ -97,7 +97,7 @@ fn swing<const D: usize>() -> VelocityField<D> {
     })
 }
 
-/// Path under [`swing`] over `steps` steps, by the midpoint rule.
+/// Returns the displacement under the velocity [`swing`] over `steps` steps, by the midpoint rule.
 fn path<const D: usize>(steps: usize) -> Vector<D> {
     (0..steps).map(|k| swing()(&Vector::zeros(), (k as f64 + 0.5) * DT) * DT).sum()
 }
@@ -108,7 +108,8 @@ fn far<const D: usize>(solver: &Solver<D>, steps: usize, p: usize) -> f64 {
     (particles.x[p] - particles.x0[p] - path).norm() / path.norm()
 }
 
-/// A layer of one cell between two walls that swing along themselves: every node is driven.
+/// Runs a layer of one cell between two walls that oscillate along themselves: the velocity of
+/// every node is prescribed.
 fn follows<const D: usize>(scheme: SchemeName, start: Start) {
     let bases = [BasisName::Linear, BasisName::UniformGimp, BasisName::ContiguousGimp];
     for method in some(D).filter(|(basis, _)| bases.contains(basis)) {
@@ -145,8 +146,8 @@ fn a_layer_between_driven_walls_follows_them_in_every_scheme(
     in_dimension!(dimension, follows(scheme, start));
 }
 
-/// Gravity accelerates the body between the walls like the walls themselves: there is no strain if
-/// the velocity of the walls is that of the right time.
+/// Gravity accelerates the body between the walls like the walls themselves. There is no strain if
+/// the velocity of the walls is taken at the right time.
 fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
     let g = Vector::<D>::from_fn(|i, _| if i == D - 1 { 0.0 } else { 2.0 });
     for method in some(D) {
@@ -175,7 +176,7 @@ fn walls_have_the_velocity_of_the_right_time(
     in_dimension!(dimension, falls_with_its_walls(scheme));
 }
 
-/// Where walls meet, the last condition of the list wins.
+/// Where walls meet, the last condition of the list applies.
 #[test]
 fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
     let method = (BasisName::Linear, TransferName::Flip);
@@ -194,8 +195,8 @@ fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
     assert!((solver.grid().velocity[next] - expected).norm() <= 1e-14);
 }
 
-/// The particles of a driven set follow the prescribed motion, for any motion of the rest of the
-/// body.
+/// Asserts that the particles of a set follow the prescribed motion, for any motion of the rest of
+/// the body.
 fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
     for method in some(D) {
         let mut setup = Setup { start, ..free_body::<D>(method, scheme) };

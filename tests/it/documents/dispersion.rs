@@ -9,10 +9,10 @@ const PAGE: &str = "docs/dispersion.md";
 /// Courant number of the tables.
 const COURANT: f64 = 0.4;
 
-/// Relative phase error of the table of wavelengths.
+/// Relative phase error for which the table of wavelengths is computed.
 const PHASE_ERROR: f64 = 0.01;
 
-/// Change of the amplitude in a period that is rounding.
+/// Maximum change of the amplitude in a period that counts as rounding.
 const NO_DAMPING: f64 = 1e-9;
 
 const SPLINES: [(&str, Spline); 3] =
@@ -20,7 +20,7 @@ const SPLINES: [(&str, Spline); 3] =
 
 const SCHEMES: [(&str, SchemeName); 2] = [("MUSL", SchemeName::Musl), ("USL", SchemeName::Usl)];
 
-/// Transfers of the rows.
+/// Transfers in the rows of the tables.
 const TRANSFERS: [(&str, WaveTransfer); 8] = [
     ("FLIP", WaveTransfer::Flip),
     ("FLIP, 5 % PIC", WaveTransfer::Blend(0.95)),
@@ -32,11 +32,11 @@ const TRANSFERS: [(&str, WaveTransfer); 8] = [
     ("FMPM(4)", WaveTransfer::Fmpm(4)),
 ];
 
-/// A column of a table: its head and the text of a cell.
+/// A column of a table: its heading, and the function that returns the text of a cell.
 type Column<'a> = (String, Box<dyn Fn(&WaveMethod) -> String + 'a>);
 
-/// Methods with two particles per cell, except for their basis. FLIP with a consistent mass matrix
-/// has the same step under all schemes.
+/// Lists methods with two particles per cell, for any basis. FLIP with a consistent mass matrix has
+/// the same step under all schemes.
 fn methods() -> Vec<(String, WaveMethod)> {
     let method = |transfer, scheme| WaveMethod {
         spline: Spline::Linear,
@@ -54,7 +54,7 @@ fn methods() -> Vec<(String, WaveMethod)> {
     lumped.chain([("FLIP, consistent mass".to_owned(), consistent)]).collect()
 }
 
-/// A table with a row for each method.
+/// Creates a table with a row for each method.
 fn table(columns: &[Column<'_>]) -> String {
     let heads: Vec<&str> = columns.iter().map(|(head, _)| head.as_str()).collect();
     let mut table =
@@ -66,7 +66,7 @@ fn table(columns: &[Column<'_>]) -> String {
     table
 }
 
-/// A column for each basis.
+/// Creates a column for each basis.
 fn by_basis<'a>(cell: impl Fn(&WaveMethod) -> String + Copy + 'a) -> Vec<Column<'a>> {
     let column = |(name, spline): (&str, Spline)| -> Column<'a> {
         (name.to_owned(), Box::new(move |method| cell(&WaveMethod { spline, ..*method })))
@@ -81,7 +81,7 @@ fn cells_per_wavelength() -> String {
     }))
 }
 
-/// Amplitudes in per cent, at two Courant numbers.
+/// Creates a table of amplitudes in per cent, at two Courant numbers.
 fn amplitudes(cells: f64) -> String {
     let mut columns = Vec::new();
     for courant in [COURANT, 0.5 * COURANT] {
@@ -109,7 +109,7 @@ fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE)
 }
 
-/// The page with a table computed again.
+/// Replaces the table `name` in the page.
 fn with(page: &str, name: &str, table: &str) -> String {
     let begin = format!("<!-- {name} -->\n");
     let (before, rest) = page.split_once(&begin).expect("a place for the table");
@@ -117,7 +117,7 @@ fn with(page: &str, name: &str, table: &str) -> String {
     format!("{before}{begin}{table}\n<!-- end -->{after}")
 }
 
-/// The present page, and the generated page.
+/// Returns the current page and the generated page.
 fn page() -> (String, String) {
     let page = std::fs::read_to_string(path()).expect(PAGE);
     let tables = [

@@ -1,15 +1,16 @@
-//! Checks the figures of documents that are quick to draw; `ci/check` compares the others with
-//! those of its run of all suites.
+//! Checks the drawings in documents that can be created quickly; `ci/check` compares the others
+//! with those of its run of all suites.
 
 use super::whole_suites;
 use crate::common::folder::Folder;
 use std::path::{Path, PathBuf};
 
-/// A figure, and the suite whose run draws it: one of the repository, or the one that a page shows.
+/// A drawing, and the suite whose run creates it: a suite of the repository, or the suite on a
+/// page.
 const FIGURES: [(&str, &str); 2] =
     [("vibrating-bar.svg", "vibrating-bar"), ("courant-limit-of-one.svg", "docs/stability.md")];
 
-/// The figures with their places, as runs draw them.
+/// Returns the drawings of runs, with their paths.
 fn drawn() -> Vec<(PathBuf, String)> {
     let (folder, root) = (Folder::new(), Path::new(env!("CARGO_MANIFEST_DIR")));
     let shown = whole_suites();

@@ -1,4 +1,4 @@
-//! The tables of docs/methods.md: in which folders of suites which method converges.
+//! The tables of docs/methods.md show in which folders of suites each method converges.
 
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Suite};
@@ -9,10 +9,10 @@ use std::path::Path;
 
 const PAGE: &str = "docs/methods.md";
 
-/// Parts of a method with one table each, which has a column for each name.
+/// Parts of a method. Each has a table with one column for each name.
 const PARTS: [&str; 2] = ["basis", "transfer"];
 
-/// Minimum number of bases of a suite with its own row.
+/// Minimum number of bases for which a suite has its own row.
 const FEWEST: usize = 3;
 
 /// A case with an expected verdict.
@@ -21,7 +21,7 @@ struct Asked {
     suite: String,
     settings: Vec<(String, String)>,
     converges: bool,
-    /// The order that is expected, or the verdict.
+    /// Expected order or expected verdict.
     outcome: String,
 }
 
@@ -51,19 +51,19 @@ fn asked() -> Vec<Asked> {
     files.par_iter().flat_map_iter(of_file).collect()
 }
 
-/// The name of a part of the method.
+/// Returns the name of a part of the method.
 fn part_of<'a>(case: &'a Asked, part: &str) -> Option<&'a str> {
     let setting = case.settings.iter().find(|(key, _)| key == part);
     setting.map(|(_, name)| name.as_str())
 }
 
-/// The head of a table with a column for each name.
+/// Creates the heading of a table with a column for each name.
 fn head(first: &str, names: &BTreeSet<&str>) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     format!("\n| {first} | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()))
 }
 
-/// Table of the expectations of suites with several bases, in the order of folders.
+/// Creates the table of the expectations of suites with several bases, in the order of folders.
 fn outcomes(asked: &[Asked]) -> String {
     let mut cells: BTreeMap<(&str, &str), BTreeMap<&str, BTreeSet<&str>>> = BTreeMap::new();
     for case in asked {
@@ -84,7 +84,7 @@ fn outcomes(asked: &[Asked]) -> String {
     table
 }
 
-/// Cases that converge and all, by folder and name of a part.
+/// Creates a table with the numbers of converging and of all cases, by folder and name of a part.
 fn table(part: &str, asked: &[Asked]) -> String {
     let mut counts: BTreeMap<(&str, &str), (usize, usize)> = BTreeMap::new();
     for case in asked {
@@ -107,7 +107,7 @@ fn table(part: &str, asked: &[Asked]) -> String {
     table
 }
 
-/// The page with its table `of` replaced.
+/// Replaces the table `of` in the page.
 fn with(page: &str, of: &str, table: &str) -> String {
     let begin = format!("<!-- methods by {of} -->\n");
     let (before, rest) = page.split_once(&begin).expect("a place for the table");
@@ -115,7 +115,7 @@ fn with(page: &str, of: &str, table: &str) -> String {
     format!("{before}{begin}{table}\n<!-- end -->{after}")
 }
 
-/// The present page, and the generated page.
+/// Returns the current page and the generated page.
 fn page() -> (String, String) {
     let (page, asked) = (std::fs::read_to_string(root().join(PAGE)).expect(PAGE), asked());
     let anew = PARTS.iter().fold(with(&page, "suite", &outcomes(&asked)), |page, part| {

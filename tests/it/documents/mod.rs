@@ -1,4 +1,4 @@
-//! Checks of the documents against the program: it parses the command lines, and loads the suites.
+//! Checks the documents with the program: it must parse the command lines and load the suites.
 //! (`tests/architecture` checks paths, names and JSON.)
 
 mod dispersion;
@@ -18,7 +18,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Every document of the repository.
+/// Returns every document of the repository.
 fn documents() -> Vec<Document> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut documents = Vec::new();
@@ -41,7 +41,8 @@ fn read(root: &Path, folder: &Path, documents: &mut Vec<Document>) {
     }
 }
 
-/// The arguments of the program in a line, up to the end of the command. Single quotes group words.
+/// Returns the arguments of the program in a line, up to the end of the command. Single quotes
+/// group text with spaces.
 fn arguments(line: &str) -> Option<Vec<&str>> {
     let call = line.split(['#', '>', '|']).next().unwrap_or_default();
     let mut is_quoted = false;
@@ -60,8 +61,9 @@ fn arguments(line: &str) -> Option<Vec<&str>> {
     Some(words.collect())
 }
 
-/// The program parses the arguments of a line in order, so that `--help` at the end is reached only
-/// if all other arguments are valid; then nothing runs. The help is that of the subcommand.
+/// Parses the arguments of a line, with `--help` at the end, which prints the help of the
+/// subcommand. The program parses arguments in order, so it reaches `--help` only if all others are
+/// valid. Nothing runs.
 fn understood(arguments: &[&str]) -> Result<(), String> {
     let program = Command::new(env!("CARGO_BIN_EXE_mpm-verify"))
         .args(arguments)
@@ -113,7 +115,7 @@ fn a_command_line_with_a_mistake_is_not_understood() {
     }
 }
 
-/// Suites that documents show whole, with their places.
+/// Returns the suites that documents show completely, with their positions.
 fn whole_suites() -> Vec<(String, String)> {
     let suites = documents().into_iter().flat_map(|document| {
         let whole = document.blocks.into_iter().filter(|block| {
@@ -144,7 +146,7 @@ fn the_suites_that_readers_see_first_pass() {
     }
 }
 
-/// The document shows the adapter that is compiled and run, not one that resembles it.
+/// The document must show the adapter that is compiled and run, not a similar one.
 #[test]
 fn the_adapter_that_the_library_page_shows_is_the_example() {
     let page = include_str!("../../../docs/library.md");

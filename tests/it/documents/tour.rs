@@ -1,12 +1,12 @@
-//! Runs the tour: each block of commands runs, in order and in one folder, and must print the text
-//! of the next block.
+//! Runs the commands of the tour block by block, in order and in one folder. Each block must print
+//! the text of the next block.
 
 use super::markdown::Document;
 use crate::common::folder::Folder;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A block of commands, as a shell runs it that finds the program.
+/// Runs a block of commands in a shell that finds the program.
 fn run(commands: &str, folder: &Folder) -> Output {
     let program = Path::new(env!("CARGO_BIN_EXE_mpm-verify"));
     let folders = std::env::var_os("PATH").unwrap_or_default();

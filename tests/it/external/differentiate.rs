@@ -1,5 +1,5 @@
-//! Answers to `differentiate` that break the protocol, as shell scripts, and suites of gradients
-//! that are refused.
+//! Answers to `differentiate` that violate the protocol, as shell scripts. Also invalid gradient
+//! suites.
 
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
@@ -8,7 +8,8 @@ const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.y
 
 const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["corotated"],"conditions":["free","fixed"],"gradients":["young","density","initial_velocity"]}}"#;
 
-/// A script that is sound until it receives the request after the problem, and then does `then`.
+/// Creates a script that is correct until it receives the request after the problem, and then runs
+/// `then`.
 fn script(hello: &str, then: &str) -> String {
     format!(
         "read -r m; echo '{hello}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
@@ -16,7 +17,7 @@ fn script(hello: &str, then: &str) -> String {
     )
 }
 
-/// Exit status, output and requests of a run of `script` on the suite.
+/// Runs `script` on the suite. Returns exit status, output and requests.
 fn run(script: &str) -> (i32, String, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", SUITE);
@@ -70,7 +71,7 @@ fn run(script: &str) -> (i32, String, String) {
 #[case::silence("sleep 99", "has been silent for 2 s")]
 fn a_gradient_that_breaks_the_protocol_fails(#[case] then: &str, #[case] words: &str) {
     let (code, said, _) = run(&script(HELLO, then));
-    // Nothing is expected of this solver.
+    // Nothing is expected of this solver, so the run succeeds.
     assert_eq!(code, SOUND, "{said}");
     assert!(said.contains("odd-young failed"), "{said}");
     assert!(said.contains(words), "no `{words}` in\n{said}");
@@ -99,7 +100,7 @@ fn the_request_has_the_form_of_the_protocol() {
     assert!(request["steps"].as_u64().is_some() && request["dt"].as_f64().is_some());
 }
 
-/// A solver without the capability is never sent `differentiate`.
+/// A solver without the capability must not receive `differentiate`.
 #[test]
 fn a_solver_without_gradients_is_not_asked() {
     let without = HELLO.replace(r#","gradients":["young","density","initial_velocity"]"#, "");
@@ -187,7 +188,7 @@ fn a_problem_without_sensitivities_is_refused(
     assert!(said.contains(words), "no `{words}` in\n{said}");
 }
 
-/// The refusal points at the kind of study, since there is no exact solution to point at.
+/// The error points at the kind of study, because there is no exact solution to point at.
 #[test]
 fn a_suite_without_an_exact_solution_is_refused_with_a_place() {
     let (before, truth) = SUITE.split_once("exact:\n").expect("the suite has an exact solution");
@@ -204,7 +205,7 @@ fn a_parameter_that_is_zero_is_refused() {
     assert!(said.contains("`nu` is 0, and a perturbation is a share of it"), "{said}");
 }
 
-/// The error that `check` reports about a suite.
+/// Returns the error that `check` reports about a suite.
 fn refusal(suite: &str) -> String {
     let folder = Folder::new();
     folder.write("bar.yaml", suite);

@@ -6,7 +6,8 @@ use crate::cli::{BAD_INPUT, BAR, FAILED, Folder, SOUND, on_one_grid};
 use crate::common::folder::Answer;
 use rstest::rstest;
 
-/// The exact solution of the bar times `1 + ERROR`, in `h` (m) and the time step `d` (s).
+/// A solver whose result is the exact solution of the bar times `1 + ERROR`, a formula in `h` (m)
+/// and the time step `d` (s).
 const OF_ERROR: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0
@@ -38,12 +39,13 @@ while read -r m; do
 done
 "#;
 
-/// The script of a solver whose errors are `error`.
+/// Creates the script of a solver whose relative error is `error`.
 fn script(error: &str) -> String {
     OF_ERROR.replace("HELLO", HELLO).replace("ERROR", error)
 }
 
-/// A folder with `bar.yaml`, and a solver in `solver.sh` whose errors are `error`.
+/// Creates a folder with `bar.yaml`, and with a solver in `solver.sh` whose relative error is
+/// `error`.
 fn folder(error: &str) -> Folder {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
@@ -57,7 +59,7 @@ fn gate(folder: &Folder, targets: &[&str], options: &[&str]) -> Answer {
     folder.call(&[&start[..], options, targets].concat())
 }
 
-/// The bar with a named solver, without other methods and without expectation.
+/// Creates the bar with a named solver, without other methods and without expectation.
 fn naming_the_solver() -> String {
     let text =
         bar().replace("  - fem: {element: linear, mass: lumped}", "  - external: {name: odd}");
@@ -80,13 +82,13 @@ fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] w
     let found = gate(&folder, &["bar.yaml"], &[]);
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
     assert!(found.out.contains(words), "{}", found.out);
-    // A case that passes is not one that is expected to fail.
+    // A case that passes must not count as an expected failure.
     let report = folder.call(&["run", "--gate", "--solver", "sh solver.sh", "bar.yaml"]);
     assert_eq!(report.out.contains("1 case as expected\n"), code == SOUND, "{}", report.out);
 }
 
-/// Errors below the rounding bound show no order. An error above it is judged, also in single
-/// precision.
+/// Errors below the rounding bound determine no order. An error above the bound is judged, even in
+/// single precision.
 #[rstest]
 #[case::below_the_rounding_bound("0.03", "not gated", "leaves too few levels for an order")]
 #[case::above_the_rounding_bound("0.5", "FAIL", "order")]
@@ -95,7 +97,7 @@ fn rounding_is_no_reason_to_fail(#[case] error: &str, #[case] result: &str, #[ca
     let single = script(error).replace("\"version\"", "\"precision\":\"single\",\"version\"");
     folder.write("solver.sh", single);
     let found = gate(&folder, &["bar.yaml"], &[]);
-    // A suite that is named on its own must be gated.
+    // An individually named suite must be gated.
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
     for words in [result, reason] {
         assert!(found.out.contains(words), "{}", found.out);
@@ -149,7 +151,7 @@ fn a_mistake_in_any_method(#[case] keys: &str, #[case] words: &str) {
     assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
 }
 
-/// One level has no order; the suite is named, so that the gate does not pass it over.
+/// One level determines no order. The suite is named individually, so the gate must not skip it.
 #[test]
 fn one_level_is_not_gated_unless_the_suite_has_bounds() {
     let folder = folder("h*h");
@@ -164,14 +166,15 @@ fn one_level_is_not_gated_unless_the_suite_has_bounds() {
     let allowed = ["--allow-not-applicable"];
     let found = gate(&folder, &["suites/single.yaml", "suites/bar.yaml"], &allowed);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    // A folder names no suite.
+    // A folder does not name a suite individually.
     assert_eq!(gate(&folder, &["suites"], &[]).code, SOUND);
-    // Nothing is tested.
+    // Nothing is tested, so the gate fails.
     assert_eq!(gate(&folder, &["suites/single.yaml"], &allowed).code, FAILED);
     let bounded = single.replace("- order: [1.7, 2.3]", "- error_below: 1e-4");
     folder.write("suites/single.yaml", bounded);
     assert_eq!(gate(&folder, &["suites/single.yaml"], &[]).code, SOUND);
-    // The bound of the suite's own methods is not required of other solvers; `any_method` is.
+    // Other solvers need not satisfy the bound of the suite's own methods; they must satisfy
+    // `any_method`.
     let own = single.replace("- order: [1.7, 2.3]", "- error_below: 1e-9");
     folder.write("suites/single.yaml", &own);
     let found = gate(&folder, &["suites/single.yaml"], &[]);
@@ -188,7 +191,7 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     folder.write("foreign.yaml", foreign.replace("small_strain", "hencky\n  tolerance: 1e-2"));
     let found = gate(&folder, &["bar.yaml", "foreign.yaml"], &[]);
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
-    // The line of the case names the missing capability.
+    // The line of the case must name the missing capability.
     let line = found.out.lines().find(|line| line.contains("hencky-bar")).expect("a line");
     assert!(line.contains("n/a") && line.contains("lacks laws: hencky"), "{line}");
     assert!(found.errors.contains("hencky-bar; `--allow-not-applicable`"), "{}", found.errors);
@@ -197,7 +200,8 @@ fn a_named_suite_that_is_not_applicable_fails_unless_allowed() {
     assert_eq!(gate(&folder, &["foreign.yaml"], &["--allow-not-applicable"]).code, FAILED);
 }
 
-/// The suite has one time step on all levels: shorter steps show whether the step limits the order.
+/// The suite has one time step on all levels. Shorter steps show whether this step limits the
+/// order.
 #[rstest]
 #[case::an_error_in_time("h*h + 7000*d*d", SOUND)]
 #[case::an_error_in_space("h + 7000*d*d", FAILED)]
@@ -209,7 +213,7 @@ fn shorter_steps_restore_the_order(#[case] error: &str, #[case] code: i32) {
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
 }
 
-/// The mass of a solver's own point is its weight times the density, in sums over the body.
+/// In sums over the body, the mass of a solver's own point is its weight times the density.
 #[rstest]
 #[case::right_weights("", SOUND)]
 #[case::half_the_weights("0.5*", FAILED)]
@@ -231,15 +235,16 @@ fn sums_over_points_of_the_solver_have_an_order(#[case] factor: &str, #[case] co
     assert_eq!(answer.code, code, "{}{}", answer.out, answer.errors);
 }
 
-/// Steps that follow the cells are refined with them, and an error of first order in time is one.
+/// Steps proportional to the cells are refined with them, so a first-order error in time gives
+/// order one.
 #[test]
 fn steps_that_follow_the_cells_are_not_shortened() {
     let found = gate(&folder("h*h + 100*d"), &["bar.yaml"], &[]);
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
 }
 
-/// A translation under a law that the solver does not support: the problem uses a law of the
-/// solver.
+/// A translation is run under a law that the solver does not support. The problem then uses a law
+/// of the solver.
 #[test]
 fn a_translation_needs_no_particular_law() {
     let folder = folder("0");
@@ -367,7 +372,7 @@ fn a_configuration_that_is_not_there_is_bad_input() {
     assert!(found.errors.contains("none.yaml"), "{}", found.errors);
 }
 
-/// A study of the inside of a method is for no external solver.
+/// External solvers cannot run studies of the internals of a method.
 #[test]
 fn a_named_study_of_a_method_fails_unless_allowed() {
     let folder = folder("h*h");
@@ -376,7 +381,8 @@ fn a_named_study_of_a_method_fails_unless_allowed() {
     assert_eq!(gate(&folder, &targets, &["--allow-not-applicable"]).code, SOUND);
 }
 
-/// Errors of the size of the solution are a fault of the solver, and not of levels or smoothness.
+/// Errors as large as the solution are a defect of the solver, and are not due to levels or
+/// smoothness.
 #[test]
 fn a_diagnosis_sends_a_solver_of_another_problem_to_doctor() {
     let folder = folder("-2");

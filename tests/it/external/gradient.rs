@@ -1,4 +1,4 @@
-//! Derivatives of differentiable solvers: a library solver with a known error, and every state.
+//! Derivatives of differentiable solvers. A library solver with a known error produces every state.
 
 use super::library::loaded;
 use mpm_verify::external::{
@@ -16,7 +16,7 @@ use rstest::rstest;
 const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.yaml");
 
 /// The exact motion of the bar with a relative error of h^2, as a function of E, rho and a factor
-/// on the velocity.
+/// on the initial velocity.
 #[derive(Clone, Copy)]
 struct Bar {
     young: f64,
@@ -35,7 +35,7 @@ impl Bar {
         Self { young, density, factor, h: problem.grid.h, t }
     }
 
-    /// Amplitude of the displacement, and its derivative with respect to a parameter.
+    /// Returns the amplitude of the displacement, and its derivative with respect to a parameter.
     fn amplitude(self, with_respect_to: GradientParameter) -> (f64, f64) {
         let Self { young, density, factor, h, t } = self;
         let w = std::f64::consts::FRAC_PI_2 * (young / density).sqrt();
@@ -67,7 +67,7 @@ impl Moving {
         let u: Vec<f64> = self.problem.particles.reference_position.iter().map(at).collect();
         match self.solver.precision {
             Precision::Double => u,
-            // Positions are rounded.
+            // In single precision, positions are rounded.
             Precision::Single => {
                 let x = self.problem.particles.reference_position.iter();
                 x.zip(u).map(|(x, u)| f64::from((x + u) as f32) - x).collect()
@@ -101,11 +101,11 @@ type Edit = fn(&mut Vec<f64>);
 #[derive(Clone)]
 struct Differentiable {
     names: Vec<&'static str>,
-    /// Change of the gradient before it is reported.
+    /// Modifies the gradient before it is reported.
     edit: Edit,
-    /// Young's modulus above which the displacement jumps.
+    /// Young's modulus above which the displacement jumps, if any.
     jump: Option<f64>,
-    /// Steps that are not taken before the value is reported.
+    /// Number of steps that are omitted before the value is reported.
     short: u64,
     precision: Precision,
     error: Option<GradientError>,
@@ -167,7 +167,7 @@ impl SolverFactory for Differentiable {
     }
 }
 
-/// The cases of the suite for `solver`, gated or not.
+/// Runs the suite with `solver`, gated or not, and returns the cases.
 fn run(suite: &Suite, solver: &Differentiable, gate: bool) -> Vec<CaseOutcome> {
     let (name, formal_order, precision) = (solver.name(), 2.0, solver.precision);
     let method = ExternalMethod { name, formal_order, precision };
@@ -177,7 +177,7 @@ fn run(suite: &Suite, solver: &Differentiable, gate: bool) -> Vec<CaseOutcome> {
 }
 
 fn cases(solver: &Differentiable) -> Vec<CaseOutcome> {
-    // A displacement far above rounding.
+    // The displacement is far above its rounding error.
     run(&loaded(&SUITE.replace("v0: 1e-5", "v0: 0.03")), solver, true)
 }
 
@@ -204,7 +204,7 @@ fn a_sound_solver_meets_the_gate_with_its_order() {
     assert!((sweep.share - 1.0).abs() < 1e-6 && sweep.jumps.is_empty(), "{sweep:?}");
 }
 
-/// Closed forms of the specification, in 40 digits.
+/// The values are closed forms of the specification, computed to 40 digits.
 #[test]
 fn exact_sensitivities_are_those_of_the_closed_form() {
     for (until, displacement, by_young) in [

@@ -1,4 +1,4 @@
-//! Solvers of a user of the library.
+//! Solvers that a user of the library implements in Rust.
 
 use super::bar;
 use mpm_verify::external::{LevelProblem, SolverFactory};
@@ -8,7 +8,7 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Extent, ExternalMethod, Suite, embedded};
 use mpm_verify::verify::CaseOutcome;
 
-/// Finite differences of second order, one unknown at each particle: `u_tt = c^2 u_XX`.
+/// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.
 struct Differences {
     problem: LevelProblem,
     u: Vec<f64>,
@@ -24,7 +24,8 @@ impl Subject for Differences {
         for (u, v) in self.u.iter_mut().zip(&self.v) {
             *u += 0.5 * dt * v;
         }
-        // Half a spacing beyond the ends: u is odd about the fixed one and even about the free one.
+        // Values half a spacing outside the ends: u is odd about the fixed end and even about the
+        // free one.
         let at = |i: isize| match i {
             -1 => -self.u[0],
             i if i as usize == n => self.u[n - 1],
@@ -127,7 +128,7 @@ fn a_solver_that_fails_in_its_setup_fails_the_case() {
     }
 }
 
-/// A force at places given once has the bits of the force at one place after another.
+/// A force at fixed points must have the same bits as the force at one point after another.
 #[test]
 fn a_placed_body_force_is_the_body_force() {
     for name in ["mms-axis-aligned-2d", "geostatic-slope", "falling-block"] {

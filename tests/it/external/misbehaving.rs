@@ -6,7 +6,7 @@ use super::program::HELLO;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
 
-/// A script that is correct until it is asked to advance, and then runs `then`.
+/// Creates a script that is correct until it receives `advance`, and then runs `then`.
 fn script(then: &str) -> String {
     format!(
         "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
@@ -14,7 +14,7 @@ fn script(then: &str) -> String {
     )
 }
 
-/// Exit status and output of a run of `script`.
+/// Runs `script`, and returns exit status and output.
 fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
@@ -90,7 +90,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 #[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
-    // A test that needs the whole timeout uses a short one.
+    // Tests that wait for the whole timeout use a short one.
     let patience = if then.ends_with("sleep 99") { "0.3s" } else { "1s" };
     let zeros = format!("{:?}", [0; 16]);
     let (code, said) =
@@ -116,7 +116,7 @@ fn a_gate_fails_with_its_solver() {
     assert_eq!(run(&script("exit 1"), &["--gate", "--brief"]).0, FAILED);
 }
 
-/// Child processes of a solver are killed with it.
+/// Child processes of a solver must be killed with it.
 #[test]
 fn no_grandchild_is_left() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Solvers of other programs, as shell scripts: sound ones, and every way to misbehave.
+//! Solvers in other programs, as shell scripts: correct ones, and violations of every rule.
 
 #[cfg(unix)]
 mod differentiate;
@@ -20,7 +20,7 @@ mod stated;
 #[cfg(unix)]
 mod values;
 
-/// A suite of four levels in one dimension, with steps that follow the cells.
+/// Creates a suite of four levels in one dimension, with steps proportional to the cells.
 fn bar() -> String {
     crate::cli::BAR.replace("until: 0.05, dt: 1e-3", "until: 0.004, dt: \"h/250\"")
 }

@@ -1,4 +1,4 @@
-//! A sound solver in a shell script.
+//! A correct solver in a shell script.
 
 use super::bar;
 use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
@@ -7,7 +7,8 @@ use mpm_verify::external::protocol_schema;
 /// First message of a solver of one-dimensional elasticity.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
 
-/// The exact solution with an error of h^2: a solver of order 2 that needs no steps.
+/// A solver whose result is the exact solution with an error of h^2: it has order 2 and runs no
+/// steps.
 pub(super) const SECOND_ORDER: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0
@@ -61,7 +62,7 @@ fn a_program_is_judged_like_any_method() {
     }
 }
 
-/// With the order that the solver claims as the expectation of each case.
+/// The expectation of each case is the order that the solver claims.
 #[test]
 fn a_gate_holds_a_program_to_its_order() {
     let folder = folder();
@@ -75,7 +76,7 @@ fn a_gate_holds_a_program_to_its_order() {
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
 }
 
-/// A missing capability gives neither a verdict nor a pass.
+/// If a capability is missing, the case must have neither a verdict nor a pass.
 #[test]
 fn what_a_program_lacks_is_not_applicable() {
     let folder = folder();
@@ -88,7 +89,7 @@ fn what_a_program_lacks_is_not_applicable() {
     assert!(found.errors.contains("no case is applicable to the solver"), "{}", found.errors);
 }
 
-/// A solver does not report the force on a node while a particle crosses it.
+/// An external solver does not report the force on a node while a particle crosses it.
 #[test]
 fn studies_that_look_inside_a_method_are_left_out() {
     let found = folder().call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"]);
@@ -96,7 +97,7 @@ fn studies_that_look_inside_a_method_are_left_out() {
     assert!(found.errors.contains("grid-crossing: left out"), "{}", found.errors);
 }
 
-/// A solver that writes a line into `log` for each problem that it takes.
+/// Creates a solver that writes a line into `log` for each problem that it accepts.
 fn logged() -> Folder {
     let folder = folder();
     let logging = "echo problem >>log\necho '{\"type\":\"ready\"}'";
@@ -172,7 +173,7 @@ fn the_kept_schema_is_that_of_the_messages() {
     assert!(protocol_schema() == kept, "{written}");
 }
 
-/// A solver of order 1, on four levels.
+/// Creates a solver of order 1, on four levels.
 fn of_first_order() -> Folder {
     let folder = folder();
     folder.write("solver.sh", SECOND_ORDER.replace("HELLO", HELLO).replace("1 + h * h", "1 + h"));

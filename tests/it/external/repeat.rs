@@ -11,7 +11,7 @@ use mpm_verify::verify::{CaseOutcome, Exclusion, LevelOutcome, SuiteOutcome};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Finite differences whose displacements differ between runs by up to `noise` (m) at every
-/// particle, as if sums were taken in another order in each run.
+/// particle, as if each run added in another order.
 struct Unsteady {
     noise: f64,
     runs: AtomicU64,
@@ -30,7 +30,7 @@ impl Subject for Perturbed {
 
     fn sample(&self, samples: &mut Samples) {
         self.solver.sample(samples);
-        // A linear congruential generator, another stream for each run.
+        // A linear congruential generator, with another stream for each run.
         let mut state = self.run.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
         for u in &mut samples.displacement {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -56,7 +56,7 @@ impl SolverFactory for Unsteady {
     }
 }
 
-/// The suite with the unsteady solver, run three times on each level.
+/// Runs each level of the suite three times with the unsteady solver.
 fn repeated(noise: f64) -> SuiteOutcome {
     let solver = Unsteady { noise, runs: AtomicU64::new(1) };
     let method = ExternalMethod {
@@ -84,7 +84,7 @@ fn a_deterministic_solver_has_no_spread() {
     assert!(text.contains("spread between runs, in the norm of the error"), "{text}");
 }
 
-/// Two of three runs differ by `noise` times the root of 2/3 on average, in the RMS norm.
+/// In the RMS norm, two of three runs differ by `noise` times the root of 2/3 on average.
 #[test]
 fn the_spread_is_the_difference_between_runs() {
     let steady = repeated(0.0);
@@ -103,7 +103,8 @@ fn a_level_whose_spread_exceeds_a_tenth_of_its_error_does_not_count() {
     let errors: Vec<f64> = levels(&steady.cases[0]).iter().map(|level| level.error).collect();
     let [.., coarser, finest] = errors[..] else { panic!("two levels or more") };
     assert!(coarser > 2.0 * finest, "{errors:?}");
-    // A spread of about 0.8 of the noise: 1/7 of the finest error, and less of the others.
+    // The spread is about 0.8 of the noise. This is 1/7 of the finest error, and less of the other
+    // errors.
     let found = repeated(finest / 6.0);
     let case = &found.cases[0];
     let exclusions: Vec<_> = levels(case).iter().map(LevelOutcome::exclusion).collect();
@@ -124,7 +125,7 @@ mod command_line {
     use super::super::program::{HELLO, SECOND_ORDER};
     use crate::cli::{Folder, SOUND};
 
-    /// Each of the four levels has a process for each run.
+    /// Each run of each of the four levels must have its own process.
     #[test]
     fn each_run_has_a_new_process() {
         let folder = Folder::new();

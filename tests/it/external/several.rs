@@ -1,4 +1,4 @@
-//! Several solvers in one report: names, cases, gates, and refused duplicates.
+//! Several solvers in one report: names, cases, gates, and duplicate names.
 
 use super::bar;
 use super::program::{HELLO, SECOND_ORDER};
@@ -6,7 +6,7 @@ use crate::cli::{BAD_INPUT, Folder, SOUND};
 use rstest::{fixture, rstest};
 use serde_json::Value;
 
-/// A folder with a suite and two solvers, whose errors differ by a factor.
+/// Creates a folder with a suite and two solvers, whose errors differ by a factor.
 #[fixture]
 fn folder() -> Folder {
     let folder = Folder::new();
@@ -39,7 +39,7 @@ fn solvers_and_methods_are_cases_of_one_suite(folder: Folder) {
     assert_eq!(names, ["mpm-linear-flip-musl", "fem-linear-lumped", "first", "second"]);
     let error = |case: usize| cases[case]["levels"][0]["judged"].as_f64().unwrap();
     assert!((error(3) / error(2) - 2.0).abs() <= 1e-3, "{} {}", error(3), error(2));
-    // An external solver counts no transfers, so the ranking by transfers has the methods only.
+    // External solvers count no transfers, so the ranking by transfers contains the methods only.
     assert_eq!(suites[0]["cost"][0]["methods"].as_array().map(Vec::len), Some(2));
 }
 
@@ -51,7 +51,7 @@ fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
     let transfers = |case: &str| {
         let mut lines = finest.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
         let head = lines.find(|cells| cells.first() == Some(&"case")).expect("heads");
-        // `linf order` is one head.
+        // `linf order` is one heading of two words.
         let column = head.iter().position(|cell| *cell == "transfers").expect("a column") - 1;
         lines.find(|cells| cells.first() == Some(&case)).expect("a row")[column].to_owned()
     };

@@ -1,4 +1,4 @@
-//! Verdicts on solvers in single precision: levels below the rounding bound do not count.
+//! Verdicts on solvers in single precision: levels below the rounding bound must not count.
 
 use super::library::loaded;
 use mpm_verify::external::{LevelProblem, SolverFactory};
@@ -8,8 +8,8 @@ use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, Sub
 use mpm_verify::suite::{Extent, ExternalMethod};
 use mpm_verify::verify::{Exclusion, LevelOutcome, SuiteOutcome};
 
-/// Finite differences in space with velocity Verlet in time, every operation in single precision.
-/// Positions are stored, and displacements are computed from them.
+/// Finite differences in space with velocity Verlet in time. Every operation is in single
+/// precision. Positions are stored, and displacements are computed from them.
 struct Differences {
     problem: LevelProblem,
     reference: Vec<f32>,
@@ -23,7 +23,8 @@ impl Differences {
         let n = self.x.len();
         let u = |i: usize| self.x[i] - self.reference[i];
         let dx = self.reference[1] - self.reference[0];
-        // Half a spacing beyond the ends: u is odd about the fixed one, even about the free one.
+        // Values half a spacing outside the ends: u is odd about the fixed end and even about the
+        // free one.
         let at = |i: isize| match i {
             -1 => -u(0),
             i if i as usize == n => u(n - 1),
@@ -62,7 +63,7 @@ impl Subject for Differences {
     }
 }
 
-/// A solver of `Differences`. Its stiffness is wrong by the fraction `defect` h: first order.
+/// Creates `Differences`. The stiffness has the relative error `defect` h, which causes order 1.
 struct Single {
     precision: Precision,
     defect: f64,
@@ -88,8 +89,8 @@ impl SolverFactory for Single {
     }
 }
 
-/// The bar with this amplitude of the velocity (m/s) and steps at half the Courant limit of the
-/// differences. The equation is linear, so that displacements may be large.
+/// Creates the bar with this amplitude of the velocity (m/s). Steps are at half the Courant limit
+/// of the differences. The equation is linear, so displacements may be large.
 fn bar(amplitude: &str, cells: &str) -> String {
     crate::cli::BAR
         .replace("1e-3*sin", &format!("{amplitude}*sin"))
@@ -108,7 +109,7 @@ fn levels(found: &SuiteOutcome) -> &[LevelOutcome] {
     &found.cases[0].convergence().expect("a convergence study").levels
 }
 
-/// Levels from above the rounding bound to far below it.
+/// Numbers of cells for errors from above the rounding bound to far below it.
 const DOWN: &str = "[3, 4, 6, 8, 12, 32, 64, 128]";
 
 #[test]

@@ -8,7 +8,7 @@ use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::{CaseOutcome, SpectrumStudy};
 use std::f64::consts::TAU;
 
-/// A standing wave with a given angle and modulus of the amplitude in each step.
+/// A subject with a standing wave, whose amplitude has a given angle and modulus per step.
 struct Oscillator {
     problem: LevelProblem,
     angle: f64,
@@ -38,8 +38,8 @@ impl Subject for Oscillator {
     }
 }
 
-/// A solver whose waves have the angle and the modulus of FLIP under MUSL with linear functions,
-/// times `factor`.
+/// A solver whose waves have the angle and the modulus of FLIP under MUSL with linear functions.
+/// `factor` multiplies the angle.
 struct Waves {
     name: &'static str,
     factor: f64,
@@ -59,7 +59,7 @@ impl SolverFactory for Waves {
         assert!(problem.instants.iter().copied().eq(1..=problem.steps), "every step is an instant");
         let largest = problem.particles.velocity.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
         assert!(largest > 0.9e-6 && largest <= 1e-6, "{largest}");
-        // Twenty exact periods of h/c = 1 s with C = 0.4.
+        // The run covers twenty exact periods of h/c = 1 s with C = 0.4.
         let theta = TAU / (problem.steps as f64 * problem.dt / 20.0);
         let lost = 1.0 - libm::cos(theta);
         let (kappa, s) = (2.0 * lost, 1.0 - 0.375 * lost);
@@ -84,7 +84,7 @@ fn waves(name: &'static str, factor: f64) -> Waves {
     Waves { name, factor, precision: Precision::Double }
 }
 
-/// Without a method there is no prediction, but a measurement.
+/// If the method is unknown, there is a measurement but no prediction.
 #[test]
 fn a_solver_of_unknown_method_is_measured() {
     let found = outcome(&waves("mine", 1.0), false);
@@ -98,24 +98,24 @@ fn a_solver_of_unknown_method_is_measured() {
             row.measured.as_ref().expect("figures").phase_error.expect("a phase")
         })
         .collect();
-    // The figures of docs/dispersion.md for eight and sixteen cells.
+    // The values of docs/dispersion.md for eight and sixteen cells.
     for (error, expected) in errors.iter().zip([-0.077_351, -0.019_729]) {
         assert!((error - expected).abs() < 1e-6, "{error} against {expected}");
     }
     assert_eq!(outcome(&waves("mine", 1.0), true).result(), "not gated");
 }
 
-/// The name of a case, or a name that the suite relates to a case.
+/// The method is known from the name of a case, or from a name that the suite relates to a case.
 #[test]
 fn a_solver_of_known_method_is_compared_with_its_curve() {
     for name in ["mpm-linear-flip-musl-lumped", "numpy-linear-musl"] {
         for gate in [false, true] {
             assert_eq!(outcome(&waves(name, 1.0), gate).result(), "pass");
-            // Four per cent of the phase error of sixteen cells.
+            // The factor changes the phase error of sixteen cells by 4 %.
             assert_eq!(outcome(&waves(name, 1.0008), gate).result(), "FAIL");
         }
     }
-    // The phase error of APIC is a quarter of that of FLIP.
+    // The phase error of APIC is a quarter of the phase error of FLIP.
     assert_eq!(outcome(&waves("mpm-linear-apic-musl", 1.0), false).result(), "FAIL");
 }
 

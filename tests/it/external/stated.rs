@@ -1,4 +1,4 @@
-//! Solvers that a suite names among its methods.
+//! Solvers that a suite lists among its methods.
 
 use super::bar;
 use super::library::{Maker, loaded};
@@ -9,7 +9,7 @@ use mpm_verify::suite::{ExternalMethod, Suite};
 use mpm_verify::verify::CaseOutcome;
 use rstest::rstest;
 
-/// The bar with an external solver in addition to MPM.
+/// Creates the bar with an external solver in addition to MPM.
 fn with_entry(entry: &str) -> String {
     bar().replace("  - fem: {element: linear, mass: lumped}", &format!("  - external: {entry}"))
 }

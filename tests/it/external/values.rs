@@ -1,5 +1,5 @@
-//! Values that the harness passes: constants in the message `problem`, and fields at requested
-//! places and times.
+//! Values that the harness passes to solvers: constants in the message `problem`, and fields at
+//! requested points and times.
 
 use super::program::{HELLO, SECOND_ORDER};
 use crate::cli::{Folder, SOUND};
@@ -45,7 +45,7 @@ expect:
     because: masses are constant
 "#;
 
-/// The message `hello` of a solver of version 2 that takes all of it.
+/// Creates the message `hello` of a solver of version 2 that supports all of these.
 fn hello() -> String {
     json!({
         "type": "hello", "protocol": 2, "name": "asking", "version": "1",
@@ -65,8 +65,8 @@ fn hello() -> String {
     .to_string()
 }
 
-/// A script that sends `requests` during its set-up, stores the problem and the answers in the file
-/// `log`, and then exits.
+/// Creates a script that sends `requests` during its set-up, stores the problem and the answers in
+/// the file `log`, and then exits.
 fn script(requests: &[Value]) -> String {
     let ask = |request: &Value| format!("echo '{request}'; read -r m; echo \"$m\" >>log\n");
     let ask: String = requests.iter().map(ask).collect();
@@ -78,7 +78,7 @@ fn script(requests: &[Value]) -> String {
     )
 }
 
-/// The problem of `suite`, and the answers to `requests`.
+/// Returns the problem of `suite`, and the answers to `requests`.
 fn answers(suite: &str, requests: &[Value]) -> Vec<Value> {
     let folder = Folder::new();
     folder.write("suite.yaml", suite);
@@ -161,7 +161,7 @@ fn loads_and_conditions_have_values_at_requested_places_and_times() {
     }
 }
 
-/// A polygon that starts stretched, in motion and under stress.
+/// A polygon that is stretched, moves and is under stress at the start.
 const STRETCHED: &str = r#"suite: stretched
 title: A polygon that starts stretched
 source: a test
@@ -183,7 +183,7 @@ expect:
 
 #[test]
 fn the_initial_state_is_known_at_any_place_of_the_body() {
-    // The second place is on the slanting side, up to rounding.
+    // The second point is on the slanting side, up to rounding.
     let places = [0.25, 0.125, 1.0 - 0.2, 0.1 + 1e-12];
     let request = |of: &str| json!({"type": "values", "of": of, "reference_position": places});
     let names = ["displacement", "velocity", "deformation_gradient", "initial_stress", "stress"];
@@ -217,7 +217,7 @@ fn problem_of(name: &str) -> LevelProblem {
     level_problem(name, plan, &plan.cases[0], plan.refine.levels[0]).expect("a problem")
 }
 
-/// A load step is a step of length 1, and the problem states the number of load steps.
+/// A load step is a step of length 1. The problem must state the number of load steps.
 #[test]
 fn load_steps_are_passed_to_solvers_that_list_them() {
     let source = embedded::source("load-steps-hencky").expect("a suite").expect("a text");
@@ -239,7 +239,7 @@ fn load_steps_are_passed_to_solvers_that_list_them() {
     assert!(json!(problem_of("vibrating-bar")).get("load_steps").is_none());
 }
 
-/// Fields at the particles are the columns of the particles, to the last bit.
+/// Fields at the particles must equal the columns of the particles, to the last bit.
 #[rstest]
 #[case::one_dimension("vibrating-bar")]
 #[case::deformed("mms-axis-aligned-2d")]
@@ -299,7 +299,8 @@ fn nodes_on_a_rim_and_on_an_axis_are_inside() {
     assert!(stress.is_ok(), "{stress:?}");
 }
 
-/// A pressure on a rim names the rim, and its values are known on that circle alone.
+/// The message must name the rim of a pressure. The values of the pressure are defined only on this
+/// circle.
 #[test]
 fn a_pressure_on_a_rim_is_handed_over() {
     let name = "pressurised-cylinder-in-plane";
@@ -308,7 +309,7 @@ fn a_pressure_on_a_rim_is_handed_over() {
     assert_eq!((&load["load"], &load["rim"]), (&json!("pressure"), &json!("inner")));
     assert_eq!((load.get("face"), &load["values"]["pressure"]), (None, &json!(1e-5)));
 
-    // A formula that depends on the place, and is Lame's pressure on the rim.
+    // The pressure becomes a formula of the position. On the rim it equals Lame's pressure.
     let text = embedded::source(name).expect("a suite").expect("a text").text().to_owned();
     let text = text.replace("value: p}", "value: \"p*(X^2 + Y^2)/a^2\"}");
     let source = Source::from_text("suite.yaml", &text).expect("a text");
@@ -326,7 +327,8 @@ fn a_pressure_on_a_rim_is_handed_over() {
     assert!(reason.contains("is not on the inner rim, whose radius is 1 m"), "{reason}");
 }
 
-/// The first state of a solver with its own sample points is the initial state there.
+/// The first state of a solver with its own sample points must be the initial state at these
+/// points.
 #[test]
 fn points_start_in_the_initial_state() {
     let folder = Folder::new();
@@ -348,7 +350,7 @@ fn points_start_in_the_initial_state() {
     assert_eq!((samples.stress.len(), samples.stress[7]), (8, samples.stress[3] + 1.0 / 1.1));
 }
 
-/// A body force that depends on the displacement takes it from the request.
+/// If a body force depends on the displacement, the request must contain the displacement.
 #[test]
 fn a_body_force_takes_the_displacement() {
     let suite = LOADED.replace("\"p*X*t\", \"1\"", "\"p*ux\", \"uy + Y\"");
@@ -416,7 +418,7 @@ fn too_many_requests_fail_the_case() {
     fails(&script(&[]).replace("echo \"$m\" >>log", endless), "asked for values 10001 times");
 }
 
-/// A solver that fails at the loaded body, for a `reason`, and is sound at the bar.
+/// Asserts that a solver fails for the loaded body, for a `reason`, and passes the bar.
 fn fails(script: &str, reason: &str) {
     let folder = Folder::new();
     folder.write("loaded.yaml", LOADED);
@@ -433,7 +435,7 @@ fn fails(script: &str, reason: &str) {
     assert!(flat.contains("explored short-bar::odd converging"), "{}", found.out);
 }
 
-/// A solver of version 1 does not receive loads and conditions whose numbers only version 2 passes.
+/// A solver of version 1 must not receive loads and conditions whose numbers only version 2 passes.
 #[test]
 fn version_1_lacks_loads_and_conditions_with_numbers() {
     let folder = Folder::new();
@@ -452,11 +454,12 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
     folder.write("solver.sh", script(&[]));
     let found = folder.call(&["check", "loaded.yaml", "--solver", "sh solver.sh"]);
     assert!(found.out.starts_with("loaded: sound"), "{}{}", found.out, found.errors);
-    // `run --gate` expects an order of the solver.
+    // `run --gate` requires an order of the solver.
     assert!(!found.out.contains("no gate"), "{}", found.out);
 }
 
-/// With several suites, a summary ends the output, and is all of it with `--quiet`.
+/// With several suites, the output ends with a summary. With `--quiet` it contains only the
+/// summary.
 #[test]
 fn a_check_lists_what_a_solver_can_take() {
     let folder = Folder::new();
@@ -473,7 +476,7 @@ fn a_check_lists_what_a_solver_can_take() {
     assert!(found.out.ends_with(&quiet.out), "{}", found.out);
 }
 
-/// An unknown name is reported by every command, and in the list of missing capabilities.
+/// Every command must report an unknown name, also in the list of missing capabilities.
 #[rstest]
 #[case::check("check", SOUND)]
 #[case::run("run", 1)]

@@ -1,25 +1,26 @@
-//! Changes of a problem that must not matter.
+//! Changes of a problem that must not affect a verdict.
 
 use mpm_verify::external::LevelProblem;
 
-/// A change of units, axes, places and order. A vector of the problem becomes `scale Q v`, with the
-/// signed permutation `Q` of `axes`.
+/// A change of units, axes, positions and order. A vector of the problem becomes `scale Q v`, with
+/// the signed permutation `Q` of `axes`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Change {
     pub(super) name: &'static str,
-    /// The new length, mass and time of what has length, mass and time one.
+    /// Length, mass and time in the changed problem, for length, mass and time one in the original
+    /// problem.
     pub(super) length: f64,
     pub(super) mass: f64,
     pub(super) time: f64,
-    /// Whether the axes point the other way.
+    /// Whether the direction of the axes is reversed.
     pub(super) mirrored: bool,
-    /// Whether the axes follow in the opposite order.
+    /// Whether the order of the axes is reversed.
     pub(super) exchanged: bool,
     /// Translation of body, grid and walls along each axis, in cells.
     pub(super) moved: f64,
-    /// Translation of the grid alone against the body, in cells.
+    /// Translation of the grid relative to the body, in cells.
     pub(super) shifted: f64,
-    /// Step from one particle to the next in the order of the problem; one leaves the order.
+    /// Step from one particle to the next in the original order; one keeps the order.
     pub(super) stride: usize,
 }
 
@@ -35,7 +36,7 @@ const NONE: Change = Change {
     stride: 1,
 };
 
-/// Every change; the first changes nothing.
+/// All changes; the first one changes nothing.
 pub(super) const CHANGES: [Change; 13] = [
     NONE,
     Change { name: "length x 4", length: 4.0, ..NONE },
@@ -53,7 +54,7 @@ pub(super) const CHANGES: [Change; 13] = [
 ];
 
 impl Change {
-    /// Whether figures keep their bits: numbers are multiplied by powers of two alone.
+    /// Whether results keep their bits, because numbers are multiplied by powers of two only.
     pub(super) fn keeps_bits(&self) -> bool {
         let power = |scale: f64| scale == 1.0 || scale == 4.0;
         let scales = [self.length, self.mass, self.time].into_iter().all(power);
@@ -61,7 +62,7 @@ impl Change {
         scales && same == Self { name: "", ..NONE }
     }
 
-    /// Why the change matters to a problem, or cannot be made there.
+    /// Reason why the change affects a problem, or is not possible for it.
     pub(super) fn excluded(&self, problem: &LevelProblem) -> Option<&'static str> {
         let held = problem.faces.iter().any(|face| face.condition != "free");
         if self.shifted != 0.0 && held {
@@ -70,13 +71,13 @@ impl Change {
         (self.exchanged && problem.dimension == 1).then_some("one axis")
     }
 
-    /// The axis that axis `i` of `d` becomes, with its sign.
+    /// Returns the axis that replaces axis `i` of `d`, with its sign.
     pub(super) fn axis(&self, i: usize, d: usize) -> (usize, f64) {
         let axis = if self.exchanged { d - 1 - i } else { i };
         (axis, if self.mirrored { -1.0 } else { 1.0 })
     }
 
-    /// A vector in the changed axes, times a scale.
+    /// Converts a vector to the changed axes, and multiplies it by a scale.
     pub(super) fn vector(&self, v: &[f64], scale: f64) -> Vec<f64> {
         let d = v.len();
         let mut changed = vec![0.0; d];
@@ -87,7 +88,7 @@ impl Change {
         changed
     }
 
-    /// A tensor (rows) in the changed axes, times a scale.
+    /// Converts a tensor (rows) to the changed axes, and multiplies it by a scale.
     pub(super) fn tensor(&self, rows: &[f64], d: usize, scale: f64) -> Vec<f64> {
         let mut changed = vec![0.0; d * d];
         for i in 0..d {
@@ -99,13 +100,14 @@ impl Change {
         changed
     }
 
-    /// A place in the changed units and axes; the inverse of both changes of axes is themselves.
+    /// Converts a position to the changed units and axes. Both changes of axes are their own
+    /// inverses.
     pub(super) fn place(&self, x: &[f64], h: f64) -> Vec<f64> {
         let moved = self.vector(x, self.length);
         moved.into_iter().map(|x| x + self.moved * h * self.length).collect()
     }
 
-    /// The unit of stress in `d` dimensions, of energy, and of a dynamic viscosity.
+    /// Returns the new value of one unit of stress in `d` dimensions.
     pub(super) fn stress(&self, d: usize) -> f64 {
         let per_time = 1.0 / (self.time * self.time);
         self.mass * per_time * self.length.powi(2 - d as i32)
@@ -115,14 +117,14 @@ impl Change {
         self.mass * self.length * self.length / (self.time * self.time)
     }
 
-    /// The number in the changed problem of each particle, `n` of them.
+    /// Returns the index of each of `n` particles in the changed problem.
     pub(super) fn order(&self, n: usize) -> Vec<usize> {
         let stride = (self.stride..self.stride + n.max(1)).find(|s| gcd(*s, n) == 1).unwrap_or(1);
         (0..n).map(|k| k * stride % n.max(1)).collect()
     }
 }
 
-/// Greatest common divisor.
+/// Returns the greatest common divisor.
 pub(super) fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -1,4 +1,4 @@
-//! The MPM of this crate under a changed problem: what it answers is changed back.
+//! The MPM of this crate on a changed problem. Its results are converted back.
 
 use super::change::Change;
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
@@ -9,7 +9,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError, Totals};
 use mpm_verify::suite::Method;
 
-/// Makes the solver of one method.
+/// Creates the solver of one method.
 pub(super) struct ChangedSolver {
     pub(super) method: Method,
     pub(super) change: Change,
@@ -44,8 +44,8 @@ impl SolverFactory for ChangedSolver {
     }
 }
 
-/// Whether a problem that is handed over says all that the method starts from: affine fields do not
-/// start at zero.
+/// Whether a problem for solvers contains the whole initial state of the method. It does not
+/// contain affine fields, whose initial values are not zero.
 fn is_known(method: Method) -> bool {
     let Method::Mpm { transfer, .. } = method else { return false };
     let without_affine = [TransferName::Flip, TransferName::Pic];
@@ -94,7 +94,7 @@ fn made<const D: usize>(
     Ok(Box::new(ChangedBody { solver, change, problem, order }))
 }
 
-/// Lowest corner, size and number of cells.
+/// Returns the lowest corner, the cell size and the numbers of cells of the changed grid.
 fn grid_of<const D: usize>(
     change: &Change,
     problem: &LevelProblem,
@@ -119,7 +119,7 @@ fn boundary<const D: usize>(
     grid: &Grid<D>,
 ) -> Vec<Box<dyn Boundary<D>>> {
     let mut all: Vec<Box<dyn Boundary<D>>> = Vec::new();
-    // Where faces share a node, the stronger condition comes last.
+    // If faces share a node, the stronger condition must come last.
     for wanted in ["roller", "fixed"] {
         for face in problem.faces.iter().filter(|face| face.condition == wanted) {
             let (axis, sign) = change.axis(face.axis, D);
@@ -178,7 +178,7 @@ fn particles_of<const D: usize>(
     Ok(particles)
 }
 
-/// Distance of neighbours along each axis of a lattice.
+/// Returns the distance between neighbours along each axis of a lattice.
 fn spacing<'a>(places: &(impl Iterator<Item = &'a [f64]> + Clone), volume: f64) -> Vec<f64> {
     let d = places.clone().next().map_or(0, <[f64]>::len);
     let along = |axis: usize| {
@@ -194,7 +194,7 @@ fn spacing<'a>(places: &(impl Iterator<Item = &'a [f64]> + Clone), volume: f64) 
     found.into_iter().map(|length| length.unwrap_or(volume / known)).collect()
 }
 
-/// The body force, with places and times changed back before it is asked.
+/// Creates the effects. Positions and times are converted back before the body force is evaluated.
 fn effects<const D: usize>(
     change: &Change,
     problem: &LevelProblem,
@@ -216,7 +216,7 @@ fn effects<const D: usize>(
     vec![Box::new(BodyForce::new(Box::new(force)))]
 }
 
-/// The law, in the changed units.
+/// Converts the law to the changed units.
 fn law(change: &Change, problem: &LevelProblem) -> Result<MaterialPlan, String> {
     let [material] = &problem.materials[..] else { return Err("several bodies".to_owned()) };
     let ones = MaterialPlan::every(|_| 1.0);
@@ -242,7 +242,7 @@ fn law(change: &Change, problem: &LevelProblem) -> Result<MaterialPlan, String> 
     all.into_iter().find(|plan| plan.name() == material.law).ok_or("an unknown law".to_owned())
 }
 
-/// A body under a changed problem.
+/// A body in a changed problem.
 struct ChangedBody<const D: usize> {
     solver: Solver<D>,
     change: Change,
@@ -283,7 +283,7 @@ impl<const D: usize> Subject for ChangedBody<D> {
         self.solver.counters()
     }
 
-    /// Sums of what is sampled, about the origin of the unchanged problem.
+    /// Computes sums over the samples, about the origin of the original problem.
     fn totals(&self) -> Option<Totals> {
         let mut samples = Samples::default();
         self.sample(&mut samples);

@@ -1,10 +1,10 @@
-//! Gates that fail for a change, each with the cause.
+//! Gates that fail because of a change, each with the cause.
 
 /// Runs that a change affects, with the cause.
 struct Known {
-    /// How the name of the run, `suite::case`, begins.
+    /// Beginning of the name of the run, `suite::case`.
     run: &'static str,
-    /// How the name of the change begins; empty for all.
+    /// Beginning of the name of the change; empty for all changes.
     change: &'static str,
     cause: &'static str,
 }
@@ -45,7 +45,7 @@ const KNOWN: [Known; 14] = [
     },
 ];
 
-/// The cause for which the gates of a run fail under a change, where it is known.
+/// Returns the cause why the gates of a run fail under a change, if it is known.
 pub(super) fn cause(run: &str, change: &str) -> Option<&'static str> {
     let fits = |known: &&Known| run.starts_with(known.run) && change.starts_with(known.change);
     KNOWN.iter().find(fits).map(|known| known.cause)

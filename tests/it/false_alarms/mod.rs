@@ -1,5 +1,5 @@
-//! No theory gate fails for what must not matter: other units, axes, places, an order of the
-//! particles, a grid that is shifted, a step that is a hundredth shorter or longer.
+//! No theory gate may fail because of changes without effect: other units, axes, positions or
+//! orders of the particles, a shifted grid, or a step that is 1 % shorter or longer.
 
 mod change;
 mod changed_solver;
@@ -17,7 +17,7 @@ fn suite(name: &str) -> Suite {
     Suite::load(&source.expect("a text")).expect("a sound suite")
 }
 
-/// The case with this index under a change; none where the change cannot be made.
+/// Runs the case with this index under a change; `None` if the change is not possible.
 fn changed(suite: &Suite, case: usize, change: Change) -> Option<CaseOutcome> {
     let plan = suite.plan::<ConvergencePlan>()?;
     let solver = ChangedSolver { method: plan.cases[case].method, change };
@@ -28,9 +28,9 @@ fn changed(suite: &Suite, case: usize, change: Change) -> Option<CaseOutcome> {
     outcome.lacks.is_empty().then_some(outcome)
 }
 
-/// The suite with all steps of a case longer or shorter, by about a hundredth. Where the steps of
-/// each level are whole parts of the run, they stay so, and their ratios from level to level with
-/// them: a claim of an order is one of dt in proportion to h.
+/// Changes all steps of a case by about 1 %. If the steps of each level divide the run, this
+/// remains so, and their ratios from level to level are kept: a claimed order requires dt in
+/// proportion to h.
 fn stepped(suite: &Suite, case: usize, longer: bool) -> Option<Suite> {
     let mut plan = suite.plan::<ConvergencePlan>()?.clone();
     let until = plan.cases[case].until;
@@ -57,8 +57,8 @@ fn errors(outcome: &CaseOutcome) -> Vec<f64> {
     study.levels.iter().map(|level| level.error).collect()
 }
 
-/// The sample of the gate: a plane wave of shear, for which each change can be made but a shift of
-/// the grid under its walls.
+/// The example of the gate is a plane shear wave. Every change is possible for it, except a shift
+/// of the grid relative to its walls.
 #[test]
 fn a_wave_of_shear_is_the_same_whatever_must_not_matter() {
     let suite = suite("shear-wave");
@@ -76,7 +76,8 @@ fn a_wave_of_shear_is_the_same_whatever_must_not_matter() {
     assert_eq!(made, CHANGES.len() - 2);
 }
 
-/// Of every suite, the first case of each change that can be made; prints a line for each change.
+/// Runs the first case of every suite for which a change is possible, and prints a line for each
+/// change.
 #[test]
 #[ignore = "more than a thousand runs: some minutes, optimised"]
 fn what_must_not_matter_fails_no_gate() {

@@ -1,4 +1,4 @@
-//! Properties of every figure.
+//! Properties of every drawing.
 
 use mpm_verify::report::figure::*;
 use proptest::prelude::*;
@@ -25,7 +25,8 @@ fn samples_are_well_formed(#[case] svg: String) {
     assert!(svg.contains("role=\"img\"") && svg.contains("<title>"));
 }
 
-/// Plain colours are attributes, which every viewer knows; the style sheet replaces each of them.
+/// Plain colours are attributes, which every viewer supports. The style sheet must replace each of
+/// them.
 #[rstest]
 #[case(samples::three_series().to_svg())]
 #[case(samples::eight_long_names().to_svg())]
@@ -119,7 +120,7 @@ fn a_failure_at_the_same_size_stands_below_the_other() {
         points: vec![PlotPoint { x: 0.1, error: f64::NAN, mark: Mark::Failed }],
     };
     let svg = samples::convergence(vec![failed("one"), failed("two")], &[]).to_svg();
-    // The first failure and the key in the legend.
+    // The symbol of the first failure, and its key in the legend.
     assert_eq!(svg.matches("stroke-width=\"1.30\"").count(), 2);
 }
 
@@ -142,7 +143,7 @@ fn marks() -> impl Strategy<Value = Mark> {
 }
 
 fn any_value() -> impl Strategy<Value = f64> {
-    // Any bit pattern, and the range in which figures are usually drawn.
+    // Any bit pattern, and numbers in the range that drawings usually contain.
     prop_oneof![any::<f64>(), prop::num::f64::ANY, -2.0..2.0]
 }
 

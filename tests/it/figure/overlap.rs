@@ -1,4 +1,5 @@
-//! Slope triangles touch no data, and legends lie below the frame: measured in finished documents.
+//! Slope triangles must not touch data, and legends must lie below the frame. Both are checked in
+//! finished documents.
 
 use super::samples;
 use mpm_verify::report::figure::Mark;
@@ -7,7 +8,7 @@ use rstest::rstest;
 
 type Pt = (f64, f64);
 
-/// The value of an attribute in one line of the document.
+/// Returns the value of an attribute in one line of the document.
 fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
     let start = line.find(&format!(" {name}=\""))? + name.len() + 3;
     line[start..].split('"').next()
@@ -25,7 +26,8 @@ fn corners(line: &str) -> Vec<Pt> {
     attribute(line, "points").unwrap().split(' ').map(pair).collect()
 }
 
-/// The segments of the data; keys of the legend are drawn around the origin and lie elsewhere.
+/// Returns the segments of the data. Keys of the legend are drawn around the origin and are
+/// excluded.
 fn data(svg: &str) -> Vec<(Pt, Pt)> {
     let strokes = |line: &&str| {
         line.contains("stroke-dasharray") || attribute(line, "stroke-width") == Some("1.60")
@@ -55,7 +57,7 @@ fn distance_to_segment(p: Pt, (a, b): (Pt, Pt)) -> f64 {
     libm::hypot(p.0 - a.0 - s * dx, p.1 - a.1 - s * dy)
 }
 
-/// Distance of a convex area from a segment; zero where they meet.
+/// Returns the distance of a convex area from a segment; zero if they intersect.
 fn distance(area: &[Pt], segment: (Pt, Pt)) -> f64 {
     let side = |p: Pt, a: Pt, b: Pt| (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0);
     let edges = || area.iter().copied().zip(area.iter().copied().cycle().skip(1));
@@ -75,10 +77,10 @@ fn distance(area: &[Pt], segment: (Pt, Pt)) -> f64 {
     corners.chain(ends).fold(f64::INFINITY, f64::min)
 }
 
-/// Required distance: a marker reaches about six pixels from its centre.
+/// Minimum distance (px): a marker extends about six pixels from its centre.
 const APART: f64 = 7.0;
 
-/// Whether all triangles of a figure keep their distance from its data.
+/// Whether all triangles of a drawing keep their distance from its data.
 fn triangles_are_clear(svg: &str) -> bool {
     let data = data(svg);
     triangles(svg)
@@ -99,7 +101,7 @@ fn triangles_touch_no_data(#[case] svg: String, #[case] count: usize) {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
-    /// Levels that refine by two, with errors that fall, rise and jump.
+    /// Each level halves the spacing. The errors fall, rise and jump.
     #[test]
     fn triangles_touch_no_data_of_any_series(
         errors in prop::collection::vec(prop::collection::vec(-4.0..1.0, 2..7), 1..4),

@@ -1,8 +1,8 @@
-//! Figures which the tests share.
+//! Drawings that several tests use.
 
 use mpm_verify::report::figure::{Curve, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
 
-/// Halved cell sizes from 1/4 m.
+/// Returns cell sizes from 1/4 m, each half of the previous one.
 fn sizes(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(|i| 0.25 / f64::from(1 << i))
 }
@@ -33,7 +33,8 @@ pub(super) fn convergence(series: Vec<PlotSeries>, orders: &[f64]) -> LogLogPlot
     }
 }
 
-/// A clean order with a plateau, one which turns where particles cross, one which fails.
+/// Creates three series: a constant order with a plateau, an order that changes when particles
+/// cross, and a failure.
 pub(super) fn three_series() -> LogLogPlot {
     let plateau = series("displacement", 7, |i, h| {
         let mark = if (1..5).contains(&i) { Mark::Window } else { Mark::OutsideWindow };

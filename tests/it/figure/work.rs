@@ -21,7 +21,7 @@ pub(super) fn diagram() -> LogLogPlot {
 }
 
 fn band(svg: &str) -> usize {
-    // The front in the frame, and its key.
+    // The Pareto front in the frame, and its key.
     svg.matches("stroke-width=\"11.00\"").count()
 }
 

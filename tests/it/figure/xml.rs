@@ -1,4 +1,4 @@
-//! A check of XML structure.
+//! Checks the structure of XML.
 
 /// Checks that tags are balanced and attributes quoted, and that markup appears nowhere else.
 pub(super) fn well_formed(svg: &str) -> Result<(), String> {
@@ -44,7 +44,7 @@ fn entities(text: &str) -> Result<(), String> {
         .ok_or_else(|| text.to_owned())
 }
 
-/// Values of attributes, which is where a number that is none would end up.
+/// Whether the values of attributes contain no invalid number, such as NaN.
 pub(super) fn without_bad_numbers(svg: &str) -> bool {
     svg.split('"')
         .skip(1)

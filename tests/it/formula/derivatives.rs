@@ -1,4 +1,5 @@
-//! Derivatives against central differences, and where differences do not help.
+//! Derivatives of formulas, compared with central differences, and points where differences are
+//! useless.
 
 use rstest::rstest;
 
@@ -11,7 +12,8 @@ fn jet(formula: &Formula, x: f64, y: f64) -> Jet<2> {
     formula.eval(&[Jet::variable(x, 0), Jet::variable(y, 1)])
 }
 
-/// The central difference of `f` with respect to the variable `i`, accurate to the fourth order.
+/// Computes the central difference of `f` with respect to the variable `i`, accurate to fourth
+/// order.
 fn difference(f: impl Fn(f64, f64) -> f64, x: f64, y: f64, i: usize) -> f64 {
     let h = 1e-3;
     let at = |s: f64| if i == 0 { f(x + s * h, y) } else { f(x, y + s * h) };
@@ -120,7 +122,8 @@ fn special_points(#[case] source: &str, #[case] x: f64, #[case] expected: [f64; 
     assert_eq!([found.value(), found.d(0), found.dd(0, 0)], expected);
 }
 
-/// A singularity in one variable leaves the derivatives with respect to the other alone.
+/// A singularity in one variable must not affect the derivatives with respect to the other
+/// variable.
 #[test]
 fn singularities_do_not_spread() {
     let found = jet(&bind("sqrt(x)+y^2", &X).unwrap(), 0.0, 3.0);
@@ -128,7 +131,7 @@ fn singularities_do_not_spread() {
     assert_eq!((found.dd(0, 1), found.dd(1, 1)), (0.0, 2.0));
 }
 
-/// sqrt(x^2) has a kink at 0, which must not pass for a smooth point.
+/// sqrt(x^2) has a kink at 0. Its derivative must not be finite there.
 #[test]
 fn hidden_kinks_are_not_finite() {
     let found = jet(&bind("sqrt(x^2)", &X).unwrap(), 0.0, 0.0);

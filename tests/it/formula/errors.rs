@@ -1,4 +1,4 @@
-//! Messages for wrong formulas, and the place of the caret.
+//! Messages for wrong formulas, and the position of the caret.
 
 use std::ops::Range;
 

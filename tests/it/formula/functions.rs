@@ -1,4 +1,4 @@
-//! User functions.
+//! Functions that a user defines.
 
 use rstest::rstest;
 
@@ -67,7 +67,8 @@ fn mutual_recursion_is_refused() {
     assert_eq!((error.span, error.within.as_deref()), (2..3, Some("c")));
 }
 
-/// Each argument is evaluated once, or these thirty doublings would take 2^30 operations.
+/// Each argument must be evaluated once. Otherwise these thirty doublings would take 2^30
+/// operations.
 #[test]
 fn arguments_are_not_duplicated() {
     let mut scope = Scope::new();

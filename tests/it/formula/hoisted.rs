@@ -1,4 +1,4 @@
-//! Hoisting changes when something is computed, never what.
+//! Hoisting changes when a value is computed, but not its bits.
 
 use proptest::prelude::*;
 use rstest::rstest;
@@ -7,16 +7,16 @@ use super::bind;
 use super::random::{grow, same, tree};
 use mpm_verify::exact::formula::{Formula, Hoisted, Jet};
 
-/// The variables of `grow`: y is the one that stands for the time.
+/// Number of variables of `grow`. The last one, y, is used as the time.
 const VARIABLES: usize = 2;
 
-/// Every number of a jet.
+/// Returns every number of a jet.
 fn parts(jet: &Jet<2>) -> [f64; 7] {
     let [second, mixed, last] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| jet.dd(i, j));
     [jet.value(), jet.d(0), jet.d(1), second, mixed, jet.dd(1, 0), last]
 }
 
-/// Holds the hoisted formulas against the plain ones, bit for bit, at all places and all times.
+/// Compares hoisted formulas with plain ones, bit for bit, at all positions and times.
 fn agree(formulas: &[Formula], places: &[f64], times: &[f64]) -> Result<(), TestCaseError> {
     let mut hoisted = Hoisted::new(formulas, VARIABLES);
     for x in places {
@@ -50,7 +50,7 @@ proptest! {
     }
 }
 
-/// How many operations are left for every place and time.
+/// Only operations that depend on both position and time must run for each of them.
 #[rstest]
 #[case::nothing("2*pi", 0)]
 #[case::place("sin(pi*x)+sqrt(x)", 0)]
@@ -65,7 +65,7 @@ fn what_stays_is_what_needs_both(#[case] source: &str, #[case] operations: usize
     assert_eq!(Hoisted::<f64>::new(&[formula], VARIABLES).operations(), operations);
 }
 
-/// A step that two formulas share is taken once; 0 and -0 are not the same step.
+/// An operation that two formulas share must run only once. 0 and -0 are different operands.
 #[rstest]
 #[case("x*sin(x*t)", "t*sin(x*t)", 4)]
 #[case("(x*t)/0", "(x*t)/(-0)", 3)]
@@ -75,7 +75,8 @@ fn what_is_shared_is_computed_once(#[case] one: &str, #[case] other: &str, #[cas
     agree(&formulas, &[0.0, -0.3, 1.7], &[0.0, 0.4, -2.0]).unwrap();
 }
 
-/// A sum in a sum, a variable that is a result, and a register that is used again.
+/// The formulas contain a sum in a sum, a variable that is a result, and a register that is used
+/// twice.
 #[rstest]
 #[case("sum(n,1,3,n*x*sum(m,0,2,cos(m*t)*(m-n)))")]
 #[case("sum(n,1,3,sin(n)*t)+sum(n,1,2,cos(n)*x)")]

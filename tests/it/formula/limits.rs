@@ -1,11 +1,11 @@
-//! Hostile formulas: refused, or evaluated without overflow of a test's stack of 2 MiB.
+//! Hostile formulas are refused, or evaluated without overflowing a test's stack of 2 MiB.
 
 use rstest::rstest;
 
 use super::{Expr, Formula, Scope, bind, declare};
 use mpm_verify::exact::formula::Jet;
 
-/// The longest chain that the limit of tokens permits.
+/// Returns the longest chain that the limit of tokens allows.
 fn chain(link: &str) -> String {
     format!("x{}", link.repeat(2047))
 }
@@ -62,7 +62,7 @@ fn many_tokens_are_refused() {
     assert_eq!(error.span, 4096..4097);
 }
 
-/// A scope with `f0`, and functions up to `f{last}` that call the one before.
+/// Creates a scope with functions `f0` to `f{last}`. Each one calls the previous one.
 fn tower(last: usize, body: impl Fn(usize) -> String) -> Scope {
     let mut scope = Scope::new();
     declare(&mut scope, "f0", &["a"], "a+1");

@@ -1,6 +1,6 @@
 //! Tests of the formula language as a whole.
 
-// Results are compared bit for bit where they are defined to be the same.
+// If results are defined to be equal, they are compared bit for bit.
 #![allow(clippy::float_cmp)]
 
 mod derivatives;
@@ -15,12 +15,12 @@ mod tables;
 
 use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Scope};
 
-/// Binds `source` to `variables`, with the constants of a bar in scope.
+/// Parses `source` with these variables, and with the constants of a bar in scope.
 fn bind(source: &str, variables: &[&str]) -> Result<Formula, FormulaError> {
     Formula::bind(&Expr::parse(source)?, &bar(), variables)
 }
 
-/// The constants of a bar, and two functions.
+/// Creates a scope with the constants of a bar and two functions.
 fn bar() -> Scope {
     let mut scope = Scope::new();
     for (name, value) in [("E", 4.0), ("rho", 2.0), ("L", 0.5), ("omega", 3.0), ("g", 10.0)] {

@@ -1,4 +1,4 @@
-//! Properties of arbitrary text and of arbitrary formulas.
+//! Properties of any text and of any formula.
 
 use proptest::prelude::*;
 
@@ -37,7 +37,7 @@ const TOKENS: &[&str] = &[
     "é",
 ];
 
-/// A formula as text, every operation in parentheses, and its value for given `x` and `y`.
+/// A formula, which can be converted to text and to its value for given `x` and `y`.
 #[derive(Debug, Clone)]
 pub(super) enum Tree {
     Number(u8),
@@ -48,7 +48,7 @@ pub(super) enum Tree {
     Operation(char, Box<(Tree, Tree)>),
     /// A call of the user function `h`.
     User(Box<(Tree, Tree)>),
-    /// The sum of n times the term, over n from 1 to 3.
+    /// The sum of n times the term, for n from 1 to 3.
     Sum(Box<Tree>),
 }
 
@@ -57,7 +57,7 @@ impl Tree {
         self.nested(0)
     }
 
-    /// The text within a number of sums, whose indices need different names.
+    /// Returns the text inside a number of sums, whose indices must have different names.
     fn nested(&self, sums: usize) -> String {
         match self {
             Self::Number(value) => value.to_string(),
@@ -122,7 +122,7 @@ pub(super) fn tree() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// Binds a tree's text to x and y.
+/// Parses the text of a tree as a formula of x and y.
 pub(super) fn grow(text: &str) -> Formula {
     let mut scope = bar();
     declare(&mut scope, "h", &["a", "b"], "b-a*b+a");
@@ -133,7 +133,7 @@ fn soup() -> impl Strategy<Value = Vec<&'static str>> {
     prop::collection::vec(prop::sample::select(TOKENS), 0..24)
 }
 
-/// Binds `source`, and checks that the span of an error can be shown.
+/// Parses `source`. Asserts that the span of an error can be shown.
 fn digest(source: &str) -> Result<(), FormulaError> {
     let bound = Expr::parse(source).and_then(|expr| Formula::bind(&expr, &bar(), &["x", "y"]));
     if let Err(error) = &bound
@@ -148,7 +148,7 @@ fn digest(source: &str) -> Result<(), FormulaError> {
     Ok(())
 }
 
-/// Equality of bits, except that one NaN is as good as another.
+/// Whether two numbers have equal bits. All NaN count as equal.
 pub(super) fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }

@@ -1,4 +1,4 @@
-//! Numbers side by side are computed as each by itself.
+//! A formula gives the same values for several points together as for each point alone.
 
 use proptest::prelude::*;
 use rstest::rstest;
@@ -7,7 +7,7 @@ use super::bind;
 use super::random::{grow, same, tree};
 use mpm_verify::exact::formula::{Formula, NumberBatch};
 
-/// Holds the values at eight places against those at each of them, bit for bit.
+/// Compares the values at eight points together with the values at each of them, bit for bit.
 fn agree(formula: &Formula, x: &[f64], y: f64) -> Result<(), TestCaseError> {
     let found = formula.eval(&[NumberBatch::new(|lane| x[lane]), NumberBatch::from(y)]);
     for (lane, x) in x.iter().enumerate() {
@@ -28,7 +28,7 @@ proptest! {
     }
 }
 
-/// Branches that each number takes for itself, and those that all have in common.
+/// Some branches differ between the points, others are the same for all.
 #[rstest]
 #[case("min(x,t)+2*max(x,t)")]
 #[case("x^t")]

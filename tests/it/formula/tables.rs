@@ -1,11 +1,12 @@
-//! Names that stand for a table.
+//! Names that refer to a table.
 
 use rstest::rstest;
 
 use super::{Expr, Formula, Scope};
 use mpm_verify::exact::formula::Jet;
 
-/// A ramp by `t` from 1 at 0.5 over 3 at 1 down to -1 at 2, and a constant read by another.
+/// Creates a scope with a table that rises from 1 at t = 0.5 to 3 at 1 and falls to -1 at 2, and a
+/// constant that another definition uses.
 fn scope() -> Scope {
     let mut scope = Scope::new();
     scope.table("ramp", "t", &[(0.5, 1.0), (1.0, 3.0), (2.0, -1.0)]).unwrap();

@@ -1,9 +1,9 @@
-//! Bytes as two documents to be compared: snapshots, or the JSON of runs.
+//! Interprets bytes as two documents to be compared: snapshots, or the JSON of runs.
 
 use mpm_verify::report::compare::{ReportDocument, compare, json, markdown, text};
 
-/// Reads the two parts that the first byte of zero divides, and compares them with each other and
-/// each with itself; panics where that does, and where a document differs from itself.
+/// Reads the two parts before and after the first zero byte. Compares them with each other, and
+/// each with itself. Panics if this fails, or if a document differs from itself.
 pub(crate) fn differences(bytes: &[u8]) {
     let middle = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len() / 2);
     let [old, new] =

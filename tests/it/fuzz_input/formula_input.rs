@@ -1,12 +1,12 @@
-//! Bytes as the text of a formula.
+//! Interprets bytes as the text of a formula.
 
 use mpm_verify::exact::formula::{Expr, Formula, FormulaError, Jet, Scope};
 
-/// Times, and places (m).
+/// Positions (m) and times (s).
 const POINTS: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [0.25, 1.5, -2.0], [-1e300, 1e-300, 3.0]];
 
-/// Reads what the bytes say as a formula of three variables; panics where reading or evaluating
-/// does, and where values and derivatives do not have the same bits in their values.
+/// Parses the bytes as a formula of three variables. Panics if parsing or evaluation panics, or if
+/// evaluation with and without derivatives gives different bits of the value.
 pub(crate) fn evaluate(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let scope = scope().expect("a sound scope");

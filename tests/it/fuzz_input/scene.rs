@@ -1,5 +1,5 @@
-//! A small body, its methods and laws, and the invariant of a step for any state of the particles:
-//! all numbers are finite, or an error names the particle. Shared by the fuzz target and the tests.
+//! A small body with its methods and laws. For any state of the particles, all numbers after a step
+//! must be finite, or an error must name the particle. Shared by the fuzz target and the tests.
 
 use mpm_verify::mpm::{
     BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
@@ -8,10 +8,10 @@ use mpm_verify::mpm::{
 };
 use mpm_verify::subject::{Failure, Samples, Site, Start, Subject};
 
-/// Parts of a method that go together.
+/// Basis, transfer, mass matrix and frame of a valid method.
 pub(crate) type Method = (BasisName, TransferName, MassName, FrameName);
 
-/// All of them.
+/// Lists all valid methods.
 pub(crate) fn every_method() -> Vec<Method> {
     let mut all = Vec::new();
     for &basis in BasisName::ALL {
@@ -28,7 +28,7 @@ pub(crate) fn every_method() -> Vec<Method> {
     all
 }
 
-/// One of each law of bodies that move.
+/// Lists one plan for each law of moving bodies.
 pub(crate) fn materials() -> Vec<MaterialPlan> {
     let mut all = MaterialPlan::every(|parameter| match parameter.symbol {
         "nu" => 0.3,
@@ -42,8 +42,8 @@ pub(crate) fn materials() -> Vec<MaterialPlan> {
 /// Cell size (m).
 const H: f64 = 0.5;
 
-/// Two cells of matter on each axis, which move, shear and are about to stretch, a little beyond
-/// the first cell of the grid.
+/// Creates two cells of material on each axis, a little outside the first cell of the grid. The
+/// body moves, shears and starts to stretch.
 pub(crate) fn body<const D: usize>() -> Particles<D> {
     let (from, to) = (Vector::from_element(1.06 * H), Vector::from_element(3.06 * H));
     let block = Block { from, to, density: 1.0 };
@@ -55,14 +55,14 @@ pub(crate) fn body<const D: usize>() -> Particles<D> {
     particles
 }
 
-/// How a body is held and stepped.
+/// Conditions and steps of a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scene {
     pub(crate) method: Method,
     pub(crate) scheme: SchemeName,
     pub(crate) material: MaterialPlan,
     pub(crate) start: Start,
-    /// Whether the last axis is.
+    /// Whether the last axis is periodic.
     pub(crate) periodic: bool,
     /// Cells along each axis.
     pub(crate) cells: usize,
@@ -71,11 +71,11 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// A solver for the body, under gravity and damping, held at the first face and, where it is
-    /// not periodic, at the last.
+    /// Creates a solver for the body under gravity and damping. The first face is fixed, and so is
+    /// the last one unless its axis is periodic.
     ///
     /// # Errors
-    /// As [`Solver::new`].
+    /// Errors of [`Solver::new`].
     pub(crate) fn solver<const D: usize>(
         &self,
         particles: Particles<D>,
@@ -108,8 +108,8 @@ impl Scene {
         Solver::new(setup)
     }
 
-    /// Makes a solver and takes three steps; a state that is taken on is looked at each time, and
-    /// so is what a failure says.
+    /// Creates a solver and runs three steps. After each step, checks the state, or the failure and
+    /// its message.
     pub(crate) fn holds<const D: usize>(&self, what: &str, particles: Particles<D>) {
         let count = particles.len();
         self.predicts(what, particles.clone());
@@ -126,7 +126,8 @@ impl Scene {
         }
     }
 
-    /// For any state, the stable time step is a number in the requested range, or a failure.
+    /// Asserts that the stable time step is a number in the requested range, or a failure, for any
+    /// state.
     fn predicts<const D: usize>(&self, what: &str, particles: Particles<D>) {
         const LONGEST: f64 = 0.1;
         let Ok(solver) = self.solver(particles) else { return };

@@ -1,11 +1,11 @@
-//! Bytes as a scene and the state of its particles. Every byte string is one; where bytes run out
-//! they are zero, which stands for what is usual.
+//! Interprets bytes as a scene and the state of its particles. Every byte string is valid; missing
+//! bytes are zero, which stands for usual values.
 
 use super::scene::{Scene, body, every_method, materials};
 use mpm_verify::mpm::{Matrix, SchemeName, Vector};
 use mpm_verify::subject::Start;
 
-/// Numbers at which arithmetic turns.
+/// Numbers at which arithmetic changes its behaviour.
 const TURNS: [f64; 20] = [
     0.0,
     -0.0,
@@ -40,7 +40,8 @@ impl Bytes<'_> {
         all[self.byte() % all.len()]
     }
 
-    /// A usual number, a turn of arithmetic, a number up to 32 in steps of 1/1024, or any number.
+    /// Returns the usual number, one of `TURNS`, a number up to 32 in steps of 1/1024, or any
+    /// number.
     fn number(&mut self, usual: f64) -> f64 {
         match self.byte() % 4 {
             0 => usual,
@@ -51,7 +52,7 @@ impl Bytes<'_> {
     }
 }
 
-/// Steps what the bytes say; panics where a step does, or keeps a NaN to itself.
+/// Runs steps from the state in the bytes. Panics if a step panics, or hides a NaN.
 pub(crate) fn step(bytes: &[u8]) {
     let mut bytes = Bytes(bytes.iter());
     let dimension = bytes.byte();

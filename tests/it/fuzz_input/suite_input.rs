@@ -1,11 +1,11 @@
-//! Bytes as the text of a suite.
+//! Interprets bytes as the text of a suite.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 
-/// Loads what the bytes say; panics where loading does, where a complaint does not name the file,
-/// or where what was accepted cannot be stated.
+/// Loads the bytes as a suite. Panics if loading panics, if an error does not name the file, or if
+/// an accepted suite cannot be described.
 pub(crate) fn load(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     let loaded = Source::from_text("suite.yaml", text).and_then(|source| Suite::load(&source));

@@ -8,32 +8,33 @@ use rstest::rstest;
 use super::Random;
 use mpm_verify::verify::{Level, OrderHypothesis, judge, two_sided_95};
 
-/// Series in the gate, and in a thorough run.
+/// Number of series in the gate.
 const SOME: usize = 5_000;
 const MANY: usize = 100_000;
 
-/// Points of the midpoint rule for Imhof's integral over u, with u = s/(1 - s).
+/// Number of points of the midpoint rule for Imhof's integral over u, with u = s/(1 - s).
 const POINTS: usize = 100_000;
 
-/// Cells along a bar of length 25, in two plans of refinement.
+/// Numbers of cells along a bar of length 25, in two refinement plans.
 const HALVINGS: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
 const UNEQUAL: [f64; 8] = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
 
-/// Distributions of departures of `ln error` from the line, with a size of about one.
+/// Distribution of the distances of `ln error` from the line. Its size is about one.
 #[derive(Debug, Clone, Copy)]
 enum Noise {
     Normal,
-    /// Bounded.
+    /// Uniform distribution, which is bounded.
     Uniform,
-    /// Heavy tails.
+    /// Laplace distribution, with heavy tails.
     Laplace,
-    /// To one side.
+    /// Exponential distribution, to one side only.
     Exponential,
-    /// Normal, with a different size on each level, between 0.5 and 2.
+    /// Normal distribution, with a different size between 0.5 and 2 on each level.
     Uneven,
-    /// Normal, with a factor that all levels share: any two are correlated to 0.9.
+    /// Normal distribution with a factor that all levels share: any two levels have the correlation
+    /// 0.9.
     Common,
-    /// Normal, each level correlated with its neighbour to this.
+    /// Normal distribution. Each level has this correlation with its neighbour.
     Neighbours(f64),
 }
 
@@ -67,7 +68,8 @@ struct Count {
     shortened: usize,
 }
 
-/// Noise of 1 to 5 %, `levels.0` to `levels.1` levels, orders from 1 to 3.
+/// Counts covered series with noise of 1 to 5 %, `levels.0` to `levels.1` levels, and orders from 1
+/// to 3.
 fn count(series: usize, cells: &[f64], noise: Noise, levels: (usize, usize), seed: u64) -> Count {
     let mut random = Random(seed);
     let mut count = Count::default();
@@ -93,7 +95,7 @@ fn count(series: usize, cells: &[f64], noise: Noise, levels: (usize, usize), see
     count
 }
 
-/// A series without an order counts as not covered, and must be rare in itself.
+/// A series without an order counts as not covered. Such series must be rare.
 fn covers_in_95_per_cent(series: usize, noise: Noise) {
     for (cells, seed) in [(HALVINGS, 2024), (UNEQUAL, 2025)] {
         let count = count(series, &cells, noise, (5, 8), seed);
@@ -135,10 +137,10 @@ fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many(
     covers_in_95_per_cent(MANY, noise);
 }
 
-/// The probability that the interval of a regression over `levels` equal steps of `ln h` covers the
-/// slope, for normal noise with correlated neighbours: the probability of `e' C e >= 0` with
-/// `C = t^2/(n - 2) M - x x'/x'x`, M being the projection on residuals and x the centred `ln h`
-/// (Imhof 1961, Biometrika 48, eq. 3.2).
+/// Computes the probability that the interval of a regression over `levels` equal steps of `ln h`
+/// covers the slope, for normal noise with correlated neighbours. It is the probability of `e' C e
+/// >= 0` with `C = t^2/(n - 2) M - x x'/x'x`, where M is the projection on residuals and x the
+/// centred `ln h` (Imhof 1961, Biometrika 48, eq. 3.2).
 fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
     let n = levels as f64;
     let x = DVector::from_fn(levels, |k, _| k as f64 - (n - 1.0) / 2.0);
@@ -162,8 +164,8 @@ fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
     0.5 + (0..POINTS).map(integrand).sum::<f64>() / POINTS as f64 / PI
 }
 
-/// For correlated neighbours the coverage of the interval is that of regression theory, and not 95
-/// %: no interval can achieve that, see [`a_power_of_h_shifts_the_order_and_nothing_else`].
+/// For correlated neighbours the coverage is less than 95 %, as in regression theory. No interval
+/// can avoid this, see [`a_power_of_h_shifts_the_order_and_nothing_else`].
 #[rstest]
 #[case(0.0, 0.95)]
 #[case(0.5, 0.847)]
@@ -177,8 +179,8 @@ fn correlated_neighbours_are_covered_as_theory_says(#[case] correlation: f64, #[
     assert!((share - theory).abs() <= 0.01, "{share}, and {theory} in theory");
 }
 
-/// Any noise may have a part `a ln h`. It leaves no residual, so that no interval based on
-/// residuals can include it: the order and both ends are shifted by `a`.
+/// Any noise may contain a term `a ln h`, which leaves no residual. An interval based on residuals
+/// therefore cannot include it: the order and both ends are shifted by `a`.
 #[rstest]
 fn a_power_of_h_shifts_the_order_and_nothing_else(
     #[values(0.02, 0.3, 1.0)] power: f64,

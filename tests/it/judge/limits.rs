@@ -1,15 +1,15 @@
-//! Coverage of the estimated limit over the built-in suites with an exact solution.
+//! Coverage of the estimated limit for the built-in suites with an exact solution.
 //!
 //! ```console
 //! cargo test --test it limits_cover -- --ignored --nocapture    # a few minutes
 //! ```
 //!
 //! Each case runs on its usual levels. Functionals of the final state are displacement, velocity
-//! and temperature, interpolated at three points of the body (and at the observed point of the
-//! suite), component by component. A functional whose exact value is below a millionth of the
-//! largest one of the suite is omitted: it is zero by symmetry, or nothing has reached the point.
-//! Suites form two halves by a hash of their names. The constants of the estimate were chosen on
-//! the first half.
+//! and temperature, component by component. They are interpolated at three points of the body (and
+//! at the observed point of the suite). A functional whose exact value is below a millionth of the
+//! largest one of the suite is omitted: it is zero by symmetry, or the wave has not reached the
+//! point. A hash of the name assigns each suite to one of two halves. The constants of the estimate
+//! were chosen on the first half.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -22,19 +22,20 @@ use mpm_verify::suite::{Against, Case, ConvergencePlan, embedded};
 use mpm_verify::verify::{Axis, Richardson, SeriesPoint, displacement_at, estimate_limit};
 use rayon::prelude::*;
 
-/// Minimum coverage on the half of the suites that was not used to choose constants.
+/// Minimum coverage on the half of the suites that was not used to choose the constants.
 const LEAST_COVERAGE: f64 = 0.93;
 
-/// Exact value below which a functional is zero, over the largest exact value of the suite.
+/// Maximum exact value of a functional that counts as zero, relative to the largest exact value of
+/// the suite.
 const ZERO: f64 = 1e-6;
 
-/// Points of the body, as shares of its box along each axis.
+/// Points of the body, as fractions of its bounding box along each axis.
 const PLACES: [[f64; 3]; 3] = [[0.5, 0.5, 0.5], [0.37, 0.61, 0.43], [0.83, 0.21, 0.68]];
 
-/// The values of a functional on the levels of a case.
+/// Values of a functional on the levels of a case.
 struct FunctionalSeries {
     suite: String,
-    /// Initial of the quantity.
+    /// First letter of the name of the quantity.
     quantity: char,
     /// Quantity, component and point.
     name: String,
@@ -42,7 +43,7 @@ struct FunctionalSeries {
     points: Vec<SeriesPoint>,
 }
 
-/// Name and exact and computed value of each functional of a final state.
+/// Name, exact value and computed value of each functional of a final state.
 type Functionals = Vec<(String, f64, f64)>;
 
 fn functionals(plan: &ConvergencePlan, truth: &dyn Truth, t: f64, end: &Samples) -> Functionals {
@@ -79,7 +80,7 @@ fn functionals(plan: &ConvergencePlan, truth: &dyn Truth, t: f64, end: &Samples)
     all
 }
 
-/// The series of all functionals of a case; empty if a run fails.
+/// Returns the series of all functionals of a case; empty if a run fails.
 fn of_case(
     suite: &Suite,
     plan: &ConvergencePlan,
@@ -123,7 +124,7 @@ fn of_case(
     all
 }
 
-/// Half of the suites that a suite belongs to, by bit 32 of the FNV-1a hash of its name.
+/// Whether a suite belongs to the second half, by bit 32 of the FNV-1a hash of its name.
 fn is_for_test(suite: &str) -> bool {
     let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     suite.bytes().fold(0xcbf2_9ce4_8422_2325, mix) >> 32 & 1 == 1
@@ -153,7 +154,7 @@ impl Tally {
             }
             Err(refusal) => *self.refusals.entry(refusal.name()).or_default() += 1,
         }
-        // The grid convergence index of the finest three levels (Roache 1994).
+        // The interval of the grid convergence index from the finest three levels (Roache 1994).
         let mut sorted = series.points.clone();
         sorted.sort_by(|a, b| b.h.total_cmp(&a.h));
         let [.., a, b, c] = sorted[..] else { return };

@@ -1,4 +1,4 @@
-//! The judge as a whole, against series whose verdict is known.
+//! The whole judge, tested on series with known verdicts.
 
 mod coverage;
 mod limits;
@@ -12,13 +12,13 @@ use std::f64::consts::PI;
 
 use mpm_verify::verify::{Judgement, Level, OrderHypothesis, judge};
 
-/// Spacings 1, 1/2, 1/4, ... with these errors.
+/// Creates levels with the spacings 1, 1/2, 1/4, ... and these errors.
 fn halvings(errors: &[f64]) -> Vec<Level> {
     let level = |(k, error): (usize, &f64)| Level::new(libm::exp2(-(k as f64)), *error);
     errors.iter().enumerate().map(level).collect()
 }
 
-/// Spacings 1, 1/2, 1/4, ... with the errors of this function.
+/// Creates levels with the spacings 1, 1/2, 1/4, ... whose errors are given by a function.
 fn halved(levels: usize, error: impl Fn(f64) -> f64) -> Vec<Level> {
     let spacing = |k: usize| libm::exp2(-(k as f64));
     (0..levels).map(|k| Level::new(spacing(k), error(spacing(k)))).collect()
@@ -28,12 +28,12 @@ fn judged(errors: &[f64], order: f64) -> Judgement {
     judge(&halvings(errors), &OrderHypothesis::formal(order))
 }
 
-/// A small random generator (xorshift64*, Vigna 2016), so that the series do not depend on the
+/// A small random generator (xorshift64*, Vigna 2016). The series then do not depend on the
 /// platform or on versions of dependencies.
 struct Random(u64);
 
 impl Random {
-    /// Uniform in `[0, 1)`.
+    /// Returns a number that is uniform in `[0, 1)`.
     fn uniform(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
@@ -46,7 +46,7 @@ impl Random {
         low + (high - low) * self.uniform()
     }
 
-    /// Standard normal (Box & Muller 1958).
+    /// Returns a standard normal number (Box & Muller 1958).
     fn normal(&mut self) -> f64 {
         let radius = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
         radius * libm::cos(2.0 * PI * self.uniform())

@@ -1,4 +1,4 @@
-//! Ways in which verification tools are known to go wrong, each fed its bad case.
+//! Known mistakes of verification tools. Each test runs the judge on the critical case.
 
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
@@ -38,7 +38,8 @@ fn an_order_above_theory_is_no_success(#[case] order: f64) {
     assert_eq!(judge(&series, &OrderHypothesis::formal(2.0)).verdict, Verdict::TooGood);
 }
 
-/// With a ratio of two assumed, the last pair of this order-2 series would show an order of 0.83.
+/// If a ratio of two were assumed, the last pair of this series of order 2 would have the order
+/// 0.83.
 #[test]
 fn the_true_ratio_of_spacings_is_used() {
     let cells = [5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 120.0, 160.0];
@@ -60,14 +61,14 @@ fn a_claim_that_everything_meets_is_refused(#[case] claim: OrderHypothesis) {
     assert_eq!(judgement.verdict, Verdict::Failed, "{}", judgement.reason);
 }
 
-/// A zero field that equals a zero solution proves nothing.
+/// If the field and the solution are both zero, there is no evidence of convergence.
 #[test]
 fn no_error_at_all_is_not_convergence() {
     assert_eq!(judged(&[0.0; 6], 2.0).verdict, Verdict::AtFloor);
     assert!(Norms::of(&[], 1, &[]).linf.is_nan());
 }
 
-/// End points of order 2 with anything in between.
+/// The end points have order 2, but not the points between them.
 #[rstest]
 #[case(&[1.0, 0.9, 0.8, 0.7, 0.003_906_25])]
 #[case(&[1.0, 0.005, 0.005, 0.004, 0.003_906_25])]
@@ -77,7 +78,8 @@ fn not_only_the_end_points_count(#[case] errors: &[f64]) {
     assert_ne!(verdict, Verdict::Converging);
 }
 
-/// The "asymptotic range ratio" would call these values asymptotic: 1.0 to 1 %.
+/// The "asymptotic range ratio" of these values is 1.0 to 1 %, so it would classify them as
+/// asymptotic.
 #[test]
 fn the_order_of_three_values_is_held_against_theory_not_against_itself() {
     let richardson = Richardson::equal_ratio([103.0, 101.5, 101.0], 2.0);
@@ -86,7 +88,7 @@ fn the_order_of_three_values_is_held_against_theory_not_against_itself() {
     assert_abs_diff_eq!(order, libm::log2(3.0), epsilon = 1e-12);
 }
 
-/// The width of the interval follows the scatter and the number of levels.
+/// The width of the interval depends on the scatter and the number of levels.
 #[test]
 fn the_confidence_interval_is_computed() {
     let half_width = |levels: usize, sigma: f64| {
@@ -98,7 +100,7 @@ fn the_confidence_interval_is_computed() {
     assert!(half_width(9, 0.02) < half_width(4, 0.02));
 }
 
-/// The order alone would pass: it is the interval that is gated, on both sides.
+/// The order alone would pass. The gate checks the interval, on both sides.
 #[rstest]
 #[case(1.95)]
 #[case(2.05)]
@@ -112,7 +114,7 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     assert!(judgement.reason.contains("sticks out"));
 }
 
-/// An order outside the range differs from an interval that is far from the range.
+/// An order outside the range, whose interval overlaps the range, is undecided.
 #[rstest]
 #[case(1.85, 0.06, Verdict::TooLow, "below [1.9, 2.1], but the interval overlaps it")]
 #[case(2.15, 0.06, Verdict::TooGood, "above [1.9, 2.1], but the interval overlaps it")]
@@ -135,7 +137,7 @@ fn an_order_out_of_the_range_may_be_undecided(
     assert_eq!(undecided, interval.low <= 2.1 && interval.high >= 1.9);
 }
 
-/// No silent replacement: the fitted levels are shown, and an outlier stays among them.
+/// The judge must show the fitted levels, and must not remove an outlier among them.
 #[test]
 fn an_outlier_is_kept_wherever_it_lies() {
     for outlier in 1..7 {
@@ -159,7 +161,7 @@ fn a_drift_through_the_expected_range_is_not_settled() {
     assert!(judgement.reason.contains("drifts by -0.400"), "{}", judgement.reason);
 }
 
-/// Small figures are printed with all digits.
+/// Small numbers are printed with all digits.
 #[test]
 fn a_reason_tells_3_2e_9_from_3_2e_7() {
     let at = |error: f64| judged(&[error; 4], 2.0).reason;

@@ -1,11 +1,11 @@
-//! Properties of every series.
+//! Properties of the judge for any series.
 
 use proptest::prelude::*;
 
 use super::Random;
 use mpm_verify::verify::{Judgement, Level, OrderHypothesis, Verdict, judge};
 
-/// Series of all kinds: falling, flat, growing, with a floor, with and without noise.
+/// Generates series of all kinds: falling, flat, growing, with a floor, with and without noise.
 fn series() -> impl Strategy<Value = Vec<Level>> {
     let shape = (4_usize..10, -2.0..5.0_f64, 0.0..3.0_f64, any::<bool>(), 0.0..1.0_f64);
     let noise = prop_oneof![Just(0.0), 0.0..0.05_f64, 0.0..2.0_f64];
@@ -23,8 +23,8 @@ fn series() -> impl Strategy<Value = Vec<Level>> {
     })
 }
 
-/// A series of an order from 1 to 3 with a term of higher order and up to 3 % of noise, and the
-/// order.
+/// Creates a series of an order from 1 to 3 with a term of higher order and up to 3 % of noise.
+/// Returns the series and the order.
 fn of_an_order(random: &mut Random) -> (Vec<Level>, f64) {
     let (levels, order) = (random.between(4.0, 9.0) as usize, random.between(1.0, 3.0));
     let (ratio, more) = (random.between(1.2, 3.0), random.between(-0.5, 8.0).max(0.0));
@@ -38,7 +38,7 @@ fn of_an_order(random: &mut Random) -> (Vec<Level>, f64) {
     (series, order)
 }
 
-/// A level finer by the factor `finer`, on the line through the window.
+/// Creates a level on the line through the window, finer by the factor `finer`.
 fn on_the_line(judgement: &Judgement, finer: f64) -> Level {
     let window = judgement.window.as_ref().unwrap();
     let points = || window.iter().map(|k| &judgement.levels[*k]);
@@ -54,7 +54,7 @@ fn anything() -> impl Strategy<Value = Level> {
         .prop_map(|(h, error, usable)| Level { usable, ..Level::new(h, error) })
 }
 
-/// Figures of any size that an error and a spacing may have, subnormal ones included.
+/// Generates any magnitudes of error and spacing, including subnormal ones.
 fn any_magnitude() -> impl Strategy<Value = Level> {
     (any::<f64>(), any::<f64>()).prop_map(|(h, error)| Level::new(h.abs(), error.abs()))
 }
@@ -118,9 +118,10 @@ proptest! {
     }
 }
 
-/// A finer level on the line makes the interval narrower, and a pass stays a pass. In one of some
-/// thousand cases it does not, if coarse levels had been dropped together: with the finer level the
-/// evidence suffices against the outer ones only, and an inner one is in the window again.
+/// A finer level on the line makes the interval narrower, and a pass remains a pass. In about one
+/// of a thousand cases it does not, if several coarse levels had been dropped. With the finer level
+/// the evidence suffices against the outermost of them only, so an inner one is in the window
+/// again.
 #[test]
 fn a_consistent_finer_level_turns_no_pass_into_a_failure() {
     let mut random = Random(2027);

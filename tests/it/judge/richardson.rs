@@ -44,7 +44,7 @@ fn nothing_to_say(#[case] values: [f64; 3], #[case] ratio: f64, #[case] class: R
     assert_eq!(richardson.extrapolated, None);
 }
 
-/// `u(h) = 3 + 2 h^p` gives back p and 3.
+/// For `u(h) = 3 + 2 h^p` the results must be p and 3.
 #[rstest]
 fn a_power_of_h_is_recovered(
     #[values(0.5, 1.0, 5.0 / 3.0, 2.0, 6.0)] order: f64,
@@ -58,7 +58,7 @@ fn a_power_of_h_is_recovered(
     assert_relative_eq!(richardson.extrapolated.unwrap(), 3.0, max_relative = 1e-9);
 }
 
-/// A negative order is divergent for any spacings.
+/// A negative order means divergence, for any spacings.
 #[rstest]
 fn a_negative_power_of_h_diverges(
     #[values(-0.2, -1.0)] order: f64,

@@ -3,10 +3,10 @@
 use mpm_verify::verify::{NormName, rounding_bound, single_precision_spacing};
 use rstest::rstest;
 
-/// Final positions and number of changes of cell of a periodic bar on `[origin, origin + 1]` with
-/// E = rho = 1 and P = E (F - 1), whose initial velocity is `amplitude sin(2 pi X)`. Linear basis
-/// functions, two particles per cell, FLIP, MUSL, updated Lagrangian, a start at t = 0 and the
-/// Courant number 0.4. Every operation has the precision of the type.
+/// Runs a periodic bar on `[origin, origin + 1]` with E = rho = 1 and P = E (F - 1), whose initial
+/// velocity is `amplitude sin(2 pi X)`. Returns the final positions and the number of cell changes.
+/// Linear basis functions, two particles per cell, FLIP, MUSL, updated Lagrangian, a start at t = 0
+/// and the Courant number 0.4. Every operation has the precision of the type.
 macro_rules! periodic_bar {
     ($name:ident, $real:ty) => {
         fn $name(origin: f64, cells: usize, amplitude: f64, steps: usize) -> (Vec<f64>, usize) {
@@ -71,14 +71,14 @@ macro_rules! periodic_bar {
 periodic_bar!(in_single_precision, f32);
 periodic_bar!(in_double_precision, f64);
 
-/// Root mean square and maximum of the values.
+/// Returns the root mean square and the maximum of the values.
 fn norms(values: &[f64]) -> [f64; 2] {
     let squares: f64 = values.iter().map(|x| x * x).sum();
     [(squares / values.len() as f64).sqrt(), values.iter().fold(0.0, |most, x| most.max(x.abs()))]
 }
 
-/// Without changes of cell, and with displacements above 20 times the bound, the rounding error is
-/// 0.02 to 1 times the bound in the RMS norm, and below the bound in the maximum norm.
+/// If no particle changes its cell and displacements are above 20 times the bound, the rounding
+/// error is 0.02 to 1 times the bound in the RMS norm, and below the bound in the maximum norm.
 #[rstest]
 #[case::first_binade(0.0, &[1e-2, 1e-3, 1e-4])]
 #[case::second_binade(1.0, &[1e-2, 1e-3])]
@@ -88,7 +88,7 @@ fn the_bound_is_above_the_rounding_error(#[case] origin: f64, #[case] amplitudes
     let mut compared = Vec::new();
     for amplitude in amplitudes {
         for cells in [32, 64, 128] {
-            // Until t = 0.25 s.
+            // The run ends at t = 0.25 s.
             let steps = (0.25 / 0.4 * cells as f64).round() as usize;
             let (single, crossings) = in_single_precision(origin, cells, *amplitude, steps);
             let (double, _) = in_double_precision(origin, cells, *amplitude, steps);

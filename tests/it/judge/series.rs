@@ -104,7 +104,7 @@ fn the_order_before_a_floor_is_that_of_the_levels_before_it() {
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 1e-12);
 }
 
-/// Levels whose spacings have this ratio, from 1 on, with errors of order 2.
+/// Creates levels of order 2 whose spacings start at 1 and have this ratio.
 fn levels_by(ratio: f64, levels: usize) -> Vec<Level> {
     let spacing = |k: usize| libm::pow(ratio, -(k as f64));
     (0..levels).map(|k| Level::new(spacing(k), spacing(k) * spacing(k))).collect()
@@ -120,7 +120,7 @@ fn any_ratio_of_spacings_has_its_order(#[case] ratio: f64, #[case] rounding: f64
     assert!((order.low - 2.0).abs().max((order.high - 2.0).abs()) <= rounding, "{order:?}");
 }
 
-/// A percent of noise is an order of a hundred where a level is finer by a ten-thousandth.
+/// If a level is finer by a ten-thousandth, noise of 1 % causes an order of a hundred.
 #[test]
 fn noise_on_levels_that_are_hardly_finer_does_not_pass() {
     for seed in 1..1000 {
@@ -184,7 +184,7 @@ fn an_unusable_level_in_between_is_skipped_and_one_that_failed_is_not() {
     assert_eq!(judgement.reason, "h = 0.25: particle 7 left the domain at t = 0.2");
 }
 
-/// A level that does not count is not quoted either.
+/// A level that does not count must not be quoted.
 #[test]
 fn a_floor_is_that_of_usable_levels() {
     let mut series = halvings(&[16.0, 4.0, 1.0, 0.0, 0.0, 0.0]);

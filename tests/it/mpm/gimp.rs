@@ -1,9 +1,9 @@
-//! Generalized interpolation.
+//! Generalized interpolation (GIMP).
 
 use mpm_verify::mpm::{BasisName, Block, Particles, Vector, kernel};
 use rstest::rstest;
 
-/// Found by the fuzzer: a length that no body has reached far beyond the grid.
+/// The fuzzer found this case: a particle domain that extends far outside the grid.
 #[rstest]
 #[case::negative(-1e30)]
 #[case::infinite(f64::INFINITY)]

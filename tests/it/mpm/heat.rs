@@ -20,7 +20,8 @@ fn plate(basis: BasisName) -> (Box<dyn Kernel<2>>, Grid<2>, Particles<2>) {
     (kernel, grid, particles)
 }
 
-/// `1 + 2 x - 3 y`, up to the walls: each node has the field's value at its position.
+/// The temperature is `1 + 2 x - 3 y`. Each node, even at walls, must have the value of the field
+/// at its position.
 #[rstest]
 fn a_linear_temperature_is_shown_as_it_is(
     #[values(
@@ -48,8 +49,8 @@ fn a_linear_temperature_is_shown_as_it_is(
     }
 }
 
-/// The heat of the particles increases by the inflow: 7 W/m through an edge of 0.5 m, and 5 W/kg in
-/// 1.5 kg.
+/// The heat of the particles must increase by the inflow: 7 W/m through an edge of 0.5 m, and 5
+/// W/kg in 1.5 kg.
 #[rstest]
 fn no_heat_is_lost(
     #[values(BasisName::Linear, BasisName::Cpdi, BasisName::CubicBSpline)] basis: BasisName,
@@ -74,8 +75,8 @@ fn no_heat_is_lost(
     assert_relative_eq!(gained, 0.05 * (7.0 * 0.5 + 5.0 * 1.5), max_relative = 1e-12);
 }
 
-/// In a body of uniform temperature there is no flux, and forward Euler subtracts r dt of it in
-/// each step.
+/// In a body of uniform temperature there is no flux. Forward Euler must subtract r dt of the
+/// temperature in each step.
 #[rstest]
 fn a_source_has_the_temperature_at_the_start_of_the_step(
     #[values(

@@ -1,5 +1,5 @@
-//! The energy ledger of a step: its entries add up to the change of the energy, and those of
-//! classical transfers have closed forms.
+//! The energy ledger of a step: its entries must add up to the change of the energy. For classical
+//! transfers the entries have closed forms.
 
 use crate::common::{DT, free_body, pairs};
 use mpm_verify::mpm::{
@@ -9,10 +9,10 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::Subject;
 use rstest::rstest;
 
-/// Largest difference, as a share of the sum of the magnitudes of all entries.
+/// Maximum difference, relative to the sum of the magnitudes of all entries.
 const TOLERANCE: f64 = 1e-13;
 
-/// A free body with scattered particles of unequal mass and a stored energy.
+/// Creates a free body with scattered particles of unequal mass and a stored energy.
 fn scattered<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) -> Setup<D> {
     let mut setup = free_body::<D>(method, scheme);
     for (p, x0) in setup.particles.x0.iter_mut().enumerate() {
@@ -21,7 +21,7 @@ fn scattered<const D: usize>(method: (BasisName, TransferName), scheme: SchemeNa
         setup.particles.mass[p] *= 1.0 + 0.4 * libm::cos(5.7 * k);
     }
     setup.particles.x.clone_from(&setup.particles.x0);
-    // Without the common motion, whose energy is much larger than all entries.
+    // The common motion is removed, because its energy is much larger than all entries.
     setup.particles.v.iter_mut().for_each(|v| *v -= Vector::from_element(1.2));
     setup.particles.sigma.fill(nalgebra::SMatrix::zeros());
     setup.particles.track_deformation();
@@ -38,8 +38,8 @@ fn balanced<const D: usize>(method: (BasisName, TransferName), scheme: SchemeNam
         ledger.step(&mut solver, DT).expect("a step");
         let change = ledger.energy().expect("an energy") - start;
         let error = (ledger.change() - change).abs();
-        // An energy is a sum with a term for each node of each particle, which rounds each of its
-        // partial sums.
+        // An energy is a sum with a term for each node of each particle. Each partial sum is
+        // rounded.
         let terms = (solver.particles().len() * 4_usize.pow(D as u32)) as f64;
         let allowed = TOLERANCE * ledger.size() + terms * f64::EPSILON * start;
         assert!(error <= allowed, "{method:?} {scheme:?} step {step}: {error:e} of {change:e}");
@@ -47,7 +47,8 @@ fn balanced<const D: usize>(method: (BasisName, TransferName), scheme: SchemeNam
     assert!(ledger.size() > 1e-6 * start, "{method:?}: nothing happens");
 }
 
-/// Every basis with every transfer, except TLS, whose nodal masses are not those of the particles.
+/// Every basis is combined with every transfer, except TLS, whose nodal masses are not computed
+/// from those of the particles.
 #[rstest]
 fn entries_add_up_to_the_change_of_the_energy(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -66,7 +67,7 @@ struct Maps<'a> {
 }
 
 impl Maps<'_> {
-    /// `f.(M - M_c) f/2` for a nodal field.
+    /// Returns `f.(M - M_c) f/2` for a nodal field.
     fn lost(&self, field: &[Vector<2>]) -> f64 {
         let (grid, kernel) = (self.solver.grid(), kernel::<2>(self.basis));
         let mut sum = 0.0;
@@ -79,7 +80,7 @@ impl Maps<'_> {
         sum
     }
 
-    /// `v.m (I - P) v/2` for the velocities of the particles.
+    /// Returns `v.m (I - P) v/2` for the velocities of the particles.
     fn filtered(&self) -> f64 {
         let (grid, kernel, v) = (self.solver.grid(), kernel::<2>(self.basis), &self.particles.v);
         let mut nodal = vec![Vector::zeros(); grid.nodes()];
@@ -96,7 +97,8 @@ impl Maps<'_> {
     }
 }
 
-/// The identities for one step of USL: after it the grid has the fields of the step.
+/// The identities are checked after one step of USL, when the grid still has the fields of the
+/// step.
 #[rstest]
 fn classical_transfers_have_closed_forms(
     #[values(BasisName::Linear, BasisName::QuadraticBSpline, BasisName::CubicBSpline)]
@@ -104,7 +106,7 @@ fn classical_transfers_have_closed_forms(
     #[values(TransferName::Flip, TransferName::Pic)] transfer: TransferName,
 ) {
     let mut solver = Solver::new(scattered::<2>((basis, transfer), SchemeName::Usl)).unwrap();
-    // Forces from the second step on.
+    // The stress is non-zero from the second step.
     solver.step(DT).unwrap();
     let particles = solver.particles().clone();
     let mut ledger = EnergyLedger::new(basis);
@@ -129,7 +131,7 @@ fn classical_transfers_have_closed_forms(
     }
 }
 
-/// PIC and APIC replace velocities by mapped ones, so that no particle keeps its own.
+/// PIC and APIC replace velocities by mapped ones, so no particle keeps a part of its own velocity.
 #[rstest]
 fn replaced_velocities_are_not_kept(
     #[values(TransferName::Pic, TransferName::Apic)] transfer: TransferName,
@@ -160,8 +162,8 @@ fn a_step_with_a_ledger_has_the_bits_of_a_step() {
     }
 }
 
-/// FLIP under MUSL conserves the energy of a smooth motion: the error of the stress work falls with
-/// the square of the step, because kinetic and stored energy are those of one time.
+/// FLIP under MUSL conserves the energy of a smooth motion. The error of the stress work decreases
+/// with the square of the step, because kinetic and stored energy are taken at the same time.
 #[test]
 fn the_error_of_the_stress_work_has_order_two_in_the_step() {
     let error = |dt: f64, steps: usize| {

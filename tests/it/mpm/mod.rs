@@ -1,4 +1,4 @@
-//! Parts of the solver, by their public interfaces.
+//! Parts of the solver, tested through their public interfaces.
 
 mod dispersion;
 mod gimp;

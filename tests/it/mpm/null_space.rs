@@ -1,4 +1,4 @@
-//! The part of the velocities that gives no node any momentum.
+//! The part of the velocities that contributes no momentum to any node.
 
 use crate::common;
 use approx::assert_relative_eq;
@@ -10,7 +10,8 @@ use rstest::rstest;
 
 const CELLS: usize = 4;
 
-/// A body that fills a periodic grid, with `per_axis` particles in a cell and velocities `v`.
+/// Creates a body that fills a periodic grid, with `per_axis` particles in a cell and velocities
+/// `v`.
 fn body<const D: usize>(
     basis: BasisName,
     per_axis: usize,
@@ -19,7 +20,7 @@ fn body<const D: usize>(
     let to = Vector::from_element(CELLS as f64);
     let block = Block { from: Vector::zeros(), to, density: 2.0 };
     let mut particles = Particles::fill(&block, 1.0, per_axis);
-    // No symmetry: places differ from cell to cell.
+    // Positions differ from cell to cell, so there is no symmetry.
     for (p, x) in particles.x.iter_mut().enumerate() {
         *x += Vector::from_element(if per_axis > 1 { 0.1 * libm::sin(p as f64) } else { 0.0 });
         particles.v[p] = v(p);
@@ -30,17 +31,17 @@ fn body<const D: usize>(
     Solver::new(setup).unwrap()
 }
 
-/// Twice the kinetic energy (J) of particles with these velocities.
+/// Returns twice the kinetic energy (J) of particles with these velocities.
 fn square<const D: usize>(particles: &Particles<D>, v: &[Vector<D>]) -> f64 {
     particles.mass.iter().zip(v).map(|(m, v)| m * v.norm_squared()).sum()
 }
 
-/// Share of the kinetic energy.
+/// Returns the kinetic energy of the velocities `found`, as a fraction of the total kinetic energy.
 fn share<const D: usize>(found: &[Vector<D>], particles: &Particles<D>) -> f64 {
     square(particles, found) / square(particles, &particles.v)
 }
 
-/// One particle in the middle of each cell, and signs that alternate (Brackbill 1988).
+/// There is one particle in the middle of each cell, and the signs alternate (Brackbill 1988).
 #[test]
 fn what_alternates_in_the_middle_of_cells_is_all_in_the_null_space() {
     let solver = body(BasisName::Linear, 1, |p| Vector::<1>::new([1.0, -1.0][p % 2]));
@@ -53,12 +54,12 @@ fn of_any_velocity<const D: usize>() {
     for &basis in BasisName::ALL {
         let any =
             |p: usize| Vector::<D>::from_fn(|i, _| libm::sin(((p * D + i) * (p * D + i)) as f64));
-        // More particles than a cell of any basis has nodes.
+        // A cell has more particles than nodes for any basis.
         let mut solver = body(basis, 3, any);
         let (particles, found) = (solver.particles(), solver.null_space_velocity());
         let lost = share(&found, particles);
         assert!((0.1..0.97).contains(&lost), "{basis:?}: {lost}");
-        // It gives no node any momentum,
+        // This part contributes no momentum to any node,
         let (kernel, mut grid) = (kernel::<D>(basis), solver.grid().clone());
         kernel.p2g_mass(particles, &mut grid);
         let mut nodal = vec![Vector::zeros(); grid.nodes()];

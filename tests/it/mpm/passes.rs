@@ -1,4 +1,4 @@
-//! Steps pass by pass.
+//! Compares the passes of steps.
 
 use crate::common::{DT, H, body};
 use mpm_verify::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};

@@ -9,7 +9,7 @@ use mpm_verify::mpm::{
 use mpm_verify::subject::{Failure, Subject};
 use rstest::rstest;
 
-/// A column along the first axis under its own weight, on a fixed bottom and between rollers.
+/// A column along the first axis under its own weight, with a fixed bottom and between rollers.
 #[derive(Debug, Clone, Copy)]
 struct ColumnCase {
     material: MaterialPlan,
@@ -60,7 +60,7 @@ impl ColumnCase {
         QuasiStatic::new(self.setup(basis)).unwrap()
     }
 
-    /// Runs all load steps; returns the residuals of each.
+    /// Runs all load steps. Returns the residuals of each load step.
     fn run<const D: usize>(self, solver: &mut QuasiStatic<D>) -> Vec<Vec<f64>> {
         let step = |_| {
             solver.step(1.0).unwrap();
@@ -69,7 +69,8 @@ impl ColumnCase {
         (0..self.load_steps).map(step).collect()
     }
 
-    /// Modulus of compression (Pa) up to yield and beyond, and the logarithmic strain at yield.
+    /// Returns the compression modulus (Pa) below and above yield, and the logarithmic strain at
+    /// yield.
     fn bilinear(self) -> [f64; 3] {
         match self.material {
             MaterialPlan::DruckerPrager { friction, dilation, strength, .. } => {
@@ -84,9 +85,10 @@ impl ColumnCase {
         }
     }
 
-    /// Height (m) of a material point in equilibrium: the axial Kirchhoff stress is bilinear in the
-    /// logarithmic strain, and equal to minus the weight above times the stretch. With Lambert's
-    /// function W and `k(w) = w + w^2/2`, the integral of the stretch over the weight is `M k(W)`.
+    /// Returns the height (m) of a material point in equilibrium. The axial Kirchhoff stress is
+    /// bilinear in the logarithmic strain, and equals minus the weight above times the stretch.
+    /// With Lambert's function W and `k(w) = w + w^2/2`, the integral of the stretch over the
+    /// weight is `M k(W)`.
     fn exact_height(self, y: f64) -> f64 {
         let ([modulus, plastic, strain], weight) = (self.bilinear(), self.density * self.gravity);
         let at_yield = modulus * strain * libm::exp(strain);
@@ -100,8 +102,8 @@ impl ColumnCase {
         (integral(weight * self.height) - integral(weight * (self.height - y))) / weight
     }
 
-    /// RMS of the displacement error (m) after the last load step, and mean error of the stress, as
-    /// a share of the weight of the column.
+    /// Returns the RMS of the displacement error (m) after the last load step, and the mean error
+    /// of the stress, relative to the weight of the column.
     fn errors(self, basis: BasisName) -> [f64; 2] {
         let mut solver = self.build::<1>(basis);
         self.run(&mut solver);
@@ -110,7 +112,7 @@ impl ColumnCase {
         for ((x, x0), sigma) in x.iter().zip(x0).zip(sigma) {
             let error = x[0] - self.exact_height(x0[0]);
             square += error * error / total;
-            // The Cauchy stress is the weight above, for any law.
+            // For any law, the Cauchy stress equals the weight above.
             let weight = self.density * self.gravity;
             stress += (sigma[(0, 0)] / weight + self.height - x0[0]).abs() / self.height / total;
         }
@@ -118,13 +120,13 @@ impl ColumnCase {
     }
 }
 
-/// Lambert's function: `w exp(w) = x`.
+/// Computes Lambert's function: `w exp(w) = x`.
 fn lambert(x: f64) -> f64 {
     (0..50).fold(x, |w, _| w - (w - x * libm::exp(-w)) / (1.0 + w))
 }
 
-/// `ln(R_(j+1)/R_j) / ln(R_j/R_(j-1))` for the last three residuals above 1e-10; `None` if there
-/// are fewer, or the residual rises on the way.
+/// Returns `ln(R_(j+1)/R_j) / ln(R_j/R_(j-1))` for the last three residuals above 1e-10; `None` if
+/// there are fewer, or if a residual is larger than the previous one.
 fn newton_exponent(residuals: &[f64]) -> Option<f64> {
     let above: Vec<f64> = residuals.iter().copied().filter(|residual| *residual > 1e-10).collect();
     let falls = above.windows(2).all(|pair| pair[1] < pair[0]);
@@ -162,9 +164,9 @@ fn error_does_not_grow_with_the_number_of_load_steps(#[values(20, 40)] cells: us
     assert!(errors[1] <= 1.05 * errors[0] && errors[2] <= 1.05 * errors[0], "{errors:?}");
 }
 
-/// Orders between neighbouring levels of 10, 20, 40 and 80 cells, which an independent program has
-/// given: of the displacement within 0.15 and of the stress within 0.3. In one step a cell carries
-/// its mean stress at two quarter points: order 2, and 1 in the stress.
+/// Orders between neighbouring levels of 10, 20, 40 and 80 cells must agree with those of an
+/// independent program: of the displacement within 0.15, of the stress within 0.3. In one step a
+/// cell has its mean stress at both quarter points: order 2, and order 1 in the stress.
 #[rstest]
 #[case::hencky_at_once(
     ColumnCase::hencky,
@@ -211,7 +213,8 @@ fn orders_between_levels_are_those_of_theory(
     }
 }
 
-/// Particles that have left the quarter points of fixed cells integrate linear functions wrongly.
+/// Particles that are no longer at the quarter points of fixed cells integrate linear functions
+/// with an error.
 #[rstest]
 #[case::hencky(ColumnCase::hencky)]
 #[case::drucker_prager(ColumnCase::drucker_prager)]
@@ -220,7 +223,7 @@ fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u6
     assert!(errors.windows(2).all(|pair| pair[1][0] > pair[0][0]), "{errors:?}");
 }
 
-/// Load steps of half the length are twice as many load steps.
+/// If load steps have half the length, there are twice as many.
 #[test]
 fn shorter_load_steps_are_more_of_them() {
     let mut short = ColumnCase::drucker_prager(6, 3).build::<1>(BasisName::ContiguousGimp);
@@ -231,14 +234,14 @@ fn shorter_load_steps_are_more_of_them() {
     assert_eq!(short.particles().x, long.particles().x);
 }
 
-/// Largest height of a particle of a column in `D` dimensions after all load steps.
+/// Returns the largest height of a particle of a column in `D` dimensions after all load steps.
 fn height<const D: usize>(case: ColumnCase, basis: BasisName) -> f64 {
     let mut solver = case.build::<D>(basis);
     case.run(&mut solver);
     solver.particles().x.iter().map(|x| x[0]).fold(0.0, f64::max)
 }
 
-/// A column between rollers has one and the same equilibrium in one, two and three dimensions.
+/// A column between rollers must have the same equilibrium in one, two and three dimensions.
 #[rstest]
 fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
     let case = ColumnCase::drucker_prager(4, load_steps);
@@ -250,7 +253,7 @@ fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
     }
 }
 
-/// The bottom carries the weight.
+/// The reaction of the bottom must equal the weight.
 #[test]
 fn reaction_is_the_weight() {
     let case = ColumnCase::drucker_prager(6, 2);
@@ -262,8 +265,8 @@ fn reaction_is_the_weight() {
     assert_relative_eq!(reaction.force[0], weight, max_relative = 1e-9);
 }
 
-/// A full correction of Newton's method would turn the column inside out: its strain at the bottom
-/// is the weight over the modulus, and that of the solution is its logarithm.
+/// A full correction of Newton's method would invert the column. The correction of the strain at
+/// the bottom is the weight over the modulus, while the solution is its logarithm.
 #[test]
 fn corrections_that_invert_particles_are_shortened() {
     let case = ColumnCase { gravity: 750.0, ..ColumnCase::hencky(20, 1) };
@@ -271,7 +274,7 @@ fn corrections_that_invert_particles_are_shortened() {
     assert!(displacement < 0.05 && stress < 0.03, "{displacement}, {stress}");
 }
 
-/// Soil that hangs from its wall: the weight exceeds the tensile strength of the cone.
+/// Soil hangs from its wall, and the weight exceeds the tensile strength of the cone.
 #[test]
 fn load_without_equilibrium_is_reported_with_residual_and_node() {
     let case = ColumnCase { gravity: -15.0, ..ColumnCase::drucker_prager(10, 10) };
@@ -293,11 +296,11 @@ fn body_without_load_or_tangent_is_refused() {
     assert_eq!(failure.to_string(), "the law has no consistent tangent");
 }
 
-/// Cook's membrane at nu = 1/3 under a small load, which a finite-element program moves by 0.01 m.
-/// The explicit solver comes to rest at these shares of it (suite cooks-membrane, with another law,
-/// which does not matter at strains of 0.02 %). With contiguous GIMP and quadratic B-splines the
-/// explicit panel still moves at the end of that suite, from shares of 0.981 to 0.992 and 1.016 to
-/// 1.019 in four times the time; the equilibria are at 1.022 and 1.030.
+/// Cook's membrane at nu = 1/3 under a small load has a displacement of 0.01 m in a finite-element
+/// program. The explicit solver comes to rest at these fractions of it (suite cooks-membrane, with
+/// another law, which has no effect at strains of 0.02 %). With contiguous GIMP and quadratic
+/// B-splines the explicit panel still moves at the end of that suite: in four times the time, from
+/// 0.981 to 0.992 and from 1.016 to 1.019. The equilibria are at 1.022 and 1.030.
 #[rstest]
 #[case::linear(BasisName::Linear, 0.994)]
 #[case::cpdi(BasisName::Cpdi, 0.982)]
@@ -331,9 +334,9 @@ fn resumed_run_has_equal_bits() {
     assert!(goes_on(|| case.build::<1>(BasisName::ContiguousGimp), 1.0, "load steps"));
 }
 
-/// The whole tangent in two dimensions, next to a rough wall. The soil yields under its own weight,
-/// so that quadratic convergence begins when no particle changes between elastic and plastic any
-/// more: it shows in three residuals in a row, above rounding.
+/// The whole tangent is tested in two dimensions, next to a rough wall. The soil yields under its
+/// own weight. Quadratic convergence begins when no particle changes between elastic and plastic
+/// any more. It is visible in three consecutive residuals above rounding.
 #[rstest]
 fn newton_converges_quadratically_in_two_dimensions(
     #[values(BasisName::Linear, BasisName::ContiguousGimp, BasisName::QuadraticBSpline)]

@@ -11,7 +11,7 @@ use rstest::rstest;
 
 const CELLS: usize = 3;
 
-/// A stressed body that fills the grid.
+/// Creates a stressed body that fills the grid.
 fn full<const D: usize>(basis: BasisName, scheme: SchemeName) -> Setup<D> {
     let (from, to) = (Vector::zeros(), Vector::from_element(H * CELLS as f64));
     let mut particles = Particles::<D>::fill(&Block { from, to, density: 1.0 }, H, 2);
@@ -23,8 +23,8 @@ fn full<const D: usize>(basis: BasisName, scheme: SchemeName) -> Setup<D> {
     body((basis, TransferName::Flip), scheme, particles, (H, CELLS))
 }
 
-/// Without loads, reactions are all that changes the momentum: FLIP with a lumped mass gives it the
-/// nodal forces, and the internal ones cancel.
+/// Without loads, only reactions change the momentum: FLIP with a lumped mass adds the nodal forces
+/// to it, and the internal forces cancel.
 fn balances<const D: usize>(scheme: SchemeName, start: Start) {
     for basis in [BasisName::Linear, BasisName::QuadraticBSpline, BasisName::ContiguousGimp] {
         let mut setup = Setup { start, ..full::<D>(basis, scheme) };
@@ -57,8 +57,8 @@ fn reactions_are_what_changes_the_momentum(
     in_dimension!(dimension, balances(scheme, start));
 }
 
-/// Under uniform stress the reaction of a roller is the normal traction of its face, also at its
-/// edges. A moving wall has no reaction.
+/// Under uniform stress the reaction of a roller must equal the normal traction of its face, even
+/// at the edges. A moving wall has no reaction.
 #[test]
 fn a_roller_takes_the_traction_of_its_face() {
     let mut setup = full::<2>(BasisName::Linear, SchemeName::Usl);

@@ -1,5 +1,5 @@
-//! Comparison of the solver with an independent implementation, `tests/second_opinion`: errors and
-//! fields on some levels of the suites, to 1e-9.
+//! Compares the solver with an independent implementation, `tests/second_opinion`: errors and
+//! fields on some levels of the suites must agree to 1e-9.
 
 use mpm_verify::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
@@ -12,14 +12,14 @@ use rstest::rstest;
 use std::fs;
 use std::path::PathBuf;
 
-/// Largest difference, as a share of the error or of the field.
+/// Maximum difference, relative to the error or to the field.
 const TOLERANCE: f64 = 1e-9;
 
-/// Rounding of a position or of F in a run, as a share of it: an error or a strain is a small
-/// difference of these.
+/// Relative rounding error of a position or of F in a run. Errors and strains are small differences
+/// of these numbers.
 const ROUNDING: f64 = 1e-14;
 
-/// A level of a case.
+/// A level of a case, with the results of the independent implementation.
 struct Level {
     method: Method,
     cells: u64,
@@ -27,12 +27,13 @@ struct Level {
     end: End,
 }
 
-/// End of a run.
+/// End of a run, with its results.
 enum End {
-    /// The step in which a particle is inverted.
+    /// A particle is inverted in this step.
     Inverted(u64),
-    /// The rms error at the end (m), the largest of all instants, and the largest rms of each
-    /// field; then fields of particles at the end, by their numbers.
+    /// `figures` are the rms error at the end (m), the largest error of all instants, and the
+    /// largest rms of each field. `particles` are fields of particles at the end, by the numbers of
+    /// the particles.
     Sound { figures: Vec<f64>, particles: Vec<(usize, Vec<f64>)> },
 }
 
@@ -56,7 +57,7 @@ fn method(words: &[&str]) -> Method {
     }
 }
 
-/// The levels of a file, each with the method of its case.
+/// Reads the levels in a file, each with the method of its case.
 fn read(text: &str) -> Vec<Level> {
     let numbers = |words: &[&str]| -> Vec<f64> {
         words.iter().map(|word| word.parse().expect("a number")).collect()
@@ -84,8 +85,8 @@ fn read(text: &str) -> Vec<Level> {
     levels
 }
 
-/// Displacement, velocity, stress and F - I of all particles; the last is empty if no part of the
-/// solver reads F.
+/// Returns displacement, velocity, stress and F - I of all particles. The last one is empty if no
+/// part of the solver uses F.
 fn fields(samples: &Samples) -> [Vec<f64>; 4] {
     let Samples { displacement, velocity, stress, deformation_gradient, .. } = samples;
     let d = samples.dimension;
@@ -100,7 +101,7 @@ struct Found {
     fields: [Vec<f64>; 4],
 }
 
-/// Runs `subject` to its end, or to the step that fails.
+/// Runs `subject` until its end, or until a step fails.
 fn run(
     plan: &ConvergencePlan,
     subject: &mut dyn Subject,
@@ -123,7 +124,7 @@ fn run(
     Ok(Found { figures, fields: fields(&samples) })
 }
 
-/// Asserts that `ours` and `theirs` differ by at most `TOLERANCE` of `size`, or by `rounding`.
+/// Asserts that `ours` and `theirs` differ by at most `TOLERANCE` times `size`, or by `rounding`.
 fn hold(what: &str, ours: f64, theirs: f64, size: f64, rounding: f64) {
     let difference = (ours - theirs).abs();
     let sound = difference <= TOLERANCE * size || difference <= rounding;

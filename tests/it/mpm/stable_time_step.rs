@@ -1,4 +1,4 @@
-//! The stable time step, with the stiffness of effects.
+//! The stable time step, including the stiffness of effects.
 
 use crate::common;
 use approx::assert_relative_eq;
@@ -8,7 +8,8 @@ use mpm_verify::mpm::{
 };
 use rstest::rstest;
 
-/// Stable time step (s) of a square with c = 1 m/s in a grid of unit cells, with an effect.
+/// Returns the stable time step (s) of a square with c = 1 m/s in a grid of unit cells, with an
+/// effect.
 fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
     let (from, to) = (Vector::from_element(1.0), Vector::from_element(5.0));
     let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
@@ -19,8 +20,8 @@ fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
     Solver::new(setup).unwrap().stable_time_step(10.0, 60).unwrap()
 }
 
-/// A viscosity shortens the step of a law in rate form, which adds stress to the stored stress, by
-/// as much as that of a law of F.
+/// A viscosity must shorten the step equally for a law in rate form, which adds the viscous stress
+/// to the stored stress, and for a law of F.
 #[test]
 fn a_viscosity_counts_once_whatever_the_law() {
     let viscous = |material, linear| {
@@ -35,7 +36,7 @@ fn a_viscosity_counts_once_whatever_the_law() {
     }
 }
 
-/// `2/dt^2` grows by the stiffness per mass of a load that depends on the displacement.
+/// A load that depends on the displacement must increase `2/dt^2` by its stiffness per mass.
 #[test]
 fn a_foundation_counts_by_its_stiffness() {
     let solid = MaterialPlan::LinearElastic { young: 1.0, poisson: 0.0 };
@@ -46,8 +47,8 @@ fn a_foundation_counts_by_its_stiffness() {
     assert_relative_eq!(square(3.0) - square(0.0), 3.0, max_relative = 1e-3);
 }
 
-/// Methods that are declared to have the same response share predictions: they have the same bits.
-/// Some methods have another response, so that the test would detect a wrong declaration.
+/// Methods that are declared to have the same response share predictions, so their steps must have
+/// the same bits. Some methods have another response, so the test would detect a wrong declaration.
 #[rstest]
 fn methods_of_the_same_response_share_their_step(
     #[values(

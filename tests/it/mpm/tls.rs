@@ -1,4 +1,4 @@
-//! Taylor least squares, by the sums of nodes.
+//! Taylor least squares, tested by the sums at nodes.
 
 use approx::assert_abs_diff_eq;
 use mpm_verify::mpm::{
@@ -6,8 +6,8 @@ use mpm_verify::mpm::{
 };
 use rstest::rstest;
 
-/// Eight cells with three particles each under a uniform stress; the last particle of the fourth
-/// cell has moved into the fifth.
+/// Creates eight cells with three particles each under a uniform stress. The last particle of the
+/// fourth cell has moved into the fifth.
 fn uneven() -> (Grid<1>, Particles<1>) {
     let grid = kernel::<1>(BasisName::Linear).grid(Vector::zeros(), 1.0, [8], [true]);
     let block = Block { from: Vector::<1>::new(0.0), to: Vector::<1>::new(8.0), density: 2.0 };
@@ -31,8 +31,8 @@ fn a_uniform_stress_pushes_no_node_whatever_the_cells_hold() {
     }
 }
 
-/// Masses and velocities of nodes for a uniform velocity of 3 m/s, where a particle is alone in
-/// its cell, near to the centre; the whole body starts `beyond` its place.
+/// Returns masses and velocities of nodes for a uniform velocity of 3 m/s. One particle is alone in
+/// its cell, near the centre; the body is displaced by `beyond` at the start.
 fn lone(beyond: f64) -> (Vec<f64>, Vec<f64>) {
     let (mut grid, mut particles) = uneven();
     particles.x[4][0] = 1.51;

@@ -1,4 +1,4 @@
-//! Tractions on faces, by the forces of nodes.
+//! Tractions on faces, tested by the forces on nodes.
 
 use approx::assert_relative_eq;
 use mpm_verify::mpm::{
@@ -24,8 +24,9 @@ fn the_whole_force_reaches_the_grid() {
     assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);
 }
 
-/// A shear traction `Y` along the right face of a plate, which has been stretched to twice its
-/// length: force 2, moment about the origin `2 int Y dY = 4`, for the face is at x = 2.
+/// A shear traction `Y` acts along the right face of a plate, which is stretched to twice its
+/// length. The force is 2. The face is at x = 2, so the moment about the origin is `2 int Y dY =
+/// 4`.
 #[rstest]
 fn at_the_surface_the_moment_is_right_too(
     #[values(
@@ -56,8 +57,8 @@ fn at_the_surface_the_moment_is_right_too(
     assert_relative_eq!(moment, 2.0 * arm, max_relative = 1e-13);
 }
 
-/// A shear traction of 2 Pa on the right side of Cook's panel, 16 m long at x = 48 m: force and
-/// moment about the origin are those of the side, for any first corner of the map.
+/// A shear traction of 2 Pa acts on the right side of Cook's panel, which is 16 m long and at x =
+/// 48 m. Force and moment about the origin must be right for any first corner of the map.
 #[rstest]
 fn a_side_carries_its_whole_load_where_it_is(
     #[values(0, 1, 2, 3)] first: usize,

@@ -1,6 +1,6 @@
 //! Averaged volume ratios, compared with loops over one particle at a time.
 //!
-//! A fluid of linear compressibility has `sigma = K (Jbar - 1) I`, so that its stress gives Jbar.
+//! A fluid of linear compressibility has `sigma = K (Jbar - 1) I`, so its stress determines Jbar.
 
 use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, body, free_body};
@@ -16,7 +16,7 @@ use rstest::rstest;
 
 const BULK: f64 = 3.0;
 
-/// A free body with averaged volume ratios that strains by different amounts from place to place.
+/// Creates a free body with averaged volume ratios and a non-uniform strain.
 fn averaged<const D: usize>(
     basis: BasisName,
     scheme: SchemeName,
@@ -31,8 +31,8 @@ fn averaged<const D: usize>(
     Setup { material, volume: VolumeName::Averaged, ..setup }
 }
 
-/// Jbar of each particle by sums over particles and nodes one by one, with the weights of `before`
-/// and the volumes of `after`.
+/// Computes Jbar of each particle by sums over particles and nodes one by one, with the weights of
+/// `before` and the volumes of `after`.
 fn textbook<const D: usize>(
     setup: &Setup<D>,
     before: &Particles<D>,
@@ -90,7 +90,7 @@ fn a_law_sees_the_weighted_mean_of_the_volume_ratios(
     }
 }
 
-/// sigma of the law at `(Jbar/J)^(1/D) F`, with F and J of the particles.
+/// Computes sigma of the law at `(Jbar/J)^(1/D) F`, with F and J of the particles.
 fn stress_at_average<const D: usize>(
     law: &mut dyn Material<D>,
     particles: &Particles<D>,
@@ -134,8 +134,9 @@ fn stress_is_that_of_f_with_the_averaged_volume_ratio(
     }
 }
 
-/// The internal force has the stress of the average and the particle's own volume: one USL step
-/// from a deformed start, whose accelerations follow from particles with that stress.
+/// The internal force must use the stress of the average and the particle's own volume. After one
+/// USL step from a deformed start, the accelerations must equal those of particles with that
+/// stress.
 #[test]
 fn a_deformed_start_and_its_force_have_averaged_stress_and_own_volumes() {
     for &basis in BasisName::ALL {
@@ -167,7 +168,7 @@ fn a_deformed_start_and_its_force_have_averaged_stress_and_own_volumes() {
     }
 }
 
-/// A grid whose nodes all move as `rate (x - centre)`.
+/// A grid whose nodes move with the velocity `rate (x - centre)`.
 struct Affine {
     velocity: Vec<Vector<2>>,
 }
@@ -190,7 +191,7 @@ impl Boundary<2> for Affine {
     }
 }
 
-/// Whole steps with a uniform velocity gradient: J grows alike everywhere, and so does its mean.
+/// With a uniform velocity gradient J grows equally everywhere, and so does its mean.
 #[rstest]
 fn an_affine_motion_is_that_of_the_plain_method(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
@@ -222,7 +223,7 @@ fn an_affine_motion_is_that_of_the_plain_method(
     }
 }
 
-/// A uniform F, anywhere in the grid: its mean is itself.
+/// If F is uniform, its mean must equal F anywhere in the grid.
 #[test]
 fn a_uniform_volume_ratio_is_its_own_average() {
     fn check<const D: usize>() {
@@ -267,7 +268,7 @@ fn a_free_body_keeps_its_momentum(
     }
 }
 
-/// Loops cut into blocks, on one thread and on several.
+/// The loops are divided into blocks, on one thread and on several.
 #[test]
 fn threads_that_share_an_average_give_the_bits_of_one() {
     let run = |threads| {

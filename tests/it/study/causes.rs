@@ -1,4 +1,4 @@
-//! Causes that a diagnosis finds without a change of the method, for methods of this crate and for
+//! Causes that a diagnosis finds without changing the method, for methods of this crate and for
 //! external solvers.
 
 use mpm_verify::external::{LevelProblem, SolverFactory};
@@ -10,10 +10,10 @@ use mpm_verify::suite::{ConvergencePlan, LevelPlan, Suite};
 use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
 
-/// Predicted time for the runs of a case (s).
+/// Budget of predicted time (s) for the runs of a case.
 const BUDGET: f64 = 60.0;
 
-/// A budget (s) with which no changed run is made.
+/// Budget (s) that is too small for any changed run.
 const NO_RUNS: f64 = 1e-9;
 
 /// A bar that is fixed on the left, with a small-strain wave.
@@ -67,13 +67,13 @@ fn load(text: &str) -> (Source, Suite) {
     (source, suite)
 }
 
-/// The diagnosis of the first case.
+/// Diagnoses the first case.
 fn diagnosis(text: &str, budget: f64) -> Diagnosis {
     let (source, suite) = load(text);
     diagnose(&suite, &source, 0, budget, None).expect("a run").expect("an order")
 }
 
-/// The text of a diagnosis without line breaks. It contains no NaN.
+/// Returns the text of a diagnosis without line breaks. Asserts that it contains no NaN.
 fn page(found: &Diagnosis) -> String {
     let page = report::diagnosis(found).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(!page.contains("NaN") && !page.contains("inf"), "{page}");
@@ -87,7 +87,7 @@ fn contains(page: &str, parts: &[&str]) {
     }
 }
 
-/// The first method of a suite as an external solver.
+/// An external solver that runs the first method of a suite.
 struct External(Suite);
 
 impl SolverFactory for External {
@@ -104,7 +104,7 @@ impl SolverFactory for External {
     }
 }
 
-/// The diagnosis of the first method as an external solver.
+/// Diagnoses the first method as an external solver.
 fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
     let (source, suite) = load(text);
     let solver = External(suite.clone());
@@ -136,7 +136,7 @@ fn unstable_steps_on_the_first_levels_are_named(#[case] diagnosis: fn(&str, f64)
     );
 }
 
-/// A share of the stable step above 1.
+/// The time step is a multiple of the stable step, with a factor above 1.
 #[test]
 fn a_rule_beyond_the_stable_step_is_the_cause() {
     let found = diagnosis(&BAR.replace("\"0.2*h/c\"", "{courant: 4}"), BUDGET);
@@ -172,7 +172,7 @@ fn a_wall_that_moves_along_its_normal_is_the_cause(#[case] u: &str, #[case] velo
     }
 }
 
-/// The end of the bar moves by 0.05 m, and the grid ends where the bar does.
+/// The end of the bar moves by 0.05 m, but the grid ends at the end of the bar.
 #[rstest]
 #[case::of_this_crate(diagnosis)]
 #[case::external(external_diagnosis)]
@@ -187,7 +187,7 @@ fn a_larger_grid_is_recommended_for_a_free_end(#[case] diagnosis: fn(&str, f64) 
     );
 }
 
-/// Rounding puts the last particle at 0.9000000000000001 m.
+/// Due to rounding, the last particle is at 0.9000000000000001 m.
 #[test]
 fn a_particle_on_a_wall_is_named_with_the_refusal() {
     let u = "1e-4*sin(pi*X/0.9)*sin(10*pi*t)";
@@ -200,7 +200,7 @@ fn a_particle_on_a_wall_is_named_with_the_refusal() {
     assert!(!refused.contains("larger `grid`"), "{refused}");
 }
 
-/// A bar that flies into a wall: the velocity jumps across the wave.
+/// Creates a bar that flies into a wall. The velocity jumps across the wave.
 fn impact(norm: &str) -> String {
     let text = BAR.replace("a*omega*sin(pi*X/2)", "-1e-3*sign(X)");
     let text = text.replace("a*sin(pi*X/2)*sin(omega*t)", "-1e-3*min(t, X/c)");
@@ -225,7 +225,7 @@ fn a_kink_in_the_exact_solution_comes_before_partial_remedies(
     }
 }
 
-/// `abs` in a formula that is smooth where the body is.
+/// The formula contains `abs`, but is smooth inside the body.
 #[test]
 fn a_function_with_a_kink_outside_the_body_is_no_cause() {
     let found = diagnosis(
@@ -236,7 +236,7 @@ fn a_function_with_a_kink_outside_the_body_is_no_cause() {
     assert!(found.finding(KnownCauseKind::NotSmooth).is_none(), "{found:#?}");
 }
 
-/// A pulse of width 0.03 m in a periodic bar: the first cells are nearly as wide.
+/// Creates a pulse of width 0.03 m in a periodic bar. The coarsest cells are nearly as wide.
 fn pulse(cells: &str) -> String {
     let exact = "a*exp(-((X - 0.4 - c*t)/0.03)^2)";
     let velocity = "2*a*c*(X - 0.4)/0.03^2*exp(-((X - 0.4)/0.03)^2)";
@@ -262,7 +262,7 @@ fn first_levels_that_are_too_coarse_are_to_be_left_out(
     );
 }
 
-/// MLS has order 1 at fixed walls, and order 2 without them.
+/// MLS has order 1 at fixed walls, and order 2 if there are none.
 #[rstest]
 #[case::walls("left: fixed, right: fixed", "sin(pi*X)", true)]
 #[case::no_walls("left: periodic, right: periodic", "sin(2*pi*X)", false)]
@@ -279,7 +279,7 @@ fn the_gradients_of_mls_at_walls_are_the_cause(
     assert_eq!(text.contains("the velocity gradients at walls: `mls` fits"), has_walls, "{text}");
 }
 
-/// A column under its weight.
+/// Creates a column under its weight.
 fn column(loads: &str) -> String {
     let text = BAR.replace("exact:", "equilibrium:");
     let text = text.replace("a*sin(pi*X/2)*sin(omega*t)", "-g/c^2*(X - X^2/2)");
@@ -287,7 +287,7 @@ fn column(loads: &str) -> String {
     text.replace("{a: 1e-4, c: 10, omega: \"pi/2*c\"}", "{g: 0.01, c: 10}")
 }
 
-/// Findings of `check` about missing dissipation.
+/// Returns the findings of `check` about missing dissipation.
 fn of_check(text: &str) -> Vec<Severity> {
     let (source, suite) = load(text);
     let all = preflight(&suite, &source).into_iter();
@@ -318,7 +318,7 @@ fn check_warns_of_an_equilibrium_without_damping(
     assert_eq!(of_check(&column(&format!("  loads:\n{loads}"))), expected);
 }
 
-/// Damping that is too weak for the duration of the run.
+/// The damping is too weak for the duration of the run.
 #[test]
 fn a_body_that_has_not_come_to_rest_is_the_cause() {
     let text = column("  loads:\n    - gravity: [-g]\n    - damping: 6\n");
@@ -326,7 +326,7 @@ fn a_body_that_has_not_come_to_rest_is_the_cause() {
     contains(&page(&found), &["the body has not come to rest at the end of the run"]);
 }
 
-/// Small strains of 1e-2 are an error of second order in the amplitude.
+/// Strains of 1e-2 cause an error of second order in the amplitude.
 #[test]
 fn the_error_with_a_tenth_of_the_amplitude_is_printed_as_it_is() {
     let text = BAR.replace("1e-4", "0.02").replace("until: 0.4", "until: 0.1");
@@ -342,7 +342,7 @@ fn the_error_with_a_tenth_of_the_amplitude_is_printed_as_it_is() {
     contains(&page(&found), &[of.as_str(), "its share of the exact solution"]);
 }
 
-/// The error of a sum is divided by its size, which falls with the amplitude.
+/// The error of a sum is divided by the size of the sum, which decreases with the amplitude.
 #[test]
 fn a_sum_is_compared_with_its_own_size() {
     let text = BAR.replace("1e-4", "0.02").replace("until: 0.4", "until: 0.1");

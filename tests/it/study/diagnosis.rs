@@ -1,5 +1,5 @@
-//! Diagnoses of cases of our own suites, whose causes their authors state in `because`, which a
-//! diagnosis does not read.
+//! Diagnoses of cases in the suites of this repository. Their authors state the causes in
+//! `because`, which a diagnosis does not read.
 
 use mpm_verify::study::diagnose;
 use mpm_verify::suite::yaml::Source;
@@ -7,7 +7,7 @@ use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::Diagnosis;
 use rstest::rstest;
 
-/// Predicted time for the runs of a case (s).
+/// Budget of predicted time (s) for the runs of a case.
 const BUDGET: f64 = 60.0;
 
 fn diagnosis(suite: &str, case: &str) -> Option<Diagnosis> {
@@ -40,7 +40,7 @@ fn a_cause_is_found(#[case] suite: &str, #[case] case: &str, #[case] cause: &str
     names(suite, case, cause);
 }
 
-/// The rest of the known causes, which take longer than a gate should.
+/// The other known causes take too long for a gate.
 #[rstest]
 #[case("mms-periodic-bar-sin", "mpm-ugimp-flip-usl", "domains of fixed width")]
 #[case("mms-periodic-bar-cos", "mpm-cpgimp-flip-musl-at-zero", "the start")]
@@ -88,7 +88,7 @@ fn what_is_beyond_the_budget_is_said() {
     assert!(said.contains("beyond the budget"), "{said}");
 }
 
-/// Small strains of 1e-2 are an error of that size, which a tenth of the amplitude takes away.
+/// Strains of 1e-2 cause an error of this order, which vanishes with a tenth of the amplitude.
 #[test]
 fn a_truth_of_small_strain_is_told_by_the_amplitude() {
     let text = r#"suite: bar
@@ -116,7 +116,7 @@ methods:
     assert!(run.change == "a tenth of the amplitude" && run.ratio < 0.2, "{found:#?}");
 }
 
-/// The joint of two bars lies in the middle of a cell, where linear functions have no kink.
+/// The interface of two bars is in the middle of a cell, where linear functions have no kink.
 #[test]
 fn an_interface_inside_a_cell_is_told_by_the_alignment() {
     let source = embedded::source("bar-of-two-materials").expect("a suite").expect("a text");

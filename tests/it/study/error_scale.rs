@@ -1,5 +1,4 @@
-//! Scales that make errors and work of different cases comparable, for a bar with an exact
-//! solution.
+//! Scales for comparing errors and work between cases, for a bar with an exact solution.
 
 use crate::cli::BAR;
 use approx::assert_relative_eq;
@@ -9,7 +8,7 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::ErrorScale;
 use rstest::rstest;
 
-/// The scale of the first case of the bar, whose text is changed.
+/// Returns the scale of the first case of the bar. In its text, `from` is replaced by `to`.
 fn scale(from: &str, to: &str) -> ErrorScale {
     let text = BAR.replace(from, to);
     assert!(text != BAR || from == to, "no `{from}`");
@@ -18,8 +17,8 @@ fn scale(from: &str, to: &str) -> ErrorScale {
     outcome.cases[0].convergence().unwrap().error_scale.clone()
 }
 
-/// The free end has the largest displacement, 1e-3 sin(omega t)/omega, an eighth of a period after
-/// the start.
+/// The largest displacement is that of the free end, 1e-3 sin(omega t)/omega, an eighth of a period
+/// after the start.
 #[test]
 fn the_size_is_that_of_the_largest_displacement() {
     let largest = 1e-3 * 0.5_f64.sqrt() / (5.0 * std::f64::consts::PI);
@@ -28,7 +27,7 @@ fn the_size_is_that_of_the_largest_displacement() {
     assert_relative_eq!(scale("observe:", stated).size, 1.0);
 }
 
-/// One power for the axis of the bar, plus the power of the spacing in the step.
+/// The growth is one for the axis of the bar, plus the power of the spacing in the step.
 #[rstest]
 #[case::constant("dt: 1e-3", 1.0)]
 #[case::with_the_spacing("dt: \"h/250\"", 2.0)]

@@ -1,11 +1,11 @@
-//! A reference run on a fine grid, compared with an exact solution.
+//! A reference on a fine grid, compared with an exact solution.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, Convergence};
 
-/// A vibrating bar, compared with its formula and with a run on 192 cells.
+/// A vibrating bar that is compared with its formula and with a run on 192 cells.
 const BAR: &str = r#"suite: bar
 title: Vibrating bar
 source: a test
@@ -51,8 +51,8 @@ fn order(study: &Convergence) -> f64 {
     study.judgement.order.expect("an order").value
 }
 
-/// The error of the fine grid is smaller by the square of the cells, and has a pattern within each
-/// cell: at the labels of a level it is up to twice its mean.
+/// The error of the fine grid is smaller by the square of the ratio of cell sizes. It varies within
+/// each cell: at the labels of a level it is up to twice its mean.
 #[test]
 fn a_fine_grid_and_a_formula_give_the_same_order() {
     let cases = cases(BAR);
@@ -74,7 +74,7 @@ fn a_fine_grid_and_a_formula_give_the_same_order() {
     assert_eq!(cases.len(), 6);
 }
 
-/// A step that is stable on the levels, and four times too long on the fine grid.
+/// The time step is stable on the levels, but four times too long on the fine grid.
 #[test]
 fn a_case_without_its_fine_grid_is_refused() {
     let unstable = BAR.replace("\"h/(4*c)\"", "\"0.5/(24*c)\"");

@@ -1,4 +1,4 @@
-//! Loads that depend on the displacement: of the solver's own, and in the stable time step.
+//! Loads that depend on the displacement: their effect in this solver and on the stable time step.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
@@ -7,8 +7,8 @@ use mpm_verify::verify::{CaseOutcome, LevelOutcome};
 use rstest::rstest;
 
 /// A free bar on springs that act on its whole displacement, in six steps of 1/w. The leapfrog of
-/// an oscillator advances the phase by 2 asin(w dt/2) per step, here by 60 degrees: after six steps
-/// it is back at its start, while the exact phase has advanced by 6 radians.
+/// an oscillator advances the phase by 2 asin(w dt/2) per step, here by 60 degrees. After six steps
+/// the bar is at its start again, while the exact phase has advanced by 6 radians.
 const FREE: &str = r#"suite: free
 title: Free bar
 source: a test
@@ -33,7 +33,7 @@ methods:
   - fem: {element: linear, mass: consistent, start: half_step_back}
 "#;
 
-/// A plate with forces towards a point that formulas of x give for each particle.
+/// A plate with forces towards a point. Formulas of x give the point for each particle.
 const PLATE: &str = r#"suite: plate
 title: Free plate
 source: a test
@@ -51,7 +51,7 @@ methods:
   - mpm: {basis: [linear, cpdi, quadratic_bspline], transfer: flip, scheme: musl, start: half_step_back}
 "#;
 
-/// A bar between walls on springs that are far stiffer than itself.
+/// A bar between walls on springs that are much stiffer than the bar.
 const STIFF: &str = r#"suite: stiff
 title: Stiff foundation
 source: a test
@@ -99,8 +99,8 @@ fn the_load_is_that_of_the_particles_own_displacement(
     }
 }
 
-/// sqrt(2/(l + w^2)), with l = 4/h^2 at most for the bar; a wave crosses a cell of 1/8 in 25 times
-/// the limit of the springs.
+/// The stable step is sqrt(2/(l + w^2)), with l = 4/h^2 at most for the bar. Without springs, a
+/// wave crosses a cell of 1/8 in 25 times this step.
 #[test]
 fn the_stable_step_knows_the_stiffness_of_a_load() {
     for case in &cases(STIFF) {

@@ -1,4 +1,4 @@
-//! Volumetric locking: the error of one motion for two Poisson's ratios, level by level.
+//! Volumetric locking: compares the errors of one motion for two Poisson's ratios, level by level.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::Suite;
@@ -8,7 +8,8 @@ use rstest::rstest;
 const SHEARS: &str =
     include_str!("../../../verification/equilibrium/two-shears-nearly-incompressible.yaml");
 
-/// Errors (m) on the levels of the suite with this Poisson's ratio; without expectations.
+/// Returns the errors (m) on the levels of the suite with this Poisson's ratio, without
+/// expectations.
 fn errors(nu: &str, method: &str) -> Vec<f64> {
     let (suite, _) = SHEARS.split_once("methods:").expect("a list of methods");
     let (suite, _) = suite.split_once("any_method:").unwrap_or((suite, ""));

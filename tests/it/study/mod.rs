@@ -1,4 +1,4 @@
-//! Studies, run through their runner.
+//! Studies, which run through their runner.
 
 mod causes;
 mod diagnosis;

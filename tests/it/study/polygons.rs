@@ -1,4 +1,4 @@
-//! Particles of polygons, on every level of the suites that have one.
+//! Particles of polygons, on every level of the suites with polygons.
 
 use mpm_verify::study::level_problem;
 use mpm_verify::subject::PlaneState;
@@ -6,8 +6,8 @@ use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Suite};
 use rstest::rstest;
 
-/// Mass and centre of mass are those of the body, by Green's theorem. For a body of revolution the
-/// mass is that of one radian: density times the first moment of the section.
+/// Mass and centre of mass must equal those of the body, by Green's theorem. For a body of
+/// revolution the mass is that of one radian: density times the first moment of the section.
 #[rstest]
 #[case::convex(include_str!("../../../verification/bodies-at-large-strain/mms-polygon.yaml"))]
 #[case::not_convex(include_str!("../../../verification/bodies-at-large-strain/mms-polygon-angle.yaml"))]

@@ -1,5 +1,5 @@
-//! Predicted errors compared with observed ones: the finest level of each case from the coarser
-//! levels.
+//! Predicts the error on the finest level of each case from the coarser levels, and compares it
+//! with the observed error.
 
 use mpm_verify::study::Runner;
 use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
@@ -8,18 +8,19 @@ use mpm_verify::verify::{
 };
 use std::sync::Arc;
 
-/// Minimum number of levels of a case, so that four remain to be judged.
+/// Minimum number of levels of a case. Four levels then remain to be judged.
 const FEWEST: usize = 5;
 
-/// A case with the error of its finest level.
+/// A case with its error on the finest level.
 struct Found {
     suite: &'static str,
     cases: usize,
-    /// Upper over lower end of the predicted interval, and whether it has the error that is found.
+    /// Ratio of the upper to the lower end of the predicted interval, and whether the interval
+    /// contains the observed error.
     predicted: Vec<(f64, bool)>,
 }
 
-/// Cases of a suite that refines cells, and their predictions.
+/// Returns the cases of a suite that refines cells, with their predictions.
 fn back_test(name: &'static str) -> Option<Found> {
     let suite = Suite::load(&embedded::source(name)?.unwrap()).unwrap();
     let plan = suite.plan::<ConvergencePlan>().filter(|plan| plan.refine.axis == Axis::Space)?;
@@ -37,7 +38,7 @@ fn back_test(name: &'static str) -> Option<Found> {
     Some(found)
 }
 
-/// The prediction of the finest level from the judgement of the coarser ones.
+/// Predicts the error of the finest level from the judgement of the coarser ones.
 fn of_the_finest(
     plan: &ConvergencePlan,
     case: &CaseOutcome,
@@ -69,8 +70,8 @@ fn of_the_finest(
     Some((error.high / error.low, error.low <= measured && measured <= error.high))
 }
 
-/// Share of the suites whose observed errors are all in the predicted intervals, and the median of
-/// the widths.
+/// Returns the fraction of suites whose observed errors are all within the predicted intervals, and
+/// the median of the interval widths.
 fn covered(found: &[Found]) -> (f64, f64) {
     let given: Vec<&Found> = found.iter().filter(|one| !one.predicted.is_empty()).collect();
     let held = given.iter().filter(|one| one.predicted.iter().all(|(_, holds)| *holds)).count();
@@ -94,7 +95,7 @@ fn covered(found: &[Found]) -> (f64, f64) {
     (held as f64 / given.len() as f64, width)
 }
 
-/// Suites that take a second.
+/// Suites that run within a second.
 const SHORT: [&str; 11] = [
     "mms-fixed-bar-cubic",
     "mms-fixed-bar-plateau",
@@ -116,7 +117,7 @@ fn intervals_of_predicted_errors_have_what_is_found() {
     assert!(share >= 0.9 && width < 1.6, "{share} of the suites, median width {width}");
     let wave = found.iter().find(|one| one.suite == "simple-wave").unwrap();
     assert!(wave.predicted.iter().all(|(_, holds)| *holds));
-    // The errors of linear functions rest on a floor that crossings make.
+    // For linear functions, cell changes cause a floor of the error.
     let floor = found.iter().find(|one| one.suite == "vibrating-bar").unwrap();
     assert!(floor.predicted.len() < floor.cases);
 }

@@ -1,5 +1,5 @@
-//! Warnings about a suite before anything runs: for each rule a suite that trips it, and one that
-//! just does not.
+//! Warnings about a suite before anything runs. Each rule is tested with a suite that just violates
+//! it, and one that just does not.
 
 use mpm_verify::study::{linearisation, preflight};
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
@@ -31,11 +31,11 @@ expect:
     because: linear functions
 "#;
 
-/// The method of the bar, and a solver in its place that computes in single precision.
+/// The method of the bar, and an external solver in single precision that replaces it.
 const MPM: &str = "mpm: {basis: linear, transfer: flip, scheme: musl}";
 const SINGLE: &str = "external: {name: a, precision: single}";
 
-/// A bar of two bodies, in which a pulse is watched.
+/// A bar of two bodies, with a pulse.
 const TWO: &str = r#"suite: two
 title: Two bars
 source: a textbook
@@ -206,7 +206,7 @@ fn a_loaded_face_inside_a_cell_is_noted() {
     assert!(found.is_empty(), "{found:#?}");
 }
 
-/// The suite of a linearised wave has a residual of 2e-6, and allows 5e-6.
+/// The suite of a linearised wave has a residual of 2e-6 and a tolerance of 5e-6.
 #[rstest]
 #[case::at_a_strain_that_will_show(
     &[("eps: 1e-6", "eps: 1e-4"), ("5e-6", "5e-4")],
@@ -243,8 +243,8 @@ fn a_linearised_solution(
     assert!(tripped.to_string().contains(words), "{tripped}");
 }
 
-/// A stiff rotating rod whose stated stretch is the first term of a series. The omitted second term
-/// is (w l/c)^4 l/5 = 2e-5 m at the ends. The rod does not drift away like a free mass.
+/// The stated stretch of a stiff rotating rod is the first term of a series. The omitted second
+/// term is (w l/c)^4 l/5 = 2e-5 m at the ends. Unlike a free mass, the rod does not drift away.
 #[test]
 fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
     let source = embedded::source("rotating-rod").expect("a suite").expect("a text");
@@ -260,8 +260,8 @@ fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
     assert!((2e-5..100.0 * 2e-5).contains(&error), "{error:e}");
 }
 
-/// Errors that remain on fine grids (m): by theory for the bar that settles under its weight, and
-/// measured in runs with 384 or 512 cells for the others.
+/// Errors (m) that remain on fine grids. For the bar that settles under its weight they follow from
+/// theory; for the others they were measured in runs with 384 or 512 cells.
 #[rstest]
 #[case::a_bar_that_settles(settling_bar(), 3.2e-8)]
 #[case::a_column_of_large_amplitude(embedded_text("acoustic-column-amplitude"), 2.026e-6)]
@@ -280,7 +280,7 @@ fn embedded_text(name: &str) -> String {
     embedded::source(name).expect("a suite").expect("a text").text().to_owned()
 }
 
-/// The suite of docs/grammar/truth.md.
+/// Returns the suite of docs/grammar/truth.md.
 fn settling_bar() -> String {
     let page = include_str!("../../../docs/grammar/truth.md");
     let (_, rest) = page.split_once("```yaml\nsuite: settling-bar").expect("the suite");
@@ -288,7 +288,7 @@ fn settling_bar() -> String {
     format!("suite: settling-bar{suite}")
 }
 
-/// A pulse of velocity in a free bar of Hencky's law, by d'Alembert's solution.
+/// A velocity pulse in a free bar of Hencky's law, by d'Alembert's solution.
 const PULSE: &str = r#"suite: pulse
 title: Pulse
 source: a textbook
@@ -312,7 +312,7 @@ methods:
   - mpm: {basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian}
 "#;
 
-/// A tolerance of a hundred times the residual is not noted.
+/// A tolerance of a hundred times the residual causes no note.
 #[test]
 fn a_tolerance_with_some_room_is_not_noted() {
     let source = embedded::source("acoustic-column").expect("a suite").expect("a text");

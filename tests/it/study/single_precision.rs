@@ -1,14 +1,14 @@
-//! The rounding error of our own solver in single precision, compared with its prediction.
+//! The rounding error of the built-in solver in single precision, compared with its prediction.
 //!
 //! ```console
 //! cargo test --test it rounding_errors_of_suites -- --ignored --nocapture
 //! ```
 //!
 //! The first MPM case of each suite with an exact motion of one body runs in double and in single
-//! precision, on the finest usual level on which no particle changes its cell and displacements are
-//! large enough. The measured error is the root mean square over particles of the difference of
-//! their displacements at the end of the run. `docs/single-precision.md` derives the prediction and
-//! has the table.
+//! precision. It runs on the finest usual level on which no particle changes its cell and
+//! displacements are large enough. The measured error is the root mean square over particles of the
+//! difference of their displacements at the end. `docs/single-precision.md` derives the prediction
+//! and contains the table.
 
 use mpm_verify::prelude::{Extent, Suite};
 use mpm_verify::study::{TimeStep, subject, time_steps};
@@ -17,20 +17,21 @@ use mpm_verify::suite::{Against, ConvergencePlan, Method, embedded};
 use mpm_verify::verify::{NormName, rounding_bound, single_precision_spacing};
 use rayon::prelude::*;
 
-/// Factor to each side of the predicted error, a seventh of its upper end.
+/// Maximum ratio of measured and predicted error, in both directions. The predicted error is a
+/// seventh of its upper bound.
 const FACTOR: f64 = 7.0;
 
-/// Minimum RMS displacement, over the upper end of its rounding error: below it, steps are too
-/// short to be represented, and the error has no lower end.
+/// Minimum RMS displacement, divided by the upper bound of its rounding error. For smaller
+/// displacements, steps are too short to be represented, and the error has no lower bound.
 const LEAST_SIZE: f64 = 20.0;
 
-/// Maximum number of particle steps of a level, so that the test ends in minutes.
+/// Maximum number of particle steps of a level. The test then ends within minutes.
 const MOST_WORK: f64 = 3e5;
 
-/// The end of a run.
+/// State at the end of a run.
 struct End {
     samples: Samples,
-    /// Rounding (m) of the initial position of each particle along each axis.
+    /// Rounding error (m) of the initial position of each particle along each axis.
     initial: Vec<f64>,
     /// Path of each particle along each axis, particle by particle.
     paths: Vec<Path>,
@@ -39,9 +40,9 @@ struct End {
 
 #[derive(Clone, Default)]
 struct Path {
-    /// Largest absolute coordinate (m).
+    /// Largest absolute coordinate (m) on the path.
     reach: f64,
-    /// Length (m).
+    /// Length of the path (m).
     length: f64,
 }
 
@@ -71,8 +72,9 @@ fn run(plan: &ConvergencePlan, method: Method, step: &TimeStep) -> Option<End> {
     Some(End { samples, initial, paths, crossings: subject.counters().crossings.unwrap_or(0) })
 }
 
-/// Upper end of the RMS rounding error (m) of a run of `steps` steps: on each axis, the rounding of
-/// the initial positions, and of each step by at most half a spacing and at most its own length.
+/// Returns the upper bound of the RMS rounding error (m) of a run of `steps` steps. On each axis,
+/// it is the rounding error of the initial positions, and of each step by at most half a spacing
+/// and at most its own length.
 fn upper_end(steps: u64, double: &End, d: usize) -> f64 {
     let on_axis = |axis: usize| {
         let initial = rms(double.initial.iter().skip(axis).step_by(d).copied());
@@ -85,7 +87,7 @@ fn upper_end(steps: u64, double: &End, d: usize) -> f64 {
     (0..d).map(|axis| on_axis(axis) * on_axis(axis)).sum::<f64>().sqrt()
 }
 
-/// A row of the table: the finest level of a suite without crossings.
+/// A row of the table: the finest level of a suite without cell changes.
 struct Row {
     suite: String,
     case: String,
@@ -141,7 +143,8 @@ fn row(suite: &Suite) -> Option<Row> {
     })
 }
 
-/// Number of rows within the predicted range, and of all rows, which are printed.
+/// Prints all rows. Returns the number of rows within the predicted range, and the number of all
+/// rows.
 pub(crate) fn compare() -> (usize, usize) {
     let names: Vec<&str> = embedded::names().collect();
     let load = |name: &&str| Suite::load(&embedded::source(name)?.ok()?).ok();
@@ -166,7 +169,7 @@ fn rounding_errors_of_suites_lie_within_the_predicted_range() {
     assert!(count >= 20 && within * 20 >= count * 19, "{within} of {count}");
 }
 
-/// The state of the particles and nodes, of a bar after three steps.
+/// State of the particles and nodes of a bar after three steps.
 #[test]
 fn the_state_has_numbers_of_single_precision_only_if_stated() {
     let source = embedded::source("single-precision-bar").expect("a suite").expect("text");

@@ -1,5 +1,5 @@
-//! The contract of a subject: our own solver keeps it, and for each part of it there is a subject
-//! that breaks just this part.
+//! The contract of a subject: the built-in solver fulfils it. For each rule there is a subject that
+//! violates only this rule.
 
 use super::own_solver::{OwnSolver, SWINGING_BAR, suite};
 use mpm_verify::prelude::*;
@@ -9,7 +9,7 @@ use mpm_verify::testing::conformance_on;
 use rstest::rstest;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A way to break the contract.
+/// A violation of the contract.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Fault {
     Nothing,
@@ -48,13 +48,13 @@ enum Fault {
     ForgetfulCheckpoint,
 }
 
-/// Our own solver on a level, with a fault.
+/// The built-in solver on a level, with a fault.
 struct FaultySubject {
     sound: Box<dyn Subject>,
     fault: Fault,
-    /// Steps so far.
+    /// Number of steps so far.
     steps: u64,
-    /// Number of the subject among those of its factory.
+    /// Number of the subject among the subjects of its factory.
     number: usize,
 }
 
@@ -144,7 +144,7 @@ impl Subject for FaultySubject {
         match self.fault {
             Fault::EmptyCheckpoint => true,
             Fault::LongerCheckpoint => {
-                // As long as the steps made, and so not the same in a fresh subject.
+                // The recorded number is the number of steps, so it differs in a new subject.
                 checkpoint.same(self.steps as usize);
                 self.sound.checkpoint(checkpoint)
             }
@@ -152,7 +152,7 @@ impl Subject for FaultySubject {
                 self.sound.checkpoint(checkpoint) && self.sound.step(1e-3).is_ok()
             }
             Fault::ForgetfulCheckpoint => {
-                // The fresh subject goes on, one step ahead of what it has read.
+                // The new subject continues, one step ahead of the state that it has read.
                 let is_read = self.steps == 0;
                 self.sound.checkpoint(checkpoint) && (!is_read || self.sound.step(1e-3).is_ok())
             }
@@ -161,7 +161,7 @@ impl Subject for FaultySubject {
     }
 }
 
-/// Our own solver as one of a user.
+/// The built-in solver in the role of a user's solver.
 struct OurSolver {
     suite: Suite,
     fault: Fault,
@@ -236,7 +236,7 @@ fn each_breach_is_found_and_said(
     let breach = of_part.unwrap_or_else(|| panic!("nothing about {about}: {breaches:#?}"));
     assert!(breach.expected.contains(expected) && breach.seen.contains(seen), "{breach}");
     let others: Vec<&Breach> = breaches.iter().filter(|other| other.about != about).collect();
-    // Who stands still does no work either.
+    // A subject that does not move does no work either.
     let both = fault == Fault::StandsStill && others.iter().all(|o| o.about == "work counters");
     assert!(others.is_empty() || both, "{others:#?}");
 }
@@ -259,7 +259,7 @@ fn the_solver_of_the_example_keeps_the_contract() {
     assert!(breaches.is_empty(), "{breaches:#?}");
 }
 
-/// A solver that takes no problem.
+/// A solver that refuses every problem.
 struct Refuses;
 
 impl SolverFactory for Refuses {

@@ -1,4 +1,4 @@
-//! Suites of a folder as tests: what passes, what fails, and what is neither.
+//! Suites of a folder as tests: suites that pass, that fail, and that do neither.
 
 use super::own_solver::{OwnSolver, SWINGING_BAR};
 use crate::common::folder::Folder;
@@ -6,7 +6,7 @@ use mpm_verify::prelude::*;
 
 const SNAPSHOT: &str = include_str!("../../../examples/own_solver/suites/swinging-bar.snap");
 
-/// A folder with the suite of the example, and its snapshot elsewhere.
+/// Creates a folder with the suite of the example, and its snapshot in another folder.
 fn folder() -> Folder {
     let folder = Folder::new();
     folder.write("suites/swinging-bar.yaml", SWINGING_BAR);
@@ -19,13 +19,13 @@ fn tests(folder: &Folder) -> SuiteFolder {
     SuiteFolder::new(path("suites")).snapshots(path("kept")).judging(OwnSolver)
 }
 
-/// The suite with an expectation of the solver.
+/// Creates the suite with an expectation for the solver.
 fn stated(expected: &str) -> String {
     let methods = "  - external: {name: own-solver}\n";
     format!("{SWINGING_BAR}{methods}expect:\n  - {expected}\n    because: linear functions\n")
 }
 
-/// Whether the tests that the arguments select pass, and what is printed of them.
+/// Runs the tests that the arguments select. Returns whether they pass, and the printed text.
 fn run(tests: &SuiteFolder, arguments: &[&str]) -> (bool, String) {
     let folder = Folder::new();
     let log = folder.path().join("log").display().to_string();
@@ -33,7 +33,7 @@ fn run(tests: &SuiteFolder, arguments: &[&str]) -> (bool, String) {
     (tests.run(words), folder.read("log"))
 }
 
-/// Whether the test of this name passes, or all of them.
+/// Whether the test of this name passes, or all tests if there is no name.
 fn passes(tests: &SuiteFolder, name: Option<&str>) -> bool {
     run(tests, &name.map_or(vec![], |name| vec!["--exact", name])).0
 }
@@ -44,7 +44,7 @@ fn a_solver_passes_by_theory_contract_and_snapshot() {
     assert!(passed && said.contains("3 passed; 0 failed; 0 ignored"), "{said}");
 }
 
-/// As nextest asks for them.
+/// The tests are listed as nextest requests it.
 #[test]
 fn tests_have_names() {
     let (_, said) = run(&tests(&folder()), &["--list", "--format", "terse"]);
@@ -63,7 +63,7 @@ fn neither_gate_knows_of_the_other() {
     let drifted = tests(&folder);
     assert!(passes(&drifted, Some("swinging-bar::own-solver")));
     assert!(!passes(&drifted, Some("swinging-bar::report")));
-    // Whether a new report is written next to it depends on the environment.
+    // The environment determines whether a new report is written next to the snapshot.
     assert_eq!(folder.read("kept/swinging-bar.snap"), drifted_from);
 }
 
@@ -75,10 +75,10 @@ fn a_report_without_a_snapshot_fails() {
     assert!(!folder.path().join("suites/swinging-bar.snap").exists());
 }
 
-/// The solver of the example, which says that it visits nothing.
+/// The solver of the example, which reports that it does no work.
 struct Idle;
 
-/// Its subject.
+/// Subject of the solver `Idle`.
 struct IdleSubject(Box<dyn Subject>);
 
 impl Subject for IdleSubject {
@@ -113,8 +113,8 @@ fn a_breach_of_the_contract_fails_by_itself() {
     assert!(!passes(&idle, Some("swinging-bar::conformance")));
 }
 
-/// A case that needs a missing capability is ignored; a solver without an applicable case does not
-/// pass.
+/// A case that requires a missing capability is ignored. A solver without an applicable case does
+/// not pass.
 #[test]
 fn nothing_applicable_is_no_pass() {
     let folder = folder();

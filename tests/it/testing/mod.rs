@@ -1,4 +1,4 @@
-//! Tests of solvers of a user of the library.
+//! Tests of solvers that a user of the library implements.
 
 mod conformance;
 mod harness;

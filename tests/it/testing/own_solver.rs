@@ -1,4 +1,4 @@
-//! Comparison of the solver in `examples/own_solver` with the built-in solver: both use the same
+//! Compares the solver in `examples/own_solver` with the built-in solver. Both use the same
 //! algorithm.
 
 #[path = "../../../examples/own_solver/solver.rs"]
@@ -10,7 +10,7 @@ use mpm_verify::prelude::*;
 use rstest::rstest;
 pub(crate) use subject::OwnSolver;
 
-/// Largest difference of an error, over the largest error of the levels.
+/// Maximum difference of an error, relative to the largest error of the levels.
 const TOLERANCE: f64 = 1e-8;
 
 /// The suite of the example.
@@ -21,7 +21,7 @@ pub(crate) fn suite(text: &str) -> Suite {
     Suite::load(&Source::from_text("bar.yaml", text).expect("a text")).expect("a sound suite")
 }
 
-/// The errors that are judged, level by level.
+/// Returns the judged errors, level by level.
 fn errors(outcome: &CaseOutcome) -> Vec<f64> {
     let study = outcome.convergence().expect("a convergence study");
     study.levels.iter().map(|level| level.error).collect()

@@ -7,8 +7,8 @@ use mpm_verify::study::lacking;
 use mpm_verify::verify::{StabilityRow, StabilityStudy};
 use rstest::rstest;
 
-/// A bar whose particles move through cells and start with random velocities and stresses; linear
-/// functions, FLIP, MUSL.
+/// A bar whose particles move through cells and start with random velocities and stresses. It uses
+/// linear functions, FLIP and MUSL.
 const MOVING_BAR: &str = "\
 suite: moving-bar
 study: stability
@@ -27,7 +27,7 @@ methods:
   - mpm: {basis: linear, transfer: flip, scheme: musl}
 ";
 
-/// A bar of the example that says what a trial watches.
+/// A bar of the example that also reports the data that a trial observes.
 struct WatchedBar(Bar, ProblemParticles);
 
 impl Subject for WatchedBar {
@@ -57,7 +57,7 @@ impl Subject for WatchedBar {
     }
 }
 
-/// Makes watched bars.
+/// Creates watched bars.
 struct WatchedSolver;
 
 impl SolverFactory for WatchedSolver {
@@ -91,7 +91,7 @@ impl SolverFactory for WatchedSolver {
     }
 }
 
-/// Says nothing beforehand of what it lacks.
+/// A solver that does not report its missing capabilities in advance.
 struct Silent;
 
 impl SolverFactory for Silent {

@@ -1,7 +1,7 @@
-//! A sketch of a scene: bodies, grid, faces and loads, as text and as SVG.
+//! Sketches a scene with its bodies, grid, faces and loads, as text and as SVG.
 //!
-//! Symbols follow the usual conventions (hatching for a fixed face, rollers, arrows for loads).
-//! Text below the picture states the rest, as in reports.
+//! Symbols follow the usual conventions (hatching for a fixed face, rollers, arrows for loads). All
+//! other information is written below the picture, as in reports.
 
 mod shape;
 mod svg;
@@ -13,16 +13,16 @@ use crate::suite::model::{Scene, SceneFace, Suite};
 use crate::suite::scene::load::LoadTarget;
 pub use svg::sketch_svg;
 
-/// Maximum number of characters along the first axis.
+/// Maximum number of characters of the text sketch along the first axis.
 const COLUMNS: usize = 60;
 
-/// Maximum number of characters along the second axis.
+/// Maximum number of characters of the text sketch along the second axis.
 const ROWS: usize = 14;
 
 /// Width of a character divided by the height of a line.
 const ASPECT: f64 = 0.5;
 
-/// Name of a face with its condition or loads: `left: fixed`.
+/// Describes a face and its condition or loads, such as `left: fixed`.
 fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     let loads: Vec<&str> =
         scene.loads_on(LoadTarget::Face(number)).map(|load| load.effect.name()).collect();
@@ -30,9 +30,9 @@ fn label(scene: &Scene, number: usize, face: &SceneFace) -> String {
     format!("{}: {state}", face.name)
 }
 
-/// The scene as text, with one character for each part of the grid: `.` if it is empty, `#` (or the
-/// number of the body, if there are several) if it contains material. Empty for a suite without a
-/// scene.
+/// Returns the scene as text, with one character for each part of the grid: `.` if it is empty, `#`
+/// (or the number of the body, if there are several) if it contains material. Empty for a suite
+/// without a scene.
 pub fn sketch_text(suite: &Suite) -> Vec<String> {
     let Some(view) = View::of(suite) else { return Vec::new() };
     let size = view.size();

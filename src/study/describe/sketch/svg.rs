@@ -10,23 +10,23 @@ use crate::subject::PlaneState;
 use crate::suite::model::Suite;
 use crate::suite::scene::face::FACES;
 
-/// Minimum cell width (px) for which cells are drawn. Smaller cells would appear as a grey area.
+/// Minimum width (px) of cells that are drawn. Smaller cells would appear as a grey area.
 const FINEST: f64 = 3.0;
 
-/// Height of a line of text below the scene.
+/// Height (px) of a line of text below the scene.
 const LINE: f64 = 16.0;
 
 /// Maximum number of lines of text per row.
 const MOST_LINES: usize = 3;
 
-/// Left end of names.
+/// Left end (px) of the names of rows.
 const NAMES: f64 = 12.0;
 
-/// Left end of values.
+/// Left end (px) of the values of rows.
 const VALUES: f64 = 142.0;
 
-/// The scene as an SVG document: cells of the coarsest level, bodies, faces with their conditions
-/// and loads, and the rest as text. `None` for a suite without a scene.
+/// Draws the scene as an SVG document: cells of the coarsest level, bodies, and faces with their
+/// conditions and loads. All other information is text. `None` for a suite without a scene.
 pub fn sketch_svg(suite: &Suite) -> Option<String> {
     let view = View::of(suite)?;
     let colours = shape::colours(&view.scene);
@@ -73,7 +73,7 @@ pub fn sketch_svg(suite: &Suite) -> Option<String> {
     Some(svg.render() + "\n")
 }
 
-/// A row below the scene, with its name and value split into lines.
+/// A text row below the scene, with its name and value split into lines.
 struct Row {
     name: Vec<String>,
     value: Vec<String>,
@@ -86,7 +86,7 @@ impl Row {
     }
 }
 
-/// Rows below the scene: the direction of view, and the statement of the problem.
+/// Returns the rows below the scene: the viewing direction, and the statement of the problem.
 fn words(view: &View) -> Vec<Row> {
     let cells = |axis: usize| libm::round(view.size()[axis] / view.h);
     let counts = match view.scene.dimension() {
@@ -136,7 +136,7 @@ fn grid(view: &View) -> SvgElement {
     group
 }
 
-/// Coordinates of the grid corners, below the grid and on its left.
+/// Labels the corners of the grid with their coordinates, below the grid and on its left.
 fn corners(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let low = view.place((view.from[0], view.from[1]));

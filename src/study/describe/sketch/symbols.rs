@@ -1,4 +1,4 @@
-//! Symbols of a sketch: conditions and loads on faces, accelerations and initial velocities.
+//! Symbols in a sketch: conditions and loads on faces, accelerations and initial velocities.
 
 use super::shape::rims;
 use super::view::View;
@@ -16,7 +16,7 @@ const ARROW_STEP: f64 = 26.0;
 const REACH: f64 = 8.0;
 const ARROW: f64 = 20.0;
 
-/// Share of the normal component below which a traction is drawn along the face.
+/// A traction is drawn along the face if its normal component is below this fraction of it.
 const ALONG: f64 = 0.3;
 
 /// A face on the canvas: its ends and its outward direction.
@@ -41,20 +41,20 @@ impl Edge {
         libm::hypot(b.0 - a.0, b.1 - a.1)
     }
 
-    /// The point at a relative position along the face, `away` pixels outside it.
+    /// Returns the point at the relative position `share` along the face, `away` pixels outside it.
     fn at(&self, share: f64, away: f64) -> Pt {
         let ([a, b], out) = (self.ends, self.out);
         (a.0 + share * (b.0 - a.0) + away * out.0, a.1 + share * (b.1 - a.1) + away * out.1)
     }
 
-    /// Relative positions along the face, about `step` apart.
+    /// Returns relative positions along the face that are about `step` apart.
     fn shares(&self, step: f64) -> impl Iterator<Item = f64> {
         let count = libm::floor(self.length() / step).max(1.0) as usize;
         (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
     }
 
-    /// Tail and tip of an arrow in `direction`. Under pressure the tip is at the face, under
-    /// tension the tail is. An arrow along the face is drawn at a distance from it.
+    /// Returns tail and tip of an arrow in `direction`. The tip of a pressure and the tail of a
+    /// tension are at the face. An arrow along the face is drawn at a distance from it.
     fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
         let (ux, uy) = direction.unwrap_or(self.out);
         let (x, y) = (ARROW * ux, ARROW * uy);
@@ -83,7 +83,8 @@ impl Edge {
     }
 }
 
-/// First two components of a load's traction (Pa) at a relative position along its face.
+/// Returns the first two components of a load's traction (Pa) at the relative position `share`
+/// along its face.
 fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64) -> Pt {
     let scene = &view.scene;
     let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
@@ -96,8 +97,8 @@ fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64
     (component(0), component(1))
 }
 
-/// Ends of a face (m) along the other axis. For a body with an outline these are the ends of the
-/// part of the rim on the face.
+/// Returns the ends of a face (m) along the other axis. If the body has an outline, these are the
+/// ends of the part of its rim that lies on the face.
 fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     let (scene, other) = (&view.scene, 1 - face.axis);
     if scene.mapped.is_some() {
@@ -118,7 +119,7 @@ fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     }
 }
 
-/// Symbols for the condition and the loads of a face in the plane.
+/// Draws symbols for the condition and the loads of a face in the plane.
 pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     let edge = Edge::of(view, face);
     let mut group = SvgElement::new("g");
@@ -137,12 +138,12 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // The wall is next to the body, which can separate from it.
+            // The wall is drawn next to the body, because the body can separate from it.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }
         "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
-        // The direction of motion is stated as text.
+        // The direction of the prescribed motion is stated as text.
         "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
         _ => {}
     }
@@ -156,7 +157,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     group
 }
 
-/// A particle set that a load refers to, as a dashed box with its name.
+/// Draws a particle set that a load refers to, as a dashed box with its name.
 pub(super) fn set(view: &View, set: &Region) -> SvgElement {
     let across = if view.scene.dimension() == 1 { (0.0, view.h) } else { (set.from[1], set.to[1]) };
     let low = view.place((set.from[0], across.0));
@@ -177,7 +178,7 @@ const LONGEST: f64 = 24.0;
 /// Number of arrows along each axis of a body.
 const PER_AXIS: usize = 5;
 
-/// Minimum velocity with an arrow, as a share of the largest.
+/// Minimum velocity that gets an arrow, as a fraction of the largest velocity.
 const SMALLEST: f64 = 0.05;
 
 /// Draws an arrow from `tail` to `tip`.
@@ -203,17 +204,17 @@ fn shown(vector: Pt, largest: f64) -> Pt {
     (LONGEST * vector.0 / largest, -LONGEST * vector.1 / largest)
 }
 
-/// Times (s) at which a load is evaluated; the first time with a non-zero load is used.
+/// Times (s) at which a load is evaluated. The first time with a non-zero load is used.
 const TIMES: [f64; 4] = [0.0, 1e-6, 1e-3, 0.1];
 
-/// Direction on the canvas of the first non-zero vector that `at` returns.
+/// Returns the direction on the canvas of the first non-zero vector that `at` returns.
 pub(super) fn direction(at: impl Fn(f64) -> Pt) -> Option<Pt> {
     let (x, y) = TIMES.into_iter().map(at).find(|v| libm::hypot(v.0, v.1) > 0.0)?;
     let size = libm::hypot(x, y);
     size.is_finite().then(|| (x / size, -y / size))
 }
 
-/// Arrows of the initial velocities of a body, if these are not zero.
+/// Draws arrows for the initial velocities of a body, if they are not zero.
 pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     let (low, high) = view.rise(body);
     let rows = if body.dimension() == 1 { 1 } else { PER_AXIS };
@@ -241,7 +242,7 @@ pub(super) fn initial_velocity(view: &View, body: &Scene) -> SvgElement {
     group
 }
 
-/// Arrows of the uniform accelerations of the scene, above the grid.
+/// Draws arrows for the uniform accelerations of the scene, above the grid.
 pub(super) fn accelerations(view: &View) -> SvgElement {
     let mut group = SvgElement::new("g");
     let uniform = view.scene.loads_on(LoadTarget::Body).filter(|load| load.is_uniform());

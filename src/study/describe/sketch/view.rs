@@ -1,4 +1,4 @@
-//! The plane region of a sketch, and its map to the canvas.
+//! The plane region that a sketch shows, and its map to the canvas.
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
@@ -15,7 +15,7 @@ const HIGHEST: f64 = 260.0;
 /// Minimum height of the grid on the canvas (px); a bar has this height.
 const LOWEST: f64 = 34.0;
 
-/// The grid of the coarsest level in the plane of the first two axes.
+/// The grid of the coarsest level in the plane of the first two axes, and its scene.
 pub(super) struct View {
     pub(super) scene: Scene,
     pub(super) from: [f64; 2],
@@ -25,7 +25,8 @@ pub(super) struct View {
 }
 
 impl View {
-    /// View of the scene of a suite. For a stability study this is the scene of the first row.
+    /// Creates the view of a suite's scene. For a stability study this is the scene of the first
+    /// row.
     pub(super) fn of(suite: &Suite) -> Option<Self> {
         if let Some(plan) = suite.plan::<ConvergencePlan>() {
             return Some(Self::over(plan.scene.clone(), plan.refine.levels.first()?.h));
@@ -51,7 +52,8 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Pixels per metre along each axis. They differ for bodies that would otherwise be too flat.
+    /// Returns the scale (px/m) along each axis. Both scales differ for bodies that would otherwise
+    /// be too flat.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
@@ -61,18 +63,18 @@ impl View {
         }
     }
 
-    /// Whether lengths along both axes are drawn to the same scale.
+    /// Whether both axes have the same scale.
     pub(super) fn is_to_scale(&self) -> bool {
         let [across, up] = self.scale();
         self.scene.dimension() == 1 || across == up
     }
 
-    /// Height (px) of the grid including its margins.
+    /// Returns the height (px) of the grid including its margins.
     pub(super) fn height(&self) -> f64 {
         self.size()[1] * self.scale()[1] + 2.0 * MARGIN
     }
 
-    /// Converts a place (m) to pixels.
+    /// Converts a position (m) to pixels.
     pub(super) fn place(&self, (x, y): Pt) -> Pt {
         let (scale, size) = (self.scale(), self.size());
         let left = 0.5 * (WIDTH - size[0] * scale[0]);
@@ -80,13 +82,13 @@ impl View {
         (left + (x - self.from[0]) * scale[0], bottom - (y - self.from[1]) * scale[1])
     }
 
-    /// Lower and upper end of a body along the second axis (m).
+    /// Returns the lower and upper end of a body along the second axis (m).
     pub(super) fn rise(&self, body: &Scene) -> Pt {
         if body.dimension() == 1 { (0.0, self.h) } else { (body.from[1], body.to[1]) }
     }
 
-    /// Converts a place of the plane to the scene: to the axis of a bar, or to the middle of the
-    /// third axis.
+    /// Converts a position in the plane to a position in the scene: on the axis of a bar, or in the
+    /// middle of the third axis.
     pub(super) fn in_scene(body: &Scene, (x, y): Pt) -> Vec<f64> {
         let coordinate = |axis: usize| match axis {
             0 => x,
@@ -96,7 +98,7 @@ impl View {
         (0..body.dimension()).map(coordinate).collect()
     }
 
-    /// Whether a body covers a place of the plane.
+    /// Whether a body covers a position in the plane.
     pub(super) fn covers(body: &Scene, place: Pt) -> bool {
         let place = Self::in_scene(body, place);
         let inside = |(axis, x): (usize, &f64)| (body.from[axis]..=body.to[axis]).contains(x);

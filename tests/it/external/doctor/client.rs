@@ -1,4 +1,4 @@
-//! A small MPM in the plane, with a defect: linear functions, FLIP, USL.
+//! A small MPM in the plane with a defect. It uses linear functions, FLIP and USL.
 
 use super::defect::{Defect, Defect::*};
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 type Vector = [f64; 2];
 
-/// The maker of clients with a defect.
+/// Creates clients with a defect.
 pub(super) struct Clinic {
     pub(super) defect: Defect,
     runs: AtomicU32,
@@ -48,7 +48,7 @@ struct Client {
     f: Vec<[f64; 4]>,
     sigma: Vec<[f64; 4]>,
     steps: u64,
-    /// Number of this run of the factory.
+    /// Number of this run among the runs of the factory.
     run: u32,
 }
 
@@ -79,13 +79,13 @@ impl Client {
         client
     }
 
-    /// The cell of a place.
+    /// Returns the cell that contains the position `x`.
     fn cell(&self, x: Vector) -> [isize; 2] {
         let grid = &self.problem.grid;
         [0, 1].map(|i| ((x[i] - grid.origin[i]) / grid.h).floor() as isize)
     }
 
-    /// Nodes around a particle, with weights and gradients.
+    /// Returns the nodes around a particle, with weights and gradients.
     fn weights(&self, p: usize) -> Vec<(usize, f64, Vector)> {
         let grid = &self.problem.grid;
         let cell = self.cell(self.x[p]);
@@ -156,7 +156,7 @@ impl Client {
         force
     }
 
-    /// Volume and stress after a velocity gradient has acted.
+    /// Updates volume and stress with the velocity gradient `l`.
     fn strain(&mut self, p: usize, l: [f64; 4], dt: f64) {
         let material = &self.problem.materials[0];
         let (e, nu) = (material.parameter("young"), material.parameter("poisson"));
@@ -299,7 +299,7 @@ impl Subject for Client {
                     }
                 }
             }
-            // Factor of the first step if it starts half a step back or half a step ahead.
+            // Factor on the first step if the start is half a step back or half a step ahead.
             let first = match defect {
                 Leapfrog if self.steps == 0 => 0.5,
                 VelocityAhead if self.steps == 0 => 1.5,

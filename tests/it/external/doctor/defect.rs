@@ -1,6 +1,6 @@
-//! Defects of a client, and the finding that names each.
+//! Defects of a client, each with the finding that reports it.
 
-/// A defect.
+/// Defect of a client.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Defect {
     Nothing,

@@ -11,7 +11,7 @@ use defect::Defect;
 use mpm_verify::testing::{ExaminationReport, ExaminationResult, FindingWeight, doctor, page};
 use rstest::rstest;
 
-/// Defects that are found, and all remarks.
+/// Runs the doctor on a client. Returns its defects, its other remarks, and the report.
 fn found(defect: Defect) -> (Vec<&'static str>, Vec<&'static str>, String) {
     let report = doctor(&Clinic::new(defect), &|_| ());
     let of = |weight: FindingWeight| {
@@ -80,7 +80,7 @@ fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
     assert_eq!(defects, [name], "{page}");
 }
 
-/// Properties of a scheme are reported, but not as defects.
+/// Properties of a scheme are reported as remarks, not as defects.
 #[rstest]
 #[case(Defect::Nothing, &["rounding-grows-on-faces", "start-half-a-step-off"])]
 #[case(Defect::Leapfrog, &["rounding-grows-on-faces", "velocity-half-a-step-behind"])]
@@ -102,7 +102,7 @@ fn a_sound_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&s
     assert_eq!(found, remarks, "{page}");
 }
 
-/// In one dimension, and without gravity and questions.
+/// The solver of the example is one-dimensional, has no gravity, and sends no requests.
 #[test]
 fn the_solver_of_the_example_is_sound() {
     let report = doctor(&OwnSolver, &|_| ());
@@ -114,7 +114,7 @@ fn the_solver_of_the_example_is_sound() {
     assert_eq!(names, ["fall", "force", "periodic", "laws", "start", "periodic-ends"]);
 }
 
-/// An author in a hurry reads the last lines.
+/// The last lines must be the verdict, because some authors read only these.
 #[test]
 fn the_page_ends_with_the_verdict() {
     let (_, _, page) = found(Defect::Drag);

@@ -1,9 +1,10 @@
-//! The command line: a script that moves every particle with the velocity that it was given.
+//! The command line of the doctor. The solver is a script that moves every particle with its
+//! initial velocity.
 
 use crate::cli::{BAD_INPUT, FAILED, Folder};
 use crate::external::program::HELLO;
 
-/// Exact for translation only, with an acceleration of `G`.
+/// A solver that is exact for translation only, with an acceleration of `G`.
 const MOVER: &str = r#"
 read -r m; echo 'HELLO'
 read -r problem || exit 0
@@ -31,7 +32,7 @@ while read -r m; do
 done
 "#;
 
-/// A call of the doctor on a script.
+/// Runs the doctor on a script.
 fn call(script: &str, more: &[&str]) -> (i32, String, String) {
     let folder = Folder::new();
     folder.write("solver.sh", script.replace("HELLO", HELLO));

@@ -1,4 +1,4 @@
-//! Figures that were computed independently from the definitions, to the digits given.
+//! Compares closed forms with values that were computed independently from the definitions.
 
 use approx::assert_abs_diff_eq;
 use mpm_verify::mpm::{SchemeName, Spline, WaveMethod, WaveSymbols, WaveTransfer};
@@ -13,7 +13,7 @@ const PIC_MUSL: (WaveTransfer, SchemeName) = (WaveTransfer::Pic, SchemeName::Mus
 const APIC_USL: (WaveTransfer, SchemeName) = (WaveTransfer::Apic, SchemeName::Usl);
 const FLIP_CONSISTENT: (WaveTransfer, SchemeName) = (WaveTransfer::FlipConsistent, SchemeName::Usl);
 
-/// A method with two particles per cell.
+/// Creates a method with two particles per cell.
 fn method(spline: Spline, (transfer, scheme): (WaveTransfer, SchemeName)) -> WaveMethod {
     WaveMethod { spline, ppc: 2, shift: 0.0, transfer, scheme }
 }
@@ -33,7 +33,8 @@ fn symbols_of_eight_cells(#[case] spline: Spline, #[case] expected: [f64; 3]) {
     }
 }
 
-/// The closed forms of linear functions; stiffness and APIC do not depend on the positions.
+/// For linear functions the symbols have closed forms. Stiffness and APIC do not depend on the
+/// positions of the particles.
 #[rstest]
 fn linear_symbols_have_closed_forms(
     #[values(1, 2, 3, 4)] ppc: u32,
@@ -52,7 +53,7 @@ fn linear_symbols_have_closed_forms(
     }
 }
 
-/// A particle at a node has no inertia with linear functions, and no affine part.
+/// With linear functions, a particle at a node has no inertia and no affine part.
 #[test]
 fn a_particle_on_a_node_has_no_affine_part() {
     let found = WaveSymbols::new(Spline::Linear, 1.0, &[0.0]);
@@ -60,7 +61,7 @@ fn a_particle_on_a_node_has_no_affine_part() {
     assert_abs_diff_eq!(found.mass, 1.0, epsilon = 1e-15);
 }
 
-/// One particle at a corner between two quadratic functions: both are 1/2 there.
+/// One particle is at a corner between two quadratic functions, where both are 1/2.
 #[rstest]
 fn quadratic_symbols_at_knots_are_those_of_linear_functions(
     #[values(0.3, PI / 4.0, 2.5)] theta: f64,
@@ -125,7 +126,7 @@ fn stability_limits(#[case] spline: Spline, #[case] ppc: u32, #[case] expected: 
     }
 }
 
-/// Limits of one wave: `2/sqrt(kappa s)` and similar closed forms.
+/// Stability limits of one wave are `2/sqrt(kappa s)` and similar closed forms.
 #[rstest]
 fn limits_of_a_wave_have_closed_forms(
     #[values(Spline::Linear, Spline::Quadratic, Spline::Cubic)] spline: Spline,
@@ -143,7 +144,7 @@ fn limits_of_a_wave_have_closed_forms(
     ] {
         let step = method(spline, named).step(theta);
         assert_abs_diff_eq!(step.limit(), square.sqrt(), epsilon = 1e-12);
-        // Here an eigenvalue leaves the unit circle.
+        // At this limit an eigenvalue leaves the unit circle.
         assert!(step.largest_modulus(0.999 * step.limit()) <= 1.0 + 1e-12);
         assert!(step.largest_modulus(1.001 * step.limit()) > 1.0 + 1e-4);
     }
@@ -167,7 +168,7 @@ fn pic_is_overdamped_at_short_time_steps(#[case] spline: Spline, #[case] expecte
     assert!(step.largest_modulus(courant) > step.determinant(courant).sqrt());
 }
 
-/// The ranges of PIC, APIC and FLIP from `tr^2 < 4 det`.
+/// The ranges with complex eigenvalues of PIC, APIC and FLIP follow from `tr^2 < 4 det`.
 #[rstest]
 fn complex_ranges_have_closed_forms(
     #[values(Spline::Linear, Spline::Quadratic, Spline::Cubic)] spline: Spline,

@@ -1,4 +1,5 @@
-//! Dispersion and damping in closed form: figures of an independent derivation, and the solver.
+//! Dispersion and damping in closed form, compared with an independent derivation and with the
+//! solver.
 
 mod figures;
 mod solver;

@@ -1,4 +1,4 @@
-//! Trace and determinant of a step of the solver, from its nodal velocities.
+//! Measures trace and determinant of a step of the solver from its nodal velocities.
 //!
 //! Two starts of a frozen run, one with velocities and one with stresses, give two series of nodal
 //! velocities of one wave. Both satisfy `y(k+2) = tr y(k+1) - det y(k)`, which determines trace and
@@ -14,8 +14,8 @@ use mpm_verify::subject::{Perturbable, Subject};
 use rstest::rstest;
 use std::f64::consts::TAU;
 
-/// Cells of the row. With an even number, a wave of two cells would make the consistent mass matrix
-/// of linear functions singular at one particle per cell.
+/// Number of cells of the row. It is odd: with an even number, a wave of two cells would make the
+/// consistent mass matrix of linear functions singular for one particle per cell.
 const CELLS: usize = 9;
 
 /// Cell size (m); Young's modulus (Pa) is 1, density (kg/m3) 4, and the wave speed 1/2 m/s.
@@ -23,17 +23,18 @@ const H: f64 = 0.25;
 const DENSITY: f64 = 4.0;
 const SPEED: f64 = 0.5;
 
-/// Amplitude of velocities (m/s) and stresses (Pa): products of two of them vanish by rounding.
+/// Amplitude of velocities (m/s) and stresses (Pa). It is so small that products of two amplitudes
+/// vanish by rounding.
 const AMPLITUDE: f64 = 1e-30;
 
-/// Largest error of trace and determinant.
+/// Maximum error of trace and determinant.
 const TOLERANCE: f64 = 1e-12;
 
-/// Largest logarithm of the factor of a step in a moving run without damping: motions of 1e-6 cells
-/// change the symbols by as much.
+/// Maximum logarithm of the factor of a step in a moving run without damping: motions of 1e-6 cells
+/// change the symbols by this order.
 const UNDAMPED: f64 = 1e-6;
 
-/// Domains of particles: the closed form is that of a mean over a domain.
+/// Domains of particles. The closed form is that of a mean over a domain.
 const DOMAINS: [(BasisName, Spline); 3] = [
     (BasisName::UniformGimp, Spline::Gimp(2)),
     (BasisName::ContiguousGimp, Spline::Gimp(2)),
@@ -56,16 +57,15 @@ struct Row {
     courant: f64,
 }
 
-/// Nodal velocities of a wave in one step: real and imaginary part.
+/// Nodal velocity of a wave in one step: real and imaginary part.
 type Amplitude = [f64; 2];
 
-/// Phase (rad) at `x` (m) of a wave with `periods` periods in the row.
+/// Returns the phase (rad) at `x` (m) of a wave with `periods` periods in the row.
 fn phase(x: f64, periods: usize) -> f64 {
     TAU * periods as f64 * x / (CELLS as f64 * H)
 }
 
-/// Gives the particles velocities (m/s) or stresses (Pa) of a wave with `periods` periods in the
-/// row.
+/// Sets the particle velocities (m/s) or stresses (Pa) to a wave with `periods` periods in the row.
 fn start(solver: &mut Solver<1>, periods: usize, starts_with_stress: bool, size: f64) {
     let count = solver.particles().len();
     let mut state = Vec::new();
@@ -78,8 +78,8 @@ fn start(solver: &mut Solver<1>, periods: usize, starts_with_stress: bool, size:
     solver.set_state(&state);
 }
 
-/// Trace and determinant by least squares over real and imaginary parts of all series, each
-/// relative to its largest number.
+/// Computes trace and determinant by least squares over real and imaginary parts of all series.
+/// Each series is divided by its largest number.
 fn fit(series: &[Vec<Amplitude>]) -> (f64, f64) {
     let mut normal = [[0.0; 3]; 2];
     for series in series {
@@ -121,7 +121,7 @@ impl Row {
         Solver::new(parts).expect("a solver")
     }
 
-    /// Nodal velocities of the wave, over `size`, after each of `steps` steps.
+    /// Returns the nodal velocities of the wave, divided by `size`, after each of `steps` steps.
     fn record(
         &self,
         solver: &mut Solver<1>,
@@ -143,7 +143,7 @@ impl Row {
         (0..steps).map(step).collect()
     }
 
-    /// Trace and determinant of a frozen run, from three steps after each of two starts.
+    /// Measures trace and determinant of a frozen run, from three steps after each of two starts.
     fn measure(&self, periods: usize) -> (f64, f64) {
         let series = [false, true].map(|starts_with_stress| {
             let mut solver = self.solver();
@@ -154,7 +154,7 @@ impl Row {
         fit(&series)
     }
 
-    /// The closed form.
+    /// Returns trace and determinant by the closed form.
     fn predict(&self, spline: Spline, wave: WaveTransfer, periods: usize) -> WaveStep {
         let theta = TAU * periods as f64 / CELLS as f64;
         let regular = WaveSymbols::regular_positions(self.ppc as u32);
@@ -177,7 +177,7 @@ impl Row {
     }
 }
 
-/// Waves of 9, 4.5 and 3 cells.
+/// Compares waves of 9, 4.5 and 3 cells with the closed form.
 fn all_waves(name: TransferName, mass: MassName, wave: WaveTransfer, ppc: usize, shift: f64) {
     for (basis, spline) in BASES {
         for scheme in SchemeName::ALL {
@@ -213,7 +213,7 @@ fn a_consistent_mass_has_the_predicted_trace_and_determinant(#[values(1, 2, 3, 4
     all_waves(TransferName::Flip, MassName::Consistent, WaveTransfer::FlipConsistent, ppc, 0.0);
 }
 
-/// Particles that are moved by a part of a cell have other symbols and the same formulas.
+/// If particles are shifted by a fraction of a cell, the symbols change but the formulas do not.
 #[rstest]
 #[case::flip(TransferName::Flip, WaveTransfer::Flip)]
 #[case::apic(TransferName::Apic, WaveTransfer::Apic)]
@@ -226,8 +226,8 @@ fn shifted_particles_have_the_predicted_trace_and_determinant(
     all_waves(name, MassName::Lumped, wave, ppc, 0.1);
 }
 
-/// Twenty periods of a body whose particles move. The run ends earlier if damping has reduced the
-/// amplitude to a millionth.
+/// Runs cover twenty periods of a body whose particles move. A run ends earlier if damping has
+/// reduced the amplitude to a millionth.
 #[rstest]
 #[case::flip_usl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Usl)]
 #[case::flip_musl(TransferName::Flip, WaveTransfer::Flip, SchemeName::Musl)]
@@ -261,7 +261,7 @@ fn moving_particles_have_the_predicted_phase_error_and_damping(
     assert!(error <= 0.02 * expected.abs() + UNDAMPED, "ln |l| is {found}, expected {expected}");
 }
 
-/// Domains of two particles per cell, in whole cells and across their corners.
+/// Domains of two particles per cell lie inside cells, or extend across their corners.
 #[rstest]
 #[case::flip(TransferName::Flip, WaveTransfer::Flip)]
 #[case::pic(TransferName::Pic, WaveTransfer::Pic)]
@@ -280,7 +280,7 @@ fn domains_have_the_predicted_trace_and_determinant(
     }
 }
 
-/// The names of a suite give the closed forms that the cases above verify.
+/// The names in suites must give the closed forms that are verified above.
 #[test]
 fn names_of_bases_and_transfers_have_their_closed_forms() {
     for (basis, spline) in BASES.into_iter().chain(DOMAINS) {
@@ -296,7 +296,8 @@ fn names_of_bases_and_transfers_have_their_closed_forms() {
     }
 }
 
-/// All registered transfers of velocity have a closed form, so that a new one is not forgotten.
+/// All registered transfers of velocity must have a closed form. This test fails for a new transfer
+/// without one.
 #[test]
 fn transfers_with_a_closed_form_are_listed() {
     let without = [TransferName::Mls, TransferName::Tpic, TransferName::Tls];
@@ -304,7 +305,7 @@ fn transfers_with_a_closed_form_are_listed() {
     assert_eq!(with, 9, "a transfer was added or removed: extend the cases above");
 }
 
-/// The measurement distinguishes schemes whose determinants differ by one part in a thousand.
+/// The measurement must detect an error of one part in a thousand in the determinant.
 #[test]
 fn a_wrong_formula_is_detected() {
     let method = (BasisName::QuadraticBSpline, TransferName::Flip99, MassName::Lumped);
@@ -313,7 +314,7 @@ fn a_wrong_formula_is_detected() {
     let (_, determinant) = row.measure(1);
     let wrong = row.predict(Spline::Quadratic, WaveTransfer::Flip, 1).determinant(0.4);
     assert!((determinant - wrong).abs() > 1e-3, "{determinant} against {wrong}");
-    // The method of the figures is the one of the solver.
+    // The method of the published values must be that of the solver.
     let method = WaveMethod {
         spline: Spline::Quadratic,
         ppc: 2,

@@ -1,5 +1,5 @@
-//! Laws of blocks of particles: passes have the same bits on any number of threads, and the sums of
-//! one block up to rounding.
+//! Properties of blocks of particles: passes must have the same bits for any number of threads, and
+//! the sums of one block up to rounding.
 
 use super::bits;
 use crate::common::in_dimension;
@@ -13,14 +13,14 @@ use rstest::rstest;
 
 const H: f64 = 0.25;
 
-/// Loops that cut small scenes into blocks, too.
+/// Creates loops that divide even small scenes into blocks.
 fn cutting<const D: usize>(basis: BasisName) -> Box<dyn Kernel<D>> {
     let settings = LoopSettings { min_particles: 0, min_block: 128, ..LoopSettings::default() };
     kernel_with(basis, settings)
 }
 
-/// A body in a grid that is long along its last axis, with numbers in all columns. A test of
-/// `src/mpm/kernel/colouring.rs` holds that one like it is cut.
+/// Creates a body in a grid that is long along its last axis, with numbers in all columns. A test
+/// in `src/mpm/kernel/colouring.rs` checks that such a body is divided into blocks.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
     let cells = std::array::from_fn(|axis| match (axis + 1 == D, D) {
         (true, 1) => 600,
@@ -43,7 +43,7 @@ fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Pa
     (grid, particles)
 }
 
-/// Mass, momentum and force of all nodes.
+/// Returns mass, momentum and force of all nodes.
 fn mapped<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
@@ -98,7 +98,7 @@ fn is_shared<const D: usize>(basis: BasisName, periodic: bool) {
     }
 }
 
-/// The sums are right for particles in any order and at any position.
+/// Asserts that the sums are correct for particles in any order and at any position.
 fn is_right_anywhere<const D: usize>(basis: BasisName, periodic: bool) {
     let (loops, whole) = (cutting::<D>(basis), kernel::<D>(basis));
     let (grid, mut particles) = scene(whole.as_ref(), periodic);

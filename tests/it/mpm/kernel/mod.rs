@@ -1,6 +1,6 @@
-//! Laws of the loops, for every basis in 1-D, 2-D and 3-D: a pass of several parts has the bits of
-//! passes of one part each, all processor levels have the same bits, and the sums equal those of
-//! the textbook loops ([`textbook`]).
+//! Properties of the loops, for every basis in 1-D, 2-D and 3-D. A pass with several parts must
+//! have the bits of passes with one part each, and all processor levels the same bits. Sums must
+//! equal those of the textbook loops ([`textbook`]).
 
 mod blocks;
 mod textbook;
@@ -16,8 +16,8 @@ use rstest::rstest;
 
 const CELLS: usize = 4;
 
-/// A grid full of particles, two to a cell and axis, with numbers in all columns. Some domains are
-/// longer than a cell.
+/// Creates a grid full of particles, two to a cell and axis, with numbers in all columns. Some
+/// domains are longer than a cell.
 fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Particles<D>) {
     let (h, origin) = (0.25, Vector::from_element(-0.3));
     let mut grid = kernel.grid(origin, h, [CELLS; D], [periodic; D]);
@@ -47,7 +47,7 @@ fn bits<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Vec<u64> {
     numbers.into_iter().map(|x| x.to_bits()).collect()
 }
 
-/// Bits of all columns that P2G writes.
+/// Returns the bits of all columns that P2G writes.
 fn nodes<const D: usize>(grid: &Grid<D>) -> Vec<u64> {
     bits(grid.mass.iter().chain(grid.velocity.iter().flatten()).chain(grid.force.iter().flatten()))
 }
@@ -120,7 +120,7 @@ fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     assert_eq!(bits(fit.iter().flatten()), bits(fit1.iter().flatten()), "fit");
 }
 
-/// Particle `p` alone.
+/// Copies particle `p` without the others.
 fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
     let mut one = particles.clone();
     (one.x, one.v) = (vec![particles.x[p]], vec![particles.v[p]]);
@@ -130,8 +130,8 @@ fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
     one
 }
 
-/// The result of a particle does not depend on its neighbours in memory; a particle outside the
-/// grid has no nodes.
+/// Asserts that the result of a particle does not depend on its neighbours in memory. A particle
+/// outside the grid has no nodes.
 fn particles_are_independent<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) {
     let (grid, mut particles) = scene(kernel, periodic);
     particles.x[3] = Vector::from_element(f64::NAN);
@@ -163,7 +163,7 @@ fn particles_are_independent<const D: usize>(kernel: &dyn Kernel<D>, periodic: b
     assert_relative_eq!(mapped.mass.iter().sum::<f64>(), inside, max_relative = 1e-13);
 }
 
-/// Levels below the best one of this processor, down to plain arrays.
+/// Lists the levels below the best one of this processor, down to plain arrays.
 fn lower_levels() -> Vec<Level> {
     let mut levels = vec![Level::baseline()];
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -171,7 +171,7 @@ fn lower_levels() -> Vec<Level> {
     levels
 }
 
-/// Bits of all that a pass of P2G and one of G2P write.
+/// Returns the bits of everything that one pass of P2G and one of G2P write.
 fn passes<const D: usize>(
     kernel: &dyn Kernel<D>,
     (grid, particles): (&Grid<D>, &Particles<D>),
@@ -196,7 +196,7 @@ fn passes<const D: usize>(
     [nodes(&mapped), bits(v.iter().flatten().chain(matrices))]
 }
 
-/// The best level of this processor, lower ones, and plain arrays have the same bits.
+/// Asserts that all levels that this processor supports, and plain arrays, have the same bits.
 fn levels_agree<const D: usize>(basis: BasisName, periodic: bool) {
     let best = kernel::<D>(basis);
     let (grid, particles) = scene(best.as_ref(), periodic);
@@ -208,8 +208,8 @@ fn levels_agree<const D: usize>(basis: BasisName, periodic: bool) {
     }
 }
 
-/// Rounding of the fast loops, relative to the largest number of a column: their sums are
-/// factorised by axes, and so rounded elsewhere.
+/// Maximum rounding error of the fast loops, relative to the largest number of a column. Their sums
+/// are factorised by axes and therefore rounded differently.
 const ROUNDING: f64 = 1e-13;
 
 fn agree<'a>(

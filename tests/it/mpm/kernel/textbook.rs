@@ -1,4 +1,4 @@
-//! Textbook loops of P2G and G2P: particle by particle and node by node, straight from the
+//! Textbook loops of P2G and G2P: particle by particle and node by node, directly from the
 //! equations.
 //!
 //! ```text
@@ -12,13 +12,13 @@
 //! ```
 //!
 //! with `mean_p = sum_i (x_i - x_p) N_i(x_p)`, zero except for domains that a wall cuts off. Tests
-//! compare the fast loops with these sums. Users have no reason to run the slow loops; they
-//! document the fast ones.
+//! compare the fast loops with these sums. The slow loops document the fast ones and have no other
+//! use.
 
 use super::alone;
 use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Vector, dyad};
 
-/// Sums of P2G, one entry for each node.
+/// Results of P2G, one entry for each node.
 pub(super) struct NodeSums<const D: usize> {
     /// m_i (kg).
     pub(super) mass: Vec<f64>,
@@ -28,7 +28,7 @@ pub(super) struct NodeSums<const D: usize> {
     pub(super) force: Vec<Vector<D>>,
 }
 
-/// Sums of G2P, one entry for each particle.
+/// Results of G2P, one entry for each particle.
 pub(super) struct ParticleSums<const D: usize> {
     /// v_p (m/s).
     pub(super) velocity: Vec<Vector<D>>,
@@ -38,7 +38,7 @@ pub(super) struct ParticleSums<const D: usize> {
     pub(super) gradient: Vec<Matrix<D>>,
 }
 
-/// Functions of one node at a particle.
+/// Weight, offset and gradient of one node at a particle.
 struct NodeWeight<const D: usize> {
     node: usize,
     /// N_i(x_p).
@@ -49,8 +49,9 @@ struct NodeWeight<const D: usize> {
     gradient: Vector<D>,
 }
 
-/// The nodes of particle `p`, from passes that are textbook loops in the kernel, too: a unit force
-/// at the particle is N_i, a unit moment grad N_i, and the position as a scalar `(x_i - x_p) N_i`.
+/// Returns the nodes of particle `p`. They are computed from passes that are textbook loops in the
+/// kernel too: a unit force at the particle gives N_i, a unit moment grad N_i, and the position as
+/// a scalar `(x_i - x_p) N_i`.
 fn node_weights<const D: usize>(
     kernel: &dyn Kernel<D>,
     (grid, particles): (&Grid<D>, &Particles<D>),
@@ -77,12 +78,12 @@ fn node_weights<const D: usize>(
     (0..grid.nodes()).map(node).filter(|i| i.weight != 0.0 || i.gradient.norm() != 0.0).collect()
 }
 
-/// `sum_i (x_i - x_p) N_i(x_p)` (m).
+/// Returns `sum_i (x_i - x_p) N_i(x_p)` (m).
 fn mean<const D: usize>(nodes: &[NodeWeight<D>]) -> Vector<D> {
     nodes.iter().map(|i| i.offset).sum()
 }
 
-/// Mass, momentum of the field `v_p + C_p (x - x_p - mean_p)`, and internal force.
+/// Computes mass, momentum of the field `v_p + C_p (x - x_p - mean_p)`, and internal force.
 pub(super) fn p2g<const D: usize>(
     kernel: &dyn Kernel<D>,
     particles: &Particles<D>,
@@ -105,7 +106,7 @@ pub(super) fn p2g<const D: usize>(
     NodeSums { mass, momentum, force }
 }
 
-/// Internal force by fit of particles whose `V_p sigma_p D_p^-1` is `c`.
+/// Computes the internal force by a fit, for particles whose `V_p sigma_p D_p^-1` is `c`.
 pub(super) fn force_by_fit<const D: usize>(
     kernel: &dyn Kernel<D>,
     particles: &Particles<D>,
@@ -123,7 +124,7 @@ pub(super) fn force_by_fit<const D: usize>(
     force
 }
 
-/// Velocity, first moment and gradient of the nodal velocities `v`.
+/// Computes velocity, first moment and gradient from the nodal velocities `v`.
 pub(super) fn g2p<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

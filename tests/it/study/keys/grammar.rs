@@ -1,11 +1,11 @@
-//! The grammar of a suite, derived from its error messages: an invalid value is put at a path, and
-//! the error lists the allowed keys or names. So every name comes from its registration.
+//! The grammar of a suite, derived from error messages: an invalid value is inserted at a path, and
+//! the error lists the allowed keys or names. Every name therefore comes from its registration.
 
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use serde_yaml::Value;
 
-/// Names that no registration has, nor one near to them.
+/// A name that is not registered and not similar to a registered name.
 const STRANGE: &str = "qqqqqqqq";
 const STRANGER: &str = "jjjjjjjj";
 
@@ -13,27 +13,27 @@ const STRANGER: &str = "jjjjjjjj";
 pub(super) const STUDIES: [&str; 5] =
     ["convergence", "stability", "internal_force", "gradient", "spectrum"];
 
-/// Keys of the whole file whose sub-keys are chosen by the author.
+/// Keys of the whole file for which the author chooses the sub-keys.
 const OF_AUTHORS: [&str; 2] = ["parameters", "functions"];
 
 /// All allowed values at one path.
 #[derive(Debug, Default)]
 pub(super) struct Node {
-    /// Whether it may be a number.
+    /// Whether the value may be a number.
     pub(super) is_number: bool,
-    /// Keys of a map, or names with settings, with their nodes.
+    /// Keys of a map, or names that have settings, each with its node.
     pub(super) keys: Vec<(String, Node)>,
     /// Whether the keys are names to choose from.
     pub(super) is_choice: bool,
-    /// Names without settings.
+    /// Allowed names that have no settings.
     pub(super) names: Vec<String>,
-    /// Value of a map whose keys the author invents.
+    /// Node of the values of a map whose keys the author chooses.
     pub(super) named: Option<Box<Node>>,
-    /// Member of a list.
+    /// Node of the members of a list.
     pub(super) member: Option<Box<Node>>,
 }
 
-/// A step to a place: a key, or the only member of a list.
+/// A step of a path: a key, or the only member of a list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Step<'a> {
     Key(&'a str),
@@ -41,7 +41,7 @@ enum Step<'a> {
 }
 
 impl Node {
-    /// The grammar of a kind of study.
+    /// Derives the grammar of a kind of study.
     pub(super) fn of_study(study: &str) -> Self {
         let (text, top) = (base(study), format!("study: {study}\n{STRANGE}: 1\n"));
         let keys = listed(&refusal(&top), "possible keys: ").expect("the keys of a suite");
@@ -53,7 +53,7 @@ impl Node {
         Self { keys: keys.into_iter().map(node).collect(), ..Self::default() }
     }
 
-    /// The values that are allowed at `path` of the suite `base`.
+    /// Derives the values that are allowed at `path` of the suite `base`.
     fn at(base: &Value, path: &[Step<'_>]) -> Self {
         let answer = |text: &str| {
             let value = serde_yaml::from_str(text).expect("YAML");
@@ -64,7 +64,7 @@ impl Node {
         let map = answer(&format!("{{{STRANGE}: {{{STRANGER}: 0}}}}"));
         let about = |name: &str| map.message().contains(&format!("`{name}`"));
         let word = answer(STRANGE);
-        // A bare name is refused as such, unless it is the formula of a number.
+        // A name alone is refused, unless a number is allowed: it is then a formula.
         let is_refused = word.message().contains(STRANGE);
         let names = listed(&word, "possible names: ").filter(|_| is_refused);
         let mut names = names.unwrap_or_default();
@@ -86,11 +86,11 @@ impl Node {
         } else if map.message() == "expected a list, found a map (`key: value`)" {
             node.member = Some(Box::new(then(Step::Member)));
         } else if !about(STRANGE) {
-            // Neither a map nor a name with settings.
+            // The value is neither a map nor a name with settings.
         } else if let Some(keys) = listed(&map, "possible keys: ") {
-            // A map that may also be a number reads the name as a formula.
+            // If the value may be a map or a number, the name is parsed as a formula.
             node.is_number = !word.message().starts_with("expected a map");
-            // The expectation of a full run is one more of the same.
+            // The expectation of a full run has the same keys.
             let keys = keys.into_iter().filter(|key| key != "full");
             node.keys = keys.map(|key| (key.clone(), then(Step::Key(&key)))).collect();
         } else if let Some(with_settings) = listed(&map, "possible names: ") {
@@ -118,7 +118,7 @@ impl Node {
         Self { names, ..node }
     }
 
-    /// Calls `visit` with every place below that takes a number or one of several names.
+    /// Calls `visit` for every path below this node that takes a number or one of several names.
     pub(super) fn visit(&self, path: &str, visit: &mut dyn FnMut(&str, &Self)) {
         if self.is_number || self.is_choice {
             visit(path, self);
@@ -133,7 +133,7 @@ impl Node {
     }
 }
 
-/// A valid suite of the kind. Other keys of its scene are read after the key that is tested.
+/// Returns a valid suite of the kind. Other keys of its scene are read after the tested key.
 fn base(study: &str) -> Value {
     let scene = "scene: {dimension: 1, body: {box: {from: [0], to: [1]}}, material: \
                  {linear_elastic: {young: 100, poisson: 0, density: 1}}}\n";
@@ -165,7 +165,8 @@ fn base(study: &str) -> Value {
     serde_yaml::from_str(&text).expect("YAML")
 }
 
-/// `whole` with `value` at `path`. Sibling keys are kept at the top level and in the scene only.
+/// Inserts `value` into `whole` at `path`. Sibling keys are kept only at the top level and in the
+/// scene.
 fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
     let Some((first, rest)) = path.split_first() else { return value };
     match first {
@@ -182,14 +183,14 @@ fn put(whole: Value, path: &[Step<'_>], value: Value) -> Value {
     }
 }
 
-/// The diagnostic of a suite.
+/// Returns the diagnostic of an invalid suite.
 fn refusal(text: &str) -> Diagnostic {
     let source = Source::from_text("keys.yaml", text).unwrap_or_else(|found| panic!("{found}"));
     let found = Suite::load(&source).err();
     found.unwrap_or_else(|| Diagnostic::about("keys.yaml", "nothing is wrong"))
 }
 
-/// The names of a list in the help of a diagnostic.
+/// Returns the names in a list after the text `before` in the help of a diagnostic.
 fn listed(found: &Diagnostic, before: &str) -> Option<Vec<String>> {
     let list = found.help()?.strip_prefix(before)?;
     Some(list.split('`').skip(1).step_by(2).map(str::to_owned).collect())

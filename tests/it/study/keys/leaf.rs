@@ -1,4 +1,4 @@
-//! Keys and names of a suite.
+//! Keys and names that a suite contains.
 
 use super::grammar::Node;
 use serde_yaml::Value;
@@ -6,16 +6,16 @@ use serde_yaml::Value;
 /// A key of a suite, or a key with a name.
 pub(super) struct Word {
     pub(super) key: String,
-    /// The name, where it is one of several.
+    /// Name, if the value is one of several names.
     pub(super) name: Option<String>,
-    /// The place of the number, where it is one.
+    /// Path of the number, if the value is a number.
     pub(super) number: Option<Place>,
 }
 
-/// Keys and numbers of members of lists, from the whole file on.
+/// Path from the top of the file: keys, and indices of list members.
 pub(super) type Place = Vec<Value>;
 
-/// Every key and name of a suite.
+/// Lists every key and name in a suite.
 pub(super) fn words(grammar: &Node, study: &str, suite: &Value) -> Vec<Word> {
     let mut words = Vec::new();
     walk(grammar, suite, (study, ""), &mut Vec::new(), &mut words);
@@ -42,7 +42,7 @@ fn walk(
                 let (below, key) = match (known, &node.named) {
                     (Some((_, below)), _) => (below, joined(key, text)),
                     (None, Some(below)) => (below.as_ref(), key.to_owned()),
-                    // One more expectation, of a full run.
+                    // The expectation of a full run has the same keys.
                     (None, None) if text == "full" => (node, key.to_owned()),
                     (None, None) => continue,
                 };
@@ -54,7 +54,7 @@ fn walk(
         Value::Sequence(list) => {
             for (i, value) in list.iter().enumerate() {
                 place.push(Value::from(i));
-                // A key whose value is not a list may have a list of alternatives.
+                // A key whose value is not a list may have a list of alternatives as its value.
                 let below = node.member.as_deref().unwrap_or(node);
                 walk(below, value, (study, key), place, words);
                 place.pop();
@@ -71,12 +71,12 @@ fn walk(
     }
 }
 
-/// The way to a key below another.
+/// Returns the path of a key below another key.
 pub(super) fn joined(key: &str, name: &str) -> String {
     if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
 }
 
-/// The name of a key that several kinds of study share, or several bodies.
+/// Returns the path of a key that several kinds of study, or several bodies, share.
 pub(super) fn shared(study: &str, key: &str) -> String {
     let key = key.replace("scene.bodies.", "scene.");
     let first = key.split('.').next().unwrap_or(&key);
@@ -90,16 +90,16 @@ pub(super) fn shared(study: &str, key: &str) -> String {
     format!("{study}.{key}")
 }
 
-/// A change of a number.
+/// Change of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     Times(f64),
-    /// Increases a count by one.
+    /// Increases an integer by one.
     PlusOne,
 }
 
 impl Change {
-    /// The change as text: `1 %`, `x 2`, `+ 1`.
+    /// Describes the change, such as `1 %`, `x 2` or `+ 1`.
     pub(super) fn shown(self) -> String {
         match self {
             Self::PlusOne => "+ 1".to_owned(),
@@ -116,7 +116,7 @@ impl Change {
         let text = value.as_str().map_or(text.trim(), |formula| formula);
         match self {
             Self::Times(factor) => format!("{factor}*({text})").into(),
-            // Some counts are not formulas.
+            // Some integers must not be formulas.
             Self::PlusOne => {
                 value.as_u64().map_or_else(|| format!("1 + ({text})").into(), |n| (n + 1).into())
             }
@@ -124,7 +124,7 @@ impl Change {
     }
 }
 
-/// The text of a suite with the number at `place` changed.
+/// Returns the text of a suite with the number at `place` changed.
 pub(super) fn changed(suite: &Value, place: &Place, change: Change) -> String {
     let mut whole = suite.clone();
     let value = place.iter().fold(&mut whole, |value, step| match value {

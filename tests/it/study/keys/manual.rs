@@ -1,4 +1,4 @@
-//! The pages of the grammar, docs/grammar: a row for each key, whose last cell quotes a suite.
+//! The pages of the grammar, docs/grammar, have a row for each key. Its last cell quotes a suite.
 
 use super::grammar::Node;
 use super::leaf::{joined, shared};
@@ -6,10 +6,10 @@ use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Keys at the head of any suite; they have rows for one kind of study only.
+/// Keys of any suite at the top of the file; the pages describe them for one kind of study only.
 const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];
 
-/// Keys that are missing in the grammar of the error messages: those of full runs, and tables.
+/// Keys that the grammar from error messages does not contain: those of full runs, and tables.
 const BESIDES: [&str; 4] = ["expect.full", "refine.full", "parameters.by", "parameters.table"];
 
 /// Maximum number of characters of a quotation.
@@ -25,13 +25,13 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A key as the pages name it.
+/// Returns the name of a key on the pages.
 pub(super) fn key_of(study: &str, path: &str) -> String {
     let is_of_all = OF_ALL.contains(&path);
     if is_of_all { path.to_owned() } else { shared(study, path) }
 }
 
-/// Every key of the grammar.
+/// Lists every key of the grammar with its names.
 pub(super) fn keys(grammars: &[(&str, Node)]) -> Names {
     let mut keys: Names = BESIDES.map(|key| (key.to_owned(), BTreeSet::new())).into();
     for (study, node) in grammars {
@@ -52,7 +52,7 @@ fn add(study: &str, path: &str, node: &Node, keys: &mut Names) {
     }
 }
 
-/// Suites with their files: those of the repository, and those on pages.
+/// Returns suites with their files: those of the repository, and those on pages.
 fn suites() -> Vec<(String, Value)> {
     let files = mpm_verify::suite::yaml::Source::files_in(&root().join("verification"));
     let read = |file: PathBuf| {
@@ -72,7 +72,7 @@ fn suites() -> Vec<(String, Value)> {
     parsed.collect()
 }
 
-/// For each key the shortest value in a suite: a list or a map, or else a number or a name.
+/// Returns the shortest value of each key in a suite: a list or a map, or else a number or a name.
 pub(super) fn quotations(grammars: &[(&str, Node)]) -> Quotations {
     let mut found = Quotations::new();
     for (file, suite) in suites() {
@@ -106,7 +106,7 @@ fn quote(
                 let at =
                     if is_invented && !is_table { path.to_owned() } else { joined(path, text) };
                 found(key_of(study, &at), text, value);
-                // An entry for full runs has the keys of the entry.
+                // The entry for full runs has the same keys as the entry itself.
                 let (below, at) = match (known, &node.named) {
                     (Some((_, below)), _) => (below, at.as_str()),
                     (None, Some(below)) => (below.as_ref(), at.as_str()),
@@ -130,7 +130,7 @@ fn is_of_author(path: &str) -> bool {
     ["parameters", "functions"].contains(&path)
 }
 
-/// YAML on one line.
+/// Formats YAML on one line.
 fn flow(value: &Value) -> String {
     let parts = |parts: Vec<String>, (open, close)| format!("{open}{}{close}", parts.join(", "));
     match value {
@@ -146,7 +146,7 @@ fn flow(value: &Value) -> String {
     }
 }
 
-/// The pages with their texts.
+/// Returns the pages with their texts.
 pub(super) fn pages() -> Vec<(PathBuf, String)> {
     let folder = root().join("docs/grammar");
     let entries = std::fs::read_dir(folder).expect("pages");
@@ -159,13 +159,13 @@ pub(super) fn pages() -> Vec<(PathBuf, String)> {
     pages.into_iter().map(read).collect()
 }
 
-/// Key and row, for a line that is the row of a key.
+/// Returns key and row of a line that describes a key.
 fn row(line: &str) -> Option<(&str, &str)> {
     let (key, rest) = line.strip_prefix("| `")?.split_once("` | ")?;
     (rest.matches(" | ").count() >= 2 && rest.ends_with('|')).then_some((key, rest))
 }
 
-/// The rows of all pages, by key.
+/// Returns the rows of all pages, by key.
 pub(super) fn rows(pages: &[(PathBuf, String)]) -> BTreeMap<&str, Vec<&str>> {
     let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     let lines = pages.iter().flat_map(|(_, text)| text.lines());
@@ -173,7 +173,7 @@ pub(super) fn rows(pages: &[(PathBuf, String)]) -> BTreeMap<&str, Vec<&str>> {
     rows
 }
 
-/// The page with the last cell of each row replaced.
+/// Replaces the last cell of each row in the page.
 pub(super) fn with_quotations(page: &str, found: &Quotations) -> String {
     let renew = |line: &str| {
         let Some((key, _)) = row(line) else { return line.to_owned() };

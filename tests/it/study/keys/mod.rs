@@ -1,4 +1,4 @@
-//! Every key and name of the grammar is checked by a gate (docs/keys.md).
+//! Every key and name of the grammar must be checked by a gate (docs/keys.md).
 
 #[path = "../../../defects/gate.rs"]
 mod gate;
@@ -20,11 +20,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
-/// For each key of the grammar, whether it is a number, and its allowed names.
+/// For each key of the grammar: whether it may be a number, and its allowed names.
 type Keys = BTreeMap<String, (bool, Vec<String>)>;
 
-/// Every key that takes a number or one of several names, in all kinds of study that run a method
-/// of this crate. Keys of gradient studies are tested in `external::differentiate`.
+/// Returns every key that takes a number or one of several names, for all kinds of study that run a
+/// method of this crate. Keys of gradient studies are tested in `external::differentiate`.
 fn keys(grammars: &[(&str, Node)]) -> Keys {
     let mut keys = Keys::new();
     for (study, grammar) in grammars.iter().filter(|(study, _)| *study != "gradient") {
@@ -40,11 +40,11 @@ fn keys(grammars: &[(&str, Node)]) -> Keys {
     keys
 }
 
-/// The grammar of each kind of study.
+/// Grammar of each kind of study.
 static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
     LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
 
-/// The suites of the repository, cheap ones first.
+/// Returns the suites of the repository, cheap ones first.
 fn suites() -> Vec<Known> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
     let files = Source::files_in(&folder).expect("suites");
@@ -115,7 +115,7 @@ fn the_manual_has_every_verdict() {
     assert!(untold.is_empty(), "docs/grammar: the row of `expect.verdict` has not {untold:?}");
 }
 
-/// `required` alone marks a key that is required wherever it is allowed; a key with a default is
+/// A key is marked `required` if it is required wherever it is allowed. A key with a default is
 /// optional somewhere.
 #[test]
 fn the_manual_says_which_keys_must_stand() {

@@ -1,4 +1,4 @@
-//! The tables of docs/keys.md.
+//! Reads and writes the tables of docs/keys.md.
 
 use super::leaf::Change;
 use super::reasons::reason;
@@ -15,19 +15,19 @@ const EVERY: usize = 4;
 
 /// A row of the table of numbers.
 pub(super) struct Line {
-    /// Suites that use it.
+    /// Number of suites that use the key.
     suites: usize,
-    /// The smallest change that is noticed; empty if no change is.
+    /// Smallest change that a gate notices; empty if no change is noticed.
     pub(super) least: String,
     gate: String,
-    /// Suite and case.
+    /// Suite and case of the gate.
     place: String,
     seconds: String,
-    /// The reason that the table gives.
+    /// Reason in the table why a change of 1 % is not noticed.
     pub(super) reason: String,
 }
 
-/// Allowed names of a key, with the number of suites and the reason in the table.
+/// Allowed names of a key, each with the number of suites and the reason in the table.
 pub(super) type Names = BTreeMap<(String, String), (usize, String)>;
 
 /// A row of the sample.
@@ -41,7 +41,7 @@ fn file() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("docs/keys.md")
 }
 
-/// Cells of the rows of the tables, without the heads.
+/// Returns the cells of the rows in the tables, without the headings.
 fn rows<const N: usize>() -> Vec<[String; N]> {
     let text = std::fs::read_to_string(file()).expect("docs/keys.md");
     let table = text.split_once(BEGIN).and_then(|(_, rest)| rest.split_once(END));
@@ -53,13 +53,13 @@ fn rows<const N: usize>() -> Vec<[String; N]> {
     cells.filter_map(|cells: Vec<String>| cells.try_into().ok()).collect()
 }
 
-/// The text before the first `sign`, and the text between the first two.
+/// Returns the text before the first `sign`, and the text between the first two.
 fn within(text: &str, sign: char) -> (&str, &str) {
     let (before, rest) = text.split_once(sign).unwrap_or((text, ""));
     (before, rest.split(sign).next().unwrap_or_default())
 }
 
-/// The rows of numbers, by key.
+/// Returns the rows of numbers, by key.
 pub(super) fn numbers() -> BTreeMap<String, Line> {
     let line = |[key, suites, least, said, place, seconds]: [String; 6]| {
         let (gate, reason) = within(&said, '*');
@@ -70,7 +70,7 @@ pub(super) fn numbers() -> BTreeMap<String, Line> {
     rows().into_iter().map(line).collect()
 }
 
-/// The rows of names.
+/// Returns the rows of names.
 pub(super) fn names() -> Names {
     let of_row = |[key, names]: [String; 2]| -> Vec<_> {
         let parts: Vec<&str> = names.split('`').skip(1).collect();
@@ -85,7 +85,7 @@ pub(super) fn names() -> Names {
     rows().into_iter().flat_map(of_row).collect()
 }
 
-/// A subset of the numbers that a quick suite notices.
+/// Returns a sample of the numbers whose changes a quick suite notices.
 pub(super) fn sample() -> Vec<Sampled> {
     let known = [1.01, 1.001, 1.0001].map(Change::Times).map(|change| (change.shown(), change));
     let quick = numbers().into_iter().filter_map(|(key, line)| {
@@ -120,7 +120,7 @@ impl Row {
         })
     }
 
-    /// The row of the table.
+    /// Formats the row of the table.
     pub(super) fn shown(&self) -> String {
         self.line().shown(&self.key)
     }
@@ -135,7 +135,7 @@ impl Line {
     }
 }
 
-/// Writes the tables; rows of keys that were not tested do not change.
+/// Writes the tables. Rows of keys that were not tested do not change.
 pub(super) fn write(found: &Found) {
     let mut lines = numbers();
     lines.retain(|key, _| found.keys.contains(key));

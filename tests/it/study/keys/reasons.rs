@@ -1,4 +1,4 @@
-//! Reasons why no gate notices a change of a number by 1 %, or why no suite has a name.
+//! Reasons why no gate notices a change of a number by 1 %, or why no suite uses a name.
 
 use super::page::{Line, Names};
 use super::search::is_of_solver;
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// Changes that count as small.
 const SMALL: [&str; 4] = ["0.01 %", "0.1 %", "1 %", "+ 1"];
 
-/// Keys, or keys and names as `key: name`, with their reasons.
+/// Keys, or keys with names as `key: name`, and their reasons.
 const REASONS: &[(&str, &str)] = &[
     ("scene.material.jaumann.density", "its suite has no acceleration"),
     ("scene.material.green_naghdi.density", "its suite has no acceleration"),
@@ -101,12 +101,12 @@ const REASONS: &[(&str, &str)] = &[
     ("stability.show: stress", "shown wherever it is expected"),
 ];
 
-/// The reason that is known for a key, or a key and a name.
+/// Returns the known reason for a key, or for a key with a name.
 pub(super) fn reason(word: &str) -> Option<&'static str> {
     REASONS.iter().find(|(known, _)| *known == word).map(|(_, reason)| *reason)
 }
 
-/// Words without a gate or a reason, and reasons that do not hold.
+/// Lists keys and names without a gate or a reason, and reasons that do not hold.
 pub(super) fn wrong(numbers: &BTreeMap<String, Line>, names: &Names) -> Vec<String> {
     let mut wrong = Vec::new();
     let mut hold = |word: &str, is_held: bool, shown: &str| {

@@ -1,11 +1,11 @@
-//! Required keys, from the JSON Schema of a suite.
+//! Determines the required keys from the JSON Schema of a suite.
 
 use super::leaf::joined;
 use super::manual::key_of;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Types of the schema for the kinds of study.
+/// Kinds of study, with the types that describe them in the schema.
 const STUDIES: [(&str, &str); 5] = [
     ("convergence", "ConvergenceSpec"),
     ("stability", "StabilitySpec"),
@@ -14,10 +14,10 @@ const STUDIES: [(&str, &str); 5] = [
     ("spectrum", "SpectrumSpec"),
 ];
 
-/// Keys of maps that have one for each face.
+/// Keys of maps that have a key for each face.
 const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
-/// By key, whether it is required; both, if this depends on the context.
+/// For each key, whether it is required. Both values if this depends on the context.
 pub(super) type Required = BTreeMap<String, BTreeSet<bool>>;
 
 struct Walk<'a> {
@@ -67,7 +67,7 @@ impl Walk<'_> {
             let path = joined(path, key);
             let is_required = must.contains(&key.as_str());
             self.found.entry(key_of(self.study, &path)).or_default().insert(is_required);
-            // The expectation of a full run is one more of the same.
+            // The expectation of a full run has the same keys.
             if key != "full" {
                 self.below(member, &path);
             }

@@ -1,4 +1,4 @@
-//! The cheapest gate that notices a change of each number.
+//! Finds the cheapest gate that notices a change of each number.
 
 use super::grammar::Node;
 use super::leaf::{Change, Place, words};
@@ -9,58 +9,58 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Mutex;
 
-/// The change that some gate is to notice.
+/// Change that at least one gate must notice.
 const ONE_PERCENT: Change = Change::Times(1.01);
 
-/// Changes that are tried if this one is not noticed.
+/// Factors that are tried if the change of 1 % is not noticed.
 const LARGER: [f64; 7] = [1.1, 2.0, 0.5, 10.0, 0.1, 1e3, 1e-3];
 
-/// Changes that are tried if it is noticed.
+/// Factors that are tried if the change of 1 % is noticed.
 const SMALLER: [f64; 2] = [1.001, 1.0001];
 
-/// Number of cheapest suites, and of cheapest other suites with an expected order, in which larger
-/// changes are tried, and all changes of keys of the judge or with a reason. A suite that is exact
-/// to rounding has no order to lose.
+/// Number of suites in which larger changes are tried: the cheapest ones, and as many of the other
+/// cheapest ones with an expected order. All changes are tried only in these suites for keys of the
+/// judge and keys with a reason. A suite that is exact to rounding has no order to lose.
 const FEW: usize = 6;
 
-/// First keys of the numbers that a solver uses; all others belong to the judge, or to the exact
-/// solution.
+/// First keys of the numbers that a solver uses. All other numbers belong to the judge or to the
+/// exact solution.
 const OF_SOLVER: [&str; 6] =
     ["scene", "manufactured", "particles", "methods.mpm", "stability.particles", "internal_force"];
 
-/// First keys of an exact solution, whose change is noticed when a suite is loaded.
+/// First keys of an exact solution. A change of such a number is noticed when the suite is loaded.
 const OF_TRUTH: [&str; 2] = ["exact.", "equilibrium."];
 
-/// Everything that was found.
+/// Results of the search.
 pub(super) struct Found {
-    /// Every number of the grammar.
+    /// Keys of all numbers in the grammar.
     pub(super) keys: BTreeSet<String>,
-    /// Keys whose number was changed.
+    /// Results for the keys whose number was changed.
     pub(super) rows: Vec<Row>,
-    /// Key and name, and the number of suites that have it.
+    /// Number of suites that use each name, by key and name.
     pub(super) names: BTreeMap<(String, String), usize>,
 }
 
-/// A number of the grammar.
+/// Result for one number of the grammar.
 pub(super) struct Row {
     pub(super) key: String,
-    /// Suites that use it.
+    /// Number of suites that use the number.
     pub(super) suites: usize,
     pub(super) seen: Option<Seen>,
 }
 
-/// The gate that notices a change.
+/// The gate that notices a change, and the change.
 pub(super) struct Seen {
     pub(super) gate: String,
     pub(super) suite: String,
-    /// None of a suite that is refused.
+    /// Name of the case; `None` if the suite is refused.
     pub(super) case: Option<String>,
-    /// The smallest change that this case notices.
+    /// Smallest change that this case notices.
     pub(super) least: Change,
     pub(super) seconds: f64,
 }
 
-/// Whether a key is of the solver's side.
+/// Whether a solver uses the number of the key.
 pub(super) fn is_of_solver(key: &str) -> bool {
     let below = |first: &str| {
         key.strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
@@ -68,10 +68,10 @@ pub(super) fn is_of_solver(key: &str) -> bool {
     OF_SOLVER.iter().any(|first| below(first)) && !key.contains(".expect.")
 }
 
-/// A suite, and all places of a number in it.
+/// Index of a suite, and all paths of a number in it.
 type Use = (usize, Vec<Place>);
 
-/// Uses of each number, by its key, in cheap suites first.
+/// Uses of each number, by its key. Cheap suites come first.
 type Uses = BTreeMap<String, Vec<Use>>;
 
 fn uses(grammars: &[(&str, Node)], suites: &[Known]) -> (Uses, BTreeMap<(String, String), usize>) {
@@ -101,7 +101,7 @@ fn of_suite(grammars: &[(&str, Node)], known: &Known) -> Vec<super::leaf::Word> 
     words(&grammar.expect("a kind of study").1, &known.study, &known.text)
 }
 
-/// Changes every number of the grammar that has `part` in its key.
+/// Changes every number of the grammar whose key contains `part`.
 pub(super) fn search(
     keys: &Keys,
     part: &str,
@@ -128,7 +128,7 @@ pub(super) fn search(
     Found { keys: all, rows, names }
 }
 
-/// A row of the table that no longer holds is a failure.
+/// Asserts that a row of the table still holds.
 pub(super) fn still_noticed(row: &page::Sampled, grammars: &[(&str, Node)], suites: &[Known]) {
     let i = suites.iter().position(|known| known.suite.name == row.suite).expect("a suite");
     let (numbers, _) = uses(grammars, &suites[i..=i]);
@@ -151,12 +151,12 @@ struct Control<'a> {
     known: Mutex<HashMap<(usize, usize), bool>>,
 }
 
-/// Every place of a number in suites.
+/// Lists every position of a number in suites.
 fn each<'a>(uses: &[&'a Use]) -> impl Iterator<Item = (usize, &'a Place)> + Clone {
     uses.iter().flat_map(|(suite, places)| places.iter().map(|place| (*suite, place)))
 }
 
-/// A gate, and the case; `None` if the suite is refused.
+/// Name of a gate, and the index of the case; `None` if the suite is refused.
 type Noticed = (&'static str, Option<usize>);
 
 impl Control<'_> {
@@ -169,10 +169,10 @@ impl Control<'_> {
         })
     }
 
-    /// The first gate of a suite that notices a change.
+    /// Returns the first gate of a suite that notices a change.
     ///
     /// # Errors
-    /// Why the changed suite is refused.
+    /// Reason why the changed suite is refused.
     fn noticed(
         &self,
         key: &str,
@@ -193,7 +193,7 @@ impl Control<'_> {
         Ok(known.cases().into_iter().find_map(gate))
     }
 
-    /// The first suite that notices the smallest of the changes that any notices.
+    /// Returns the first suite that notices the smallest change that any suite notices.
     fn seen(&self, key: &str, uses: &[Use]) -> Option<Seen> {
         let (first, rest) = uses.split_at(uses.len().min(FEW));
         let with_order = rest.iter().filter(|(suite, _)| self.suites[*suite].expects_an_order());
@@ -211,7 +211,7 @@ impl Control<'_> {
                 Err(_) => refused.push(at),
             }
         }
-        // A count has no hundredths.
+        // A change of 1 % is not possible for an integer.
         let one_more = refused.into_iter().map(|at| (at, Change::PlusOne));
         let larger = LARGER
             .into_iter()
@@ -222,7 +222,7 @@ impl Control<'_> {
         })
     }
 
-    /// The smallest change that a gate notices which notices one per cent.
+    /// Returns the smallest change that a gate notices. The gate already notices a change of 1 %.
     fn smallest(&self, key: &str, at: (usize, &Place), found: Noticed) -> Seen {
         let is_noticed = |factor: &f64| {
             let change = Change::Times(*factor);

@@ -1,4 +1,4 @@
-//! The built-in solver with one number changed, under the unchanged suite.
+//! The built-in solver with one changed number, tested by the unchanged suite.
 
 use super::gate::gate;
 use super::leaf::{Change, Place, changed};
@@ -13,21 +13,21 @@ use serde_yaml::Value;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A suite of the repository.
+/// A suite of the repository, with its predicted time.
 pub(super) struct Known {
     pub(super) suite: Suite,
     pub(super) text: Value,
     pub(super) study: String,
-    /// Predicted seconds of one core.
+    /// Predicted time (s) on one core.
     pub(super) seconds: f64,
 }
 
-/// Assumed time (s) per step of a suite without levels, and the number of steps of such a suite.
+/// Assumed time (s) per step of a suite without levels.
 const STEP: f64 = 2.5e-4;
 const STEPS: f64 = 1000.0;
 
 impl Known {
-    /// The suite of a file.
+    /// Reads the suite in a file.
     pub(super) fn read(file: &Path) -> Self {
         let source = Source::read(file).unwrap_or_else(|found| panic!("{found}"));
         let suite = Suite::load(&source).unwrap_or_else(|found| panic!("{found}"));
@@ -39,7 +39,7 @@ impl Known {
         Self { suite, text, study, seconds }
     }
 
-    /// Numbers of the cases that are judged and need no program of somebody else.
+    /// Returns the indices of the cases that are judged and require no external program.
     pub(super) fn cases(&self) -> Vec<usize> {
         let plan = self.suite.plan::<ConvergencePlan>();
         let is_own = |case: &usize| plan.is_none_or(|plan| plan.cases[*case].solver.is_none());
@@ -47,7 +47,7 @@ impl Known {
         (0..self.suite.case_names().len()).filter(is_own).filter(is_judged).collect()
     }
 
-    /// Whether an order is expected of any case.
+    /// Whether the suite expects an order for at least one case.
     pub(super) fn expects_an_order(&self) -> bool {
         let plan = self.suite.plan::<ConvergencePlan>();
         let mut expected =
@@ -55,11 +55,11 @@ impl Known {
         expected.any(|expected| expected.order.is_some())
     }
 
-    /// The part of the suite that the solver reads, with one number changed. A number that only the
+    /// Changes one number in the part of the suite that the solver reads. A number that only the
     /// solver reads is changed in the suite itself.
     ///
     /// # Errors
-    /// Why the changed text is refused.
+    /// Reason why the changed text is refused.
     pub(super) fn with(
         &self,
         key: &str,
@@ -90,7 +90,8 @@ impl Known {
         Ok(Changed { judged: Judged::Solver(Box::new(plan)), known: self })
     }
 
-    /// A term more in every series of a name; an expectation is of the case that it had.
+    /// Adds a term to every series in a method. Expectations still apply to the case with its
+    /// former name.
     fn with_one_more_term(&self, key: &str, change: Change) -> Result<Changed<'_>, String> {
         if change != Change::PlusOne {
             return Err("a count".to_owned());
@@ -116,8 +117,8 @@ impl Known {
         Ok(Changed { judged: Judged::Whole(suite), known: self })
     }
 
-    /// The suite without a change, run in the same way as changed ones: expectations that it fails
-    /// are not counted later.
+    /// Returns the suite without a change, which runs in the same way as changed ones. Expectations
+    /// that it does not meet are not counted later.
     pub(super) fn unchanged(&self) -> Changed<'_> {
         let plan = self.suite.plan::<ConvergencePlan>();
         let judged = plan.map_or_else(
@@ -128,7 +129,7 @@ impl Known {
     }
 }
 
-/// A suite with one number changed, or a solver.
+/// A suite or a solver with one changed number.
 pub(super) struct Changed<'a> {
     judged: Judged,
     known: &'a Known,
@@ -140,13 +141,13 @@ enum Judged {
 }
 
 impl Changed<'_> {
-    /// The first gate that a case does not pass.
+    /// Returns the first gate that a case does not pass.
     pub(super) fn gate(&self, case: usize) -> Option<&'static str> {
         let outcome = self.outcome(case);
         outcome.unmet.first().map(|line| gate(&outcome, line))
     }
 
-    /// Whether a case is run and met.
+    /// Whether a case runs and meets its expectation.
     pub(super) fn passes(&self, case: usize) -> bool {
         let outcome = self.outcome(case);
         outcome.study.is_some() && outcome.unmet.is_empty()
@@ -163,7 +164,7 @@ impl Changed<'_> {
     }
 }
 
-/// The built-in solver with a method, on the levels of a suite, with a separate plan.
+/// The built-in solver with a method, on the levels of a suite. It has its own plan.
 struct Ours<'a> {
     plan: &'a ConvergencePlan,
     method: Method,
