@@ -167,7 +167,11 @@ fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()
         .any(|key| diagnostic.message().contains(&format!("`{key}`")));
-    if is_irregular { diagnostic.with_help("spectrum needs regular particles") } else { diagnostic }
+    if is_irregular {
+        diagnostic.with_help("a spectrum study needs regular particles")
+    } else {
+        diagnostic
+    }
 }
 
 /// Reads a suite of a kind of `study` into a type.
