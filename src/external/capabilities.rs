@@ -131,7 +131,7 @@ impl Capabilities {
             }
         }
         let beyond = needs.beyond.iter();
-        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not hand over")));
+        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not contain")));
         lacking
     }
 }
@@ -174,7 +174,7 @@ impl Capabilities {
             let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
                 let hint = hint(name, known);
-                warnings.push(format!("`{name}` is not one of the {capability}; {hint}"));
+                warnings.push(format!("unknown name `{name}` in {capability}; {hint}"));
             }
         }
         for dimension in self.dimensions.iter().filter(|d| !(1..=3).contains(*d)) {

@@ -71,7 +71,7 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// # Errors
     /// The errors of `then`, or one line with the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
-        Err("its study has no runs to be shown".into())
+        Err("its study has no runs to show".into())
     }
 
     /// Runs the case with this index.

@@ -77,7 +77,7 @@ fn suites_are_chosen_by_pattern_and_group(#[case] target: &str, #[case] count: u
 fn a_pattern_that_fits_nothing_is_an_error() {
     let errors = six().refused(&["check", "bear-*"]);
     insta::assert_snapshot!(errors, @"
-    error: no suite has a name like `bear-*`
+    error: no suite matches `bear-*`
     --> bear-*
      = help: `*` stands for any text: `mms-*`, `heat/*`
     1 error

@@ -80,13 +80,13 @@ fn a_problem_that_cannot_be_written_is_refused() {
     );
     insta::assert_snapshot!(text, @"
     problem bar.yaml --level 9
-    error: short-bar: there is no level 9: expected 1 to 4
+    error: short-bar: the series has no level 9: expected 1 to 4
     problem bar.yaml --level 0
-    error: short-bar: there is no level 0: expected 1 to 4
+    error: short-bar: the series has no level 0: expected 1 to 4
     problem bar.yaml --format xls
     error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
     problem courant-limit
-    error: courant-limit: it is no convergence study
+    error: courant-limit: it is not a convergence study
     problem heat-step --at 0.1
     error: heat-step: the suite states no exact motion
     ");

@@ -150,7 +150,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
     let folder = Folder::with("a.yaml", BAR);
     folder.write("b.yaml", BAR);
     let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--out", "results"]);
-    insta::assert_snapshot!(errors, @"error: --out: two suites are called `short-bar`, and would write the same files");
+    insta::assert_snapshot!(errors, @"error: --out: two suites have the name `short-bar` and would write the same files");
     assert_eq!(folder.call(&["run", "a.yaml", "b.yaml"]).code, SOUND);
 }
 

@@ -53,7 +53,7 @@ fn a_program_is_judged_like_any_method() {
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
     for words in [
-        "solver: odd; version: 1; precision: double; formal order: 2, by its own account",
+        "solver: odd; version: 1; precision: double; formal order: 2, as stated by the solver",
         "odd converging 2.00 [2.00, 2.00]",
         "explored short-bar::odd converging",
     ] {
