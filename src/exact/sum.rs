@@ -343,7 +343,7 @@ mod tests {
 
     #[rstest]
     #[case::a_body_at_rest("0*X", "is zero at all times")]
-    #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be computed to 1e-10")]
+    #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be integrated to 1e-10")]
     fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
         let problem = bar(displacement, fixed());
         let density = |point: &SumPoint<'_>| of_vector(point.momentum());

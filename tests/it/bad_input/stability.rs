@@ -48,7 +48,7 @@ use rstest::rstest;
 )]
 #[case::without_a_limit(
     &[("critical: {parameter: C, from: 0.01, to: 4}\n", ""), ("    critical: {is", "    ▸critical: {is")],
-    &["no limit is sought"]
+    &["a limit is expected, but the suite has no `critical`"]
 )]
 #[case::with_a_single_run(
     &[("    critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "    ▸verdict: stable")],

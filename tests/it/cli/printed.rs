@@ -30,7 +30,7 @@ fn the_bare_command_prints_an_overview_and_in_full_only_what_did_not_come_as_exp
     assert_eq!(folder.call(&["run"]).out, found.out);
     folder.write("verification/bars/bar-1.snap", "accepted");
     let accepted = folder.call(&[]).out;
-    assert_contains(&accepted, &["reports: verification/GROUP/SUITE.snap, "]);
+    assert_contains(&accepted, &["reports: accepted snapshots in verification/GROUP/SUITE.snap; "]);
     let written = folder.call(&["--out", "results"]).out;
     assert!(written.ends_with("reports: results/SUITE.txt\n"), "{written}");
 }

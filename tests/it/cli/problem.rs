@@ -80,9 +80,9 @@ fn a_problem_that_cannot_be_written_is_refused() {
     );
     insta::assert_snapshot!(text, @"
     problem bar.yaml --level 9
-    error: short-bar: the series has no level 9: expected 1 to 4
+    error: short-bar: there is no level 9: expected 1 to 4
     problem bar.yaml --level 0
-    error: short-bar: the series has no level 0: expected 1 to 4
+    error: short-bar: there is no level 0: expected 1 to 4
     problem bar.yaml --format xls
     error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
     problem courant-limit

@@ -63,7 +63,7 @@ fn a_bad_file_does_not_hide_the_report_of_a_good_one() {
      --> bad.yaml:9:3
       |
     9 |   dimensions: 1
-      |   ^^^^^^^^^^ no key that is known here
+      |   ^^^^^^^^^^ not a known key
       |
       = help: did you mean `dimension`?
     error: there is no suite called `odometer`

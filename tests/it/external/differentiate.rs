@@ -113,7 +113,7 @@ fn a_solver_without_gradients_is_not_asked() {
 fn a_misspelt_parameter_among_the_capabilities_is_reported() {
     let misspelt = HELLO.replace(r#"["young","#, r#"["youngs","#);
     let (_, said, _) = run(&script(&misspelt, "exit 1"));
-    assert!(said.contains("`youngs` is not one of the gradients; did you mean `young`?"), "{said}");
+    assert!(said.contains("unknown name `youngs` in gradients; did you mean `young`?"), "{said}");
     assert!(said.contains("gradients: young (stated as `youngs`)"), "{said}");
 }
 
