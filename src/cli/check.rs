@@ -53,10 +53,10 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
             match study::under(&suite, solver, false) {
                 Some(under_solver) if under_solver.case_names().is_empty() => {
                     lacks
-                        .push("a case: each solution belongs to a method of this crate".to_owned());
+                        .push("a case: each solution applies to a built-in method only".to_owned());
                 }
                 Some(under_solver) => suite = under_solver,
-                None => lacks.push("what a study of this kind asks for".to_owned()),
+                None => lacks.push("features that this kind of study needs".to_owned()),
             }
             lacks.extend(study::lacking(&suite, solver));
         }
@@ -95,9 +95,12 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
 }
 
 fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
-    let message = format!("a second suite is called `{}`: {earlier} is the first", suite.name);
+    let message = format!("two suites have the name `{}`: the first is in {earlier}", suite.name);
     let diagnostic = source.diagnostic_at(&["suite".into()], &message);
-    diagnostic.with_severity(Severity::Warning).with_help("names tell reports and tests apart")
+    diagnostic.with_severity(Severity::Warning).with_help(
+        "reports and tests are identified by \
+                                                           name",
+    )
 }
 
 /// Collected findings. Text is printed immediately, JSON at the end.
@@ -126,14 +129,14 @@ impl ApplicableSuites {
     fn text(mut self) -> String {
         self.names.sort_unstable();
         let (count, all) = (self.names.len(), self.names.len() + self.others);
-        let mut text = format!("\nthe solver can take {count} of {all} suites:\n");
+        let mut text = format!("\nthe solver can run {count} of {all} suites:\n");
         text += &indented(&self.names.join(", "));
         let mut lacking: Vec<(String, usize)> = self.lacking.into_iter().collect();
         lacking.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         if !lacking.is_empty() {
             let written = |(what, count): &(String, usize)| format!("{what} ({count})");
             let lacking: Vec<String> = lacking.iter().take(MOST_LACKING).map(written).collect();
-            text += "it lacks most often, with the number of suites:\n";
+            text += "most frequent missing capabilities, with the number of suites:\n";
             text += &indented(&lacking.join(", "));
         }
         text
@@ -302,7 +305,7 @@ impl Counts {
 fn sound(suite: &Suite, is_explored: bool) -> String {
     let cases = suite.case_names().len();
     let noun = if cases == 1 { "case" } else { "cases" };
-    let gate = if is_explored { "; nothing is expected, it is no gate" } else { "" };
+    let gate = if is_explored { "; no expectation, so it is not a gate" } else { "" };
     let cost = study::estimate(suite).map_or(String::new(), |cost| {
         let (seconds, mb) = (rounded(cost.seconds), rounded(cost.bytes / 1e6));
         format!(", about {seconds} s of one thread and {mb} MB")

@@ -59,7 +59,7 @@ enum ComparedResults {
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {
-        let message = "expected a share of at least 0, such as 0.001";
+        let message = "expected a relative difference of at least 0, such as 0.001";
         return Err(CommandError::option("--tolerance", tolerance, message));
     }
     let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
@@ -67,8 +67,9 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
         | (Ok(ComparedResults::Snapshots(old)), Ok(ComparedResults::Snapshots(new))) => (old, new),
         (Ok(_), Ok(_)) => {
             return Err(CommandError::Message(format!(
-                "`{}` and `{}` are the results of a run and snapshots, which have other figures\n\
-                 help: compare two runs (JSON), or two sets of snapshots (folders or commits)",
+                "`{}` and `{}` are the results of a run and snapshots, which have different \
+                 figures\nhelp: compare two runs (JSON), or two sets of snapshots (folders or \
+                 commits)",
                 args.old, args.new
             )));
         }
@@ -116,8 +117,10 @@ fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
         return run(path).map(ComparedResults::Run);
     }
     let overview = committed(place, &format!("{folder}/{OVERVIEW}")).map_err(|why| {
-        let message =
-            format!("`{place}` is no file and no folder, and no commit with snapshots: {why}");
+        let message = format!(
+            "`{place}` is neither a file, nor a folder, nor a commit with snapshots: \
+                     {why}"
+        );
         let help = format!("expected a commit whose tree has {folder}/{OVERVIEW}; see `--folder`");
         Diagnostic::about(place, &message).with_help(&help)
     })?;
@@ -133,7 +136,7 @@ fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedR
 /// Returns the text of a file in a commit.
 fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
-        return Err(io::Error::other("a commit does not begin with a dash"));
+        return Err(io::Error::other("the name of a commit cannot begin with a dash"));
     }
     let output = Command::new("git").args(["show", &format!("{commit}:./{file}")]).output();
     let output = output.map_err(|error| io::Error::other(format!("git cannot be run: {error}")))?;

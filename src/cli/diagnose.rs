@@ -89,7 +89,7 @@ impl Diagnoses<'_> {
                 }
                 Ok(None) => {
                     self.diagnosed += 1;
-                    output::complain(&format!("note: {name} has no order to explain"));
+                    output::complain(&format!("note: {name} has no observed order to explain"));
                 }
                 Err(reason) => {
                     output::complain(&format!("error: {name}: {reason}"));

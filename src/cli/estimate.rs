@@ -56,7 +56,9 @@ fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     let mut bytes = Vec::new();
     reader.by_ref().take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| failed(&error))?;
     if bytes.len() as u64 > LONGEST {
-        return Err(Diagnostic::about(&name, "a series has at most 1 MB").with_help(FORMAT_HELP));
+        return Err(
+            Diagnostic::about(&name, "the series is larger than 1 MB").with_help(FORMAT_HELP)
+        );
     }
     let text = String::from_utf8(bytes).map_err(|error| failed(&error))?;
     Ok((name, text))
@@ -119,7 +121,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
         lines.push(InputLine { point, spacing: spacing.clone() });
     }
     if lines.is_empty() {
-        return Err(Diagnostic::about(file, "there is no level").with_help(FORMAT_HELP));
+        return Err(Diagnostic::about(file, "the series has no level").with_help(FORMAT_HELP));
     }
     // A program may omit trailing zeros. The value with the most digits therefore determines the
     // resolution.
@@ -262,7 +264,7 @@ mod tests {
     #[case::negative("-1 4\n", "a:1:1: expected a positive spacing")]
     #[case::twice("1 4\n0.5 2\n1.0 3\n", "a:3:1: line 1 has the same spacing")]
     #[case::second_heading("h u\nh u\n", "a:2:1: expected a finite number as spacing, found `h`")]
-    #[case::empty("\n# nothing\n", "a: there is no level")]
+    #[case::empty("\n# nothing\n", "a: the series has no level")]
     fn bad_lines_are_errors_with_their_place(#[case] text: &str, #[case] expected: &str) {
         let error = parse("a", text).map(|lines| lines.len()).unwrap_err();
         assert_eq!(error.one_line(), expected);

@@ -97,7 +97,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
         page += &format!("\n{case}\n");
         page += &match suite.study.expectation(i) {
             Some((expected, because)) => format!("  expected: {expected}\n  because: {because}\n"),
-            None => "  expected: nothing, so that the suite is no gate\n".to_owned(),
+            None => "  expected: nothing, so the suite is not a gate\n".to_owned(),
         };
         page += &taken(suite, case, without);
     }
@@ -186,9 +186,9 @@ fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(effect) = without else { return page };
     page += &match study::profile(suite, case, Some(effect)) {
         _ if !all.effects.contains(&effect.name()) => {
-            line("without", &format!("`{}` is not there, nothing changes", effect.name()))
+            line("without", &format!("`{}` is not used, so nothing changes", effect.name()))
         }
-        None => line("without", &format!("`{}` the case does not run", effect.name())),
+        None => line("without", &format!("`{}` the case cannot run", effect.name())),
         Some(rest) => {
             let rows = report::difference(&all, &rest);
             let rows: String = rows.iter().map(|(key, text)| line(key, text)).collect();

@@ -39,14 +39,15 @@ pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
     if args.format.is_binary() && stdout().is_terminal() {
         let format = args.format.name();
         return Err(CommandError::Message(format!(
-            "{format} is not for a terminal: send it to a file, `> problem.{format}`"
+            "{format} is binary and cannot be printed on a terminal: redirect it, `> \
+             problem.{format}`"
         )));
     }
     let suites = select::suites(std::slice::from_ref(&args.suite));
     let written = suites.into_iter().map(|suite| of_suite(&suite?, args));
     let files: Vec<Vec<u8>> = written.collect::<Result<_, CommandError>>()?;
     let [file] = files.as_slice() else {
-        let message = "expected one suite, and not a folder of them";
+        let message = "expected one suite, not a folder of suites";
         return Err(CommandError::Message(message.to_owned()));
     };
     output::print_bytes(file);
@@ -57,7 +58,7 @@ fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, CommandError> 
     let name = &suite.name;
     let plan = suite
         .plan::<ConvergencePlan>()
-        .ok_or_else(|| CommandError::about(name, "it is no convergence study"))?;
+        .ok_or_else(|| CommandError::about(name, "it is not a convergence study"))?;
     let levels = &plan.refine.levels;
     let number = args.level.unwrap_or(plan.refine.usual);
     let level = number.checked_sub(1).and_then(|index| levels.get(index)).ok_or_else(|| {

@@ -40,7 +40,13 @@ fn of_suite(
     solver: Option<&dyn SolverFactory>,
 ) -> Result<String, CommandError> {
     let name = &suite.name;
-    let looks_inside = || CommandError::about(name, "it looks inside the methods of this crate");
+    let looks_inside = || {
+        CommandError::about(
+            name,
+            "it examines the internals of the built-in \
+                                                     methods",
+        )
+    };
     let suite = match solver {
         None => suite,
         Some(solver) => &under(suite, solver, false).ok_or_else(looks_inside)?,

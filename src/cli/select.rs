@@ -141,7 +141,7 @@ fn fitting(glob: &str) -> Sources {
     if !found.is_empty() {
         return found;
     }
-    let diagnostic = Diagnostic::about(glob, &format!("no suite has a name like `{glob}`"));
+    let diagnostic = Diagnostic::about(glob, &format!("no suite matches `{glob}`"));
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
@@ -191,7 +191,7 @@ fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {
         Ok(files) if files.is_empty() => {
-            vec![Err(Diagnostic::about(&name, "this folder holds no suite (no .yaml file)"))]
+            vec![Err(Diagnostic::about(&name, "this folder contains no suite (no .yaml file)"))]
         }
         Ok(files) => files.into_iter().map(Source::read).collect(),
         Err(error) => {

@@ -83,7 +83,7 @@ fn suite_of_solver(
 ) -> Option<Suite> {
     let judged = under_on(suite, solver, terms);
     if judged.is_none() {
-        let why = "left out, since it looks inside the methods of this crate";
+        let why = "skipped, because it examines the internals of the built-in methods";
         output::complain(&format!("note: {}: {why}", suite.name));
     }
     judged

@@ -113,12 +113,12 @@ struct SumSite {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum SumError {
     /// The sum is zero at all times, so relative errors are undefined.
-    #[error("is zero throughout")]
+    #[error("is zero at all times")]
     Zero,
     /// The maximum number of quadrature points does not reach the tolerance.
     #[error(
-        "cannot be computed to {TOLERANCE:e}: the motion is not smooth enough to be integrated \
-         with {MOST_POINTS} points"
+        "cannot be integrated to {TOLERANCE:e} with {MOST_POINTS} points: the motion is not smooth \
+         enough"
     )]
     NotConverged,
 }
@@ -353,8 +353,8 @@ mod tests {
     }
 
     #[rstest]
-    #[case::a_body_at_rest("0*X", "is zero throughout")]
-    #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be computed to 1e-10")]
+    #[case::a_body_at_rest("0*X", "is zero at all times")]
+    #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be integrated to 1e-10")]
     fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
         let problem = bar(displacement, fixed());
         let density = |point: &SumPoint<'_>| of_vector(point.momentum());

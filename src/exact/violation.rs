@@ -5,7 +5,7 @@ use std::fmt;
 /// A violated condition of the stated solution, with position, time and difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
-    /// Text of the condition.
+    /// The violation, as a clause such as "boundary condition u_X = 0 is violated".
     pub condition: String,
     /// Reference position (m).
     pub label: Vec<f64>,
@@ -65,7 +65,7 @@ impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let place: Vec<String> = self.label.iter().map(|c| coordinate(*c)).collect();
         let (place, t) = (place.join(", "), coordinate(self.t));
-        write!(f, "{} is violated at X = ({place}), t = {t}: ", self.condition)?;
+        write!(f, "{} at X = ({place}), t = {t}: ", self.condition)?;
         let (found, gap) = (self.found, if self.unit.is_empty() { "" } else { " " });
         let Some(expected) = self.expected else {
             return write!(f, "found {found:.6e}{gap}{}", self.unit);

@@ -132,7 +132,7 @@ impl Capabilities {
             }
         }
         let beyond = needs.beyond.iter();
-        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not hand over")));
+        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not contain")));
         lacking
     }
 }
@@ -176,7 +176,7 @@ impl Capabilities {
             let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
                 let hint = hint(name, known);
-                warnings.push(format!("`{name}` is not one of the {capability}; {hint}"));
+                warnings.push(format!("unknown name `{name}` in {capability}; {hint}"));
             }
         }
         for dimension in self.dimensions.iter().filter(|d| !(1..=3).contains(*d)) {
@@ -352,7 +352,7 @@ mod tests {
             "varying_density",
             "loaded_rims",
             "load_steps",
-            "heat, which the protocol does not hand over",
+            "heat, which the protocol does not contain",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
         let conditions = ["free", "fixed", "roller"];
@@ -402,10 +402,10 @@ mod tests {
         let expected = [
             "unknown capability `periodic_axes`; known: dimensions, ",
             "unknown capability `contacts`; did you mean `contact`?",
-            "`linear-elastic` is not one of the laws; did you mean `linear_elastic`?",
-            "`clamped` is not one of the conditions; known: free, fixed, ",
-            "`Roller` is not one of the conditions; did you mean `roller`?",
-            "`bodyforce` is not one of the loads; did you mean `body_force`?",
+            "unknown name `linear-elastic` in laws; did you mean `linear_elastic`?",
+            "unknown name `clamped` in conditions; known: free, fixed, ",
+            "unknown name `Roller` in conditions; did you mean `roller`?",
+            "unknown name `bodyforce` in loads; did you mean `body_force`?",
             "there are no suites in 4 dimensions",
         ];
         assert_eq!(warnings.len(), expected.len(), "{warnings:#?}");

@@ -7,18 +7,21 @@ use crate::verify::{
 
 /// Column headings: the bases of MPM, finite elements (FEM), and all other methods.
 pub(crate) const COLUMNS: [&str; 8] =
-    ["linear", "uGIMP", "cpGIMP", "CPDI", "quadratic", "cubic", "FEM", "other"];
+    ["linear", "uGIMP", "cpGIMP", "CPDI", "quadratic B-spline", "cubic B-spline", "FEM", "other"];
 
 const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
 /// Explanation of the findings, printed with the matrix.
 pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
-    this basis, over every transfer and time scheme. Instead of an order: `floor`: the error stops \
-    falling; `grows`: it grows with refinement; `breaks`: a run fails; `unsettled` and \
-    `oscillates`: the order differs from one level to the next; `bounded`: quantities are checked \
-    against limits, and no order is measured; `stable`, `unstable` and `limit` (a critical value): \
-    results of stability studies. The report of a suite states the reasons.";
+                                 this basis, over every transfer and time scheme. Instead of an \
+                                 order: `floor`: the error stops falling; `grows`: it grows with \
+                                 refinement; `breaks`: a run fails; `unsettled` and `oscillates`: \
+                                 the order differs from one level to the next; `bounds`: quantities \
+                                 are checked against limits, and no order is measured; `stable`, \
+                                 `unstable` and `limit` (a critical value): results of stability \
+                                 studies. `low order` in the list above: the order is below the \
+                                 expected one. The report of a suite states the reasons.";
 
 /// Class of a finding, from good to bad; determines its colour on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -173,7 +176,7 @@ fn word(case: &CaseOutcome) -> Option<String> {
     }
     let Some(study) = case.convergence() else { return Some(of_other_study(case)) };
     if study.bounded {
-        return Some("bounded".to_owned());
+        return Some("bounds".to_owned());
     }
     of_verdict(study).map(str::to_owned)
 }

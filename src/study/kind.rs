@@ -73,7 +73,7 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// # Errors
     /// The errors of `then`, or the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
-        Err("its study has no runs to be shown".into())
+        Err("its study has no runs to show".into())
     }
 
     /// Runs the case with this index.

@@ -237,7 +237,7 @@ impl CaseOutcome {
     pub fn expectation(&self) -> String {
         match &self.expected {
             _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
-            Some(expected) => format!("{expected}, because {}", self.because),
+            Some(expected) => format!("{expected}; reason: {}", self.because),
             None => "nothing: neither the suite nor a gate has an expectation for it".to_owned(),
         }
     }

@@ -105,12 +105,12 @@ fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
         let law = law.name();
         let reason = match truth {
             TruthChoice::Manufactured => format!(
-                "no force is manufactured for `{law}`, a law in rate \
-                 form has no stress of the deformation alone"
+                "a force cannot be manufactured for `{law}`: a law in rate form does not compute \
+                 its stress from the deformation"
             ),
             TruthChoice::StandingWave => format!(
-                "no wave of `{law}` stands, waves of finite strain \
-                 steepen; it is a truth of `linear_elastic`"
+                "`{law}` has no standing wave, because waves of finite strain steepen: use \
+                 `linear_elastic`"
             ),
         };
         return Err(CommandError::option("--truth", truth.name(), reason));
@@ -164,7 +164,7 @@ fn save(path: &Path, text: &str) -> Result<(), CommandError> {
 fn in_the_way(path: &Path) -> CommandError {
     let path = path.display();
     CommandError::Message(format!(
-        "{path} is there already, and is not overwritten; --output names another file"
+        "{path} already exists and is not overwritten; choose another file with --output"
     ))
 }
 
@@ -206,7 +206,7 @@ impl Question<'_> {
             }
             let near = nearest(answer, choices.iter().copied());
             let help = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            let _ = writeln!(out, "`{answer}` is none of these{help}");
+            let _ = writeln!(out, "`{answer}` is not one of these{help}");
         }
     }
 }

@@ -132,7 +132,7 @@ impl Series {
                 Err(SeriesError::Write { path, error }) => {
                     return Err(unwritable("--vtu", &self.folder.join(path), &error));
                 }
-                Err(reason) => format!("note: {name}: nothing to show: {reason}"),
+                Err(reason) => format!("note: {name}: no output: {reason}"),
             };
             bar.suspend(|| output::complain(&note));
         }

@@ -60,12 +60,12 @@ impl SolverGate {
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
-                output::complain(&format!("note: {suite} is excepted: {}", case.reason));
+                output::complain(&format!("note: {suite} is skipped: {}", case.reason));
             }
         }
         let is_excepted = |case: &CaseOutcome| case.exemption == Some(Exemption::Excepted);
         if !cases(outcomes).any(|(_, case)| case.is_tested() || is_excepted(case)) {
-            output::complain("error: --gate: nothing is required of the solver in any case");
+            output::complain("error: --gate: no case has a requirement for the solver");
             return false;
         }
         let untested = cases(outcomes).filter(|(_, case)| {
@@ -189,23 +189,22 @@ impl TermsSpec {
         };
         match (bounds, skip, because) {
             (true, Some(_), _) => {
-                about_entry("a suite that does not run has no order and no bound", "remove `skip`")
+                about_entry("a skipped suite cannot have an order or a bound", "remove `skip`")
             }
             (false, None, _) => about_entry(
-                "this entry states neither an order nor a bound nor a reason to skip the suite",
+                "this entry states no order, no bound and no reason to skip the suite",
                 "add `order: 1`, `error_below: 1e-6` or `skip: the reason`",
             ),
-            (true, None, None) => about_entry(
-                "an order or a bound for a suite needs its reason",
-                "add `because: the reason`",
-            ),
+            (true, None, None) => {
+                about_entry("an order or a bound needs a reason", "add `because: the reason`")
+            }
             (false, Some(_), Some(_)) => {
-                about_entry("`skip` is itself the reason", "remove `because`")
+                about_entry("`skip` already states the reason", "remove `because`")
             }
             (_, Some(text), _) | (_, None, Some(text)) if text.trim().is_empty() => {
                 let key = if skip.is_some() { "skip" } else { "because" };
                 let diagnostic = source.diagnostic_at(&at(key), "the reason is empty");
-                Err(diagnostic.with_label("expected the reason in words"))
+                Err(diagnostic.with_label("expected a text"))
             }
             _ => Ok(GateTerms {
                 formal_order: None,

@@ -59,16 +59,24 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     if let Some(text) = &args.case {
         runs = runs.into_iter().filter_map(|runs| runs.only(|case| case.contains(text))).collect();
         if runs.is_empty() {
-            return Err(CommandError::option("--case", text, "no case has this in its name"));
+            return Err(CommandError::option(
+                "--case",
+                text,
+                "no name of a case contains this text",
+            ));
         }
     }
     if let Some(shard) = args.shard {
         if args.judged.programs.with_methods || solvers.len() > 1 {
-            return Err(CommandError::about("--shard", "parts have one solver, or methods only"));
+            return Err(CommandError::about(
+                "--shard",
+                "`--shard` supports one solver, or the \
+                                                       built-in methods only",
+            ));
         }
         runs = SuiteRuns::shard(runs, shard, extent(&args.report));
         if runs.is_empty() {
-            output::complain("note: no case is left for this part");
+            output::complain("note: this shard has no case");
         }
     }
     let at_interrupt = Some(progress::interrupt_note(args.resume.is_some()));
@@ -100,10 +108,10 @@ fn report(
     let twice = twice(&suites);
     for (option, given, clash) in [
         ("--out", args.out.is_some(), "would write the same files"),
-        ("--html", args.html.is_some(), "would be one section"),
+        ("--html", args.html.is_some(), "would share one section"),
     ] {
         if let Some(name) = twice.filter(|_| given) {
-            let reason = format!("two suites are called `{name}`, and {clash}");
+            let reason = format!("two suites have the name `{name}` and {clash}");
             return Err(CommandError::about(option, reason));
         }
     }
@@ -188,7 +196,7 @@ fn repetitions(args: &RunArgs) -> Result<usize, CommandError> {
     const MOST: usize = 100;
     let Some(repeat) = args.repeat else { return Ok(1) };
     let reason = if args.resume.is_some() {
-        "stored levels have one run each and no spread: remove `--resume`".to_owned()
+        "stored levels have one run each, so no spread: remove `--resume`".to_owned()
     } else if repeat < 2 {
         "a spread needs two runs or more".to_owned()
     } else if repeat > MOST {
@@ -264,7 +272,8 @@ fn one(
     }
     if suite.explores() && part.solver.is_none() && !args.print.quiet {
         let name = &suite.name;
-        let note = "expects nothing, and is no gate; `mpm-verify propose` writes expectations";
+        let note = "has no expectations, so it is not a gate; `mpm-verify propose` writes \
+                    expectations";
         bar.suspend(|| output::complain(&format!("note: {name} {note}")));
     }
     outcome

@@ -90,7 +90,7 @@ fn place(args: &ReportArgs, sources: &[Source]) -> String {
     }
     let accepted = |source: &Source| Path::new(source.name()).with_extension("snap").is_file();
     let accepted = if sources.iter().any(accepted) {
-        "verification/GROUP/SUITE.snap, as they were accepted; of this run: "
+        "accepted snapshots in verification/GROUP/SUITE.snap; for this run, "
     } else {
         ""
     };
@@ -116,7 +116,7 @@ pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), Command
             return Err(CommandError::option(
                 "--label",
                 case,
-                format!("no case of this name{hint}"),
+                format!("no case has this name{hint}"),
             ));
         }
         if !texts.insert(text) || cases.contains(text.as_str()) {

@@ -130,11 +130,11 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
     let line = words.join(" ");
     if kept {
-        format!("interrupted: `mpm-verify {line}` goes on from here")
+        format!("interrupted: `mpm-verify {line}` resumes the run")
     } else {
         format!(
-            "interrupted, and nothing is kept: with a folder for results, `mpm-verify {line} \
-             --resume kept`, a run that is interrupted goes on"
+            "interrupted, and no results are stored: with a folder for results, `mpm-verify {line} \
+             --resume kept`, an interrupted run can be resumed"
         )
     }
 }

@@ -61,13 +61,19 @@ impl FacePoint for MovingPoint<'_> {
     }
 
     fn held(&self, i: usize, what: &str) -> Result<(), Violation> {
-        let name = format!("boundary condition: {} is {what}, u_{} = 0", self.face.name, AXES[i]);
+        let name = format!(
+            "boundary condition: {} is {what}, u_{} = 0 is violated",
+            self.face.name, AXES[i]
+        );
         let allowed = self.problem.tolerance * self.sizes.displacement;
         self.event.judge(allowed, name, (0.0, self.now.u[i]), "m")
     }
 
     fn velocity(&self, i: usize, given: f64) -> Result<(), Violation> {
-        let name = format!("boundary condition: velocity of {} in {}", self.face.name, AXES[i]);
+        let name = format!(
+            "boundary condition: velocity of {} in {} is violated",
+            self.face.name, AXES[i]
+        );
         let allowed = self.problem.tolerance * self.sizes.velocity.max(given.abs());
         self.event.judge(allowed, name, (given, self.now.velocity[i]), "m/s")
     }
@@ -76,7 +82,10 @@ impl FacePoint for MovingPoint<'_> {
         let Self { problem, face, event, .. } = self;
         let normal = if face.high { 1.0 } else { -1.0 };
         let found = normal * problem.piola(&event.label, event.t, &self.now)[i][face.axis];
-        let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
+        let name = format!(
+            "boundary condition: {} is {what}, traction in {} is violated",
+            face.name, AXES[i]
+        );
         let size = self.sizes.stress.max(given.abs());
         self.left.set(self.left.get().max(share(found - given, size)));
         event.judge(problem.law_tolerance() * size, name, (given, found), "Pa")
@@ -94,24 +103,28 @@ impl FacePoint for MovingPoint<'_> {
         opposite[face.axis] =
             if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
         let there = problem.derivatives(&opposite, event.t);
-        let condition = |what: String| {
-            format!("boundary condition: {} is periodic, {what} the opposite face,", face.name)
-        };
+        let condition =
+            |what: String| format!("boundary condition: {} is periodic, but {what}", face.name);
+        let differs =
+            |what: String| condition(format!("{what} differs from that on the opposite face"));
         let (high, low) = if face.high { (now, &there) } else { (&there, now) };
         for i in 0..problem.dimension() {
             let allowed = problem.tolerance * sizes.displacement;
             if i == face.axis {
                 let length = problem.to[i] - problem.from[i];
                 let apart = length + (high.u[i] - low.u[i]);
-                let name = condition(format!("x_{} one period away from", AXES[i]));
+                let name = condition(format!(
+                    "x_{} does not differ by one period from that on the opposite face",
+                    AXES[i]
+                ));
                 let allowed = allowed.max(4.0 * f64::EPSILON * face.period);
                 event.judge(allowed, name, (face.period, apart), "m")?;
             } else {
-                let name = condition(format!("u_{} as on", AXES[i]));
+                let name = differs(format!("u_{}", AXES[i]));
                 event.judge(allowed, name, (there.u[i], now.u[i]), "m")?;
             }
             for j in 0..problem.dimension() {
-                let name = condition(format!("du_{}/d{} as on", AXES[i], AXES[j]));
+                let name = differs(format!("du_{}/d{}", AXES[i], AXES[j]));
                 let allowed = problem.tolerance * sizes.gradient;
                 event.judge(allowed, name, (there.grad[i][j], now.grad[i][j]), "")?;
             }
@@ -136,7 +149,8 @@ pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation
             let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);
-                let name = format!("given velocity of the set {} in {}", region.name, AXES[i]);
+                let name =
+                    format!("given velocity of the set {} in {} is violated", region.name, AXES[i]);
                 let allowed = problem.tolerance * speed.max(given.abs());
                 found.add(event.judge(allowed, name, (given, now.velocity[i]), "m/s"));
             }

@@ -61,7 +61,7 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
     for i in 0..problem.dimension() {
         let u = |t: f64| problem.motion.component(i, &event.label, t);
         let (low, mid, high) = (u(event.t - step), u(event.t), u(event.t + step));
-        let name = format!("agreement of two differentiations of u_{} in time", AXES[i]);
+        let name = format!("two differentiations of u_{} in time disagree", AXES[i]);
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
@@ -101,7 +101,7 @@ fn stress_differences(
         }
     }
     for i in 0..d {
-        let name = format!("agreement of two differentiations of Div P in {}", AXES[i]);
+        let name = format!("two computations of Div P in {} disagree", AXES[i]);
         let allowed = DIFFERENCE_TOLERANCE * sizes.divergence + 1e-9 * size;
         event.judge(allowed, name, (divergence[i], exact[i]), "N/m3")?;
     }

@@ -42,7 +42,7 @@ impl Event {
         if over.is_finite() && over <= allowed {
             return Ok(());
         }
-        Err(self.violation(condition + " at most", Some(most), found, Some(allowed), unit))
+        Err(self.violation(condition, Some(most), found, Some(allowed), unit))
     }
 
     pub(super) fn violation(

@@ -23,9 +23,8 @@ pub(crate) fn at_wall(
     [displacement, velocity, stress]: [f64; 3],
 ) -> Result<(), Violation> {
     let (axis, d, tolerance) = (face.axis, problem.dimension(), problem.tolerance);
-    let condition =
-        |what: &str| format!("boundary condition: {} is a wall with friction, {what}", face.name);
-    let name = condition(&format!("u_{} = 0", AXES[axis]));
+    let wall = format!("the friction wall `{}`", face.name);
+    let name = format!("boundary condition: u_{} = 0 on {wall} is violated", AXES[axis]);
     event.judge(tolerance * displacement, name, (0.0, now.u[axis]), "m")?;
 
     let outwards = if face.high { 1.0 } else { -1.0 };
@@ -33,10 +32,11 @@ pub(crate) fn at_wall(
     let traction: [f64; 3] = std::array::from_fn(|i| outwards * piola[i][axis]);
     let pressure = -outwards * traction[axis];
     let allowed = problem.law_tolerance() * stress;
-    event.judge_most(allowed, condition("which does not pull, traction"), 0.0, -pressure, "Pa")?;
+    let name = format!("boundary condition: {wall} pulls the body");
+    event.judge_most(allowed, name, 0.0, -pressure, "Pa")?;
 
     let rub = InterfaceTraction { traction, velocity: now.velocity, pressure, coefficient };
-    coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], condition)
+    coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], &wall)
 }
 
 /// Traction of one surface on another at a point.
@@ -62,7 +62,7 @@ pub(crate) fn coulomb(
     d: usize,
     rub: &InterfaceTraction,
     [stress, velocity]: [f64; 2],
-    condition: impl Fn(&str) -> String,
+    surface: &str,
 ) -> Result<(), Violation> {
     let most = rub.coefficient * rub.pressure;
     let along = |vector: &[f64; 3]| {
@@ -71,11 +71,14 @@ pub(crate) fn coulomb(
     };
     let speed = along(&rub.velocity);
     if speed <= velocity {
-        let name = condition("which holds a face that rests by at most mu times the pressure,");
+        let name = format!("at rest, the traction along {surface} exceeds mu times the pressure");
         return event.judge_most(stress, name, most, along(&rub.traction), "Pa");
     }
     for i in (0..d).filter(|i| *i != axis) {
-        let name = condition(&format!("traction in {} against the velocity", AXES[i]));
+        let name = format!(
+            "the traction in {} on {surface} does not have the value that opposes the velocity",
+            AXES[i]
+        );
         let expected = -most * rub.velocity[i] / speed;
         event.judge(stress, name, (expected, rub.traction[i]), "Pa")?;
     }
@@ -136,15 +139,15 @@ mod tests {
     #[rstest]
     #[case::slides(0.5, [SLIDES, SETTLED], "")]
     #[case::stays(0.8, [STAYS, SETTLED], "")]
-    #[case::too_little_friction(0.45, [SLIDES, SETTLED], "traction in X against the velocity")]
-    #[case::too_much_friction(0.6, [SLIDES, SETTLED], "traction in X against the velocity")]
-    #[case::stays_without_friction(0.7, [STAYS, SETTLED], "a face that rests")]
+    #[case::too_little_friction(0.45, [SLIDES, SETTLED], "opposes the velocity")]
+    #[case::too_much_friction(0.6, [SLIDES, SETTLED], "opposes the velocity")]
+    #[case::stays_without_friction(0.7, [STAYS, SETTLED], "at rest")]
     #[case::slides_uphill(
         0.5,
         ["5/2*t^2 + 2/100*(Y^2/2 - Y)", SETTLED],
-        "traction in X against the velocity"
+        "opposes the velocity"
     )]
-    #[case::hangs(0.5, [SLIDES, "-4/200*(Y^2/2 - Y)"], "does not pull")]
+    #[case::hangs(0.5, [SLIDES, "-4/200*(Y^2/2 - Y)"], "pulls the body")]
     #[case::sinks_in(0.5, [SLIDES, "4/200*(Y^2/2 - Y) - 1e-3"], "u_Y = 0")]
     fn a_layer_on_a_slope(
         #[case] coefficient: f64,

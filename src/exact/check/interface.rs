@@ -109,7 +109,7 @@ impl BodyPair<'_> {
 
     fn balance(&self, event: &Event, [here, there]: [[f64; 3]; 2]) -> Result<(), Violation> {
         for i in 0..self.one.dimension() {
-            let name = self.condition(&format!("the same traction in {} on both,", AXES[i]));
+            let name = self.condition(&format!("their tractions in {} differ", AXES[i]));
             let allowed = self.one.law_tolerance() * self.sizes[2];
             event.judge(allowed, name, (here[i], there[i]), "Pa")?;
         }
@@ -119,7 +119,7 @@ impl BodyPair<'_> {
     fn go_on(&self, event: &Event) -> Result<(), Violation> {
         let [here, there] = self.both(event);
         for i in 0..self.one.dimension() {
-            let name = self.condition(&format!("the same u_{} on both,", AXES[i]));
+            let name = self.condition(&format!("their displacements u_{} differ", AXES[i]));
             let allowed = self.one.tolerance * self.sizes[0];
             event.judge(allowed, name, (here.u[i], there.u[i]), "m")?;
         }
@@ -132,25 +132,24 @@ impl BodyPair<'_> {
         let [here, there] = self.both(event);
         let gap = other.from[axis] - one.to[axis] + (there.u[axis] - here.u[axis]);
         let allowed = tolerance * displacement;
-        let name = self.condition("of which none enters the other, overlap");
+        let name = self.condition("they overlap");
         event.judge_most(allowed, name, 0.0, -gap, "m")?;
 
         let forces = self.forces(event, &here, &there);
         self.balance(event, forces)?;
         let ([traction, _], pressure) = (forces, -forces[0][axis]);
         let (allowed, apart) = (one.law_tolerance() * stress, gap > allowed);
-        let name = self.condition("and do not pull each other, traction");
+        let name = self.condition("they pull each other");
         event.judge_most(allowed, name, 0.0, -pressure, "Pa")?;
         if apart {
-            let name = self.condition("push each other only where they touch, pressure");
+            let name = self.condition("they push each other without touching");
             event.judge_most(allowed, name, 0.0, pressure, "Pa")?;
         }
         let relative = std::array::from_fn(|i| here.velocity[i] - there.velocity[i]);
         let rub = InterfaceTraction { traction, velocity: relative, pressure, coefficient };
         let residuals = [allowed, tolerance * velocity];
-        coulomb(event, axis, one.dimension(), &rub, residuals, |what| {
-            self.condition(&format!("with friction, {what}"))
-        })
+        let surface = format!("the common face along {}", AXES[axis]);
+        coulomb(event, axis, one.dimension(), &rub, residuals, &surface)
     }
 }
 
@@ -213,18 +212,18 @@ mod tests {
     #[rstest]
     #[case::bounce(BOUNCE, Some(0.0), "")]
     #[case::stick(STICK, None, "")]
-    #[case::stick_in_contact(STICK, Some(0.0), "do not pull each other")]
-    #[case::bounce_as_one(BOUNCE, None, "the same u_X")]
-    #[case::pass_through("sign(1 - X)/100*t", Some(0.0), "none enters the other")]
+    #[case::stick_in_contact(STICK, Some(0.0), "pull each other")]
+    #[case::bounce_as_one(BOUNCE, None, "displacements u_X differ")]
+    #[case::pass_through("sign(1 - X)/100*t", Some(0.0), "they overlap")]
     #[case::push_from_afar(
         "sign(1 - X)/100*(0 - t/2 - max(0, t - abs(X - 1)))",
         Some(0.0),
-        "only where they touch"
+        "without touching"
     )]
     #[case::unequal_push(
         "sign(1 - X)/100*(t - max(0, t - abs(X - 1))*(1.5 - step(X - 1)))",
         Some(0.0),
-        "the same traction"
+        "tractions in"
     )]
     fn two_bars(#[case] motion: &str, #[case] friction: Option<f64>, #[case] violated: &str) {
         let [one, other] = bars(motion);
@@ -240,12 +239,12 @@ mod tests {
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
     #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]
-    #[case::without_friction(["0", "t/10"], "traction in Y against the velocity")]
-    #[case::with_too_little(["X*2.97/500", "t/10 + X*2.97/500"], "traction in Y against")]
-    #[case::with_too_much(["X*3.03/500", "t/10 + X*3.03/500"], "traction in Y against")]
-    #[case::driven_by_friction(["-X*3/500", "t/10 - X*3/500"], "traction in Y against")]
+    #[case::without_friction(["0", "t/10"], "traction in Y on")]
+    #[case::with_too_little(["X*2.97/500", "t/10 + X*2.97/500"], "traction in Y on")]
+    #[case::with_too_much(["X*3.03/500", "t/10 + X*3.03/500"], "traction in Y on")]
+    #[case::driven_by_friction(["-X*3/500", "t/10 - X*3/500"], "traction in Y on")]
     #[case::held(["t/10 + X*2/500", "t/10 + X*2/500"], "")]
-    #[case::held_too_well(["t/10 + X*4/500", "t/10 + X*4/500"], "a face that rests")]
+    #[case::held_too_well(["t/10 + X*4/500", "t/10 + X*4/500"], "at rest")]
     fn two_pressed_plates(#[case] along: [&str; 2], #[case] violated: &str) {
         let bind = |source: &str| {
             let expr = Expr::parse(source).unwrap();

@@ -20,7 +20,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
     let Some(first) = survey.points.first() else { return Ok(()) };
     for SurveyPoint { event, now, .. } in &survey.points {
         if let Some(u) = now.u.iter().find(|u| !u.is_finite()) {
-            let condition = "the demand that the displacement is finite".to_owned();
+            let condition = "the displacement is not finite".to_owned();
             return Err(event.violation(condition, None, *u, None, "m"));
         }
     }
@@ -30,7 +30,7 @@ pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violati
     if survey.largest.displacement > 0.0 || stressed {
         return Ok(());
     }
-    let condition = "the demand that the displacement is not zero everywhere".to_owned();
+    let condition = "the displacement is zero everywhere, for example".to_owned();
     Err(first.violation(condition, None, 0.0, None, "m"))
 }
 
@@ -46,11 +46,11 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
         let now = problem.derivatives(&event.label, 0.0);
         for i in 0..problem.dimension() {
             let zero = if problem.initial_displacement.is_empty() { "0" } else { "u0(X)" };
-            let name = format!("initial condition u_{}(X, 0) = {zero}", AXES[i]);
+            let name = format!("initial condition u_{}(X, 0) = {zero} is violated", AXES[i]);
             let start = start(problem, &problem.initial_displacement, i, &event, now.u[i]);
             let allowed = problem.tolerance * displacement;
             found[0].add(event.judge(allowed, name, (start, now.u[i]), "m"));
-            let name = format!("initial condition on the velocity in {}", AXES[i]);
+            let name = format!("initial condition on the velocity in {} is violated", AXES[i]);
             let start = self::start(problem, &problem.initial_velocity, i, &event, now.velocity[i]);
             let allowed = problem.tolerance * velocity.max(start.abs());
             found[1].add(event.judge(allowed, name, (start, now.velocity[i]), "m/s"));
@@ -96,10 +96,13 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
                 left = f64::max(left, share(residual, size));
             }
             if problem.terms.iter().any(|term| term.is_body_force()) {
-                let (name, forces) =
-                    (name + " solved for b,", ((inertia - stress) / rho0, force / rho0));
+                let (name, forces) = (
+                    name + " solved for b, is violated",
+                    ((inertia - stress) / rho0, force / rho0),
+                );
                 found.add(event.judge(allowed / rho0, name, forces, "m/s2"));
             } else {
+                let name = name + " is violated";
                 found.add(event.judge(allowed, name, (stress + force, inertia), "N/m3"));
             }
         }
@@ -139,7 +142,10 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
                 };
                 let traction = along(&|axis| piola[i][axis]);
                 let given = 0.0 - pressure * along(&|axis| areas[axis][i]);
-                let name = format!("boundary condition: {rim} is {what}, traction in {}", AXES[i]);
+                let name = format!(
+                    "boundary condition: {rim} is {what}, traction in {} is violated",
+                    AXES[i]
+                );
                 let allowed = problem.law_tolerance() * size;
                 found.add(event.judge(allowed, name, (given, traction), "Pa"));
                 left = f64::max(left, share(traction - given, size));
@@ -162,8 +168,7 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
         let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
         let back = (outwards * now.grad_rate[0][0]).min(0.0);
         let allowed = problem.tolerance * now.grad[0][0].abs() / problem.until;
-        let name = "the demand that loading never reverses where the body flows: \
-                    the rate du_X/dX dt, where it turns back,"
+        let name = "loading reverses where the body flows plastically: the rate of du_X/dX changes its sign"
             .to_owned();
         event.judge(allowed, name, (0.0, back), "1/s")?;
     }

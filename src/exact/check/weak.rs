@@ -183,7 +183,9 @@ impl Sums {
         }
         let d = patch.dimension();
         Err(Violation {
-            condition: format!("{condition} in weak form; shares of the sum of all terms)"),
+            condition: format!(
+                "{condition} in weak form; shares of the sum of all terms) is violated"
+            ),
             label: patch.centre[..d].to_vec(),
             t: patch.centre[d],
             expected: Some(self.loss / self.size),

@@ -174,7 +174,10 @@ impl<'a> Lexer<'a> {
         if found.is_ascii() {
             return error;
         }
-        error.help("formulas are ASCII: spell letters out, as in `omega`, and use `-`, `*`, `/`")
+        error.help(
+            "formulas are ASCII: write the names of letters, as in `omega`, and use `-`, \
+                    `*`, `/`",
+        )
     }
 }
 

@@ -101,7 +101,7 @@ impl Scope {
         for (position, parameter) in parameters.iter().enumerate() {
             self.fresh(parameter, 0..parameter.len())?;
             if parameter == name || parameters[..position].contains(parameter) {
-                let message = format!("the parameter `{parameter}` of `{name}` is taken already");
+                let message = format!("the parameter `{parameter}` of `{name}` is already in use");
                 return Err(FormulaError::new(0..parameter.len(), message));
             }
         }

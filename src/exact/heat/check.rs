@@ -45,7 +45,7 @@ impl Conduction {
 /// Checks that the temperature is finite in the whole body and not identically zero.
 fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violation> {
     let wrong = |(event, _, now): &HeatPoint, what: &str| Violation {
-        condition: format!("the demand that the temperature is {what}"),
+        condition: format!("the temperature is {what}"),
         label: event.label.clone(),
         t: event.t,
         expected: None,
@@ -54,10 +54,10 @@ fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violat
         unit: "K",
     };
     if let Some(point) = points.iter().find(|(_, _, now)| !now.value.is_finite()) {
-        return Err(wrong(point, "finite"));
+        return Err(wrong(point, "not finite"));
     }
     match points.first() {
-        Some(point) if !(largest.value > 0.0) => Err(wrong(point, "not zero everywhere")),
+        Some(point) if !(largest.value > 0.0) => Err(wrong(point, "zero everywhere, for example")),
         _ => Ok(()),
     }
 }
@@ -70,7 +70,7 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
         let found = problem.temperature.at(&event.label, 0.0);
         // Without a stated value, the initial temperature must only be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
-        let name = "initial condition T(X, 0) = T0(X)".to_owned();
+        let name = "initial condition T(X, 0) = T0(X) is violated".to_owned();
         worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
     }
     worst.into_result()
@@ -129,13 +129,18 @@ impl HeatFacePoint for HeatedPoint<'_> {
 
     fn has_temperature(&self, given: f64) -> Result<(), Violation> {
         let allowed = self.problem.tolerance * self.sizes.value.max(given.abs());
-        let name = self.condition("has a given temperature");
+        let name = self.condition("has a given temperature, but the solution has another one");
         self.event.judge(allowed, name, (given, self.now.value), "K")
     }
 
     fn lets_in(&self, what: &str, given: f64, size: f64) -> Result<(), Violation> {
         let allowed = self.problem.tolerance * greatest([self.sizes.inflow, size].into_iter());
-        self.event.judge(allowed, self.condition(what), (given, self.inflow), "W/m2")
+        self.event.judge(
+            allowed,
+            self.condition(&format!("{what}, but the heat inflow is another one")),
+            (given, self.inflow),
+            "W/m2",
+        )
     }
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {
@@ -144,10 +149,12 @@ impl HeatFacePoint for HeatedPoint<'_> {
         opposite[face.axis] =
             if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
         let (there, warm) = problem.now(&opposite, event.t);
-        let title = self.condition("is periodic, the temperature");
+        let title = self
+            .condition("is periodic, but the temperature differs from that on the opposite face");
         event.judge(problem.tolerance * sizes.value, title, (warm.value, now.value), "K")?;
         let across = inflow_at(problem, face, &there, &warm);
-        let title = self.condition("is periodic, the flow of heat");
+        let title =
+            self.condition("is periodic, but the heat flux differs from that on the opposite face");
         event.judge(problem.tolerance * sizes.inflow, title, (across, *inflow), "W/m2")
     }
 }
@@ -175,7 +182,7 @@ fn differences(
     let value = |t: f64| problem.temperature.at(&event.label, t);
     let (low, high) = (value(event.t - over_time), value(event.t + over_time));
     let rounding = 1e-13 * (low.abs() + high.abs()) / over_time;
-    let name = "agreement of two differentiations of T in time".to_owned();
+    let name = "two differentiations of T in time disagree".to_owned();
     let slope = (high - low) / (2.0 * over_time);
     event.judge(DIFFERENCE_TOLERANCE * largest.rate + rounding, name, (slope, now.rate), "K/s")?;
     let (mut divergence, mut size) = (0.0, 0.0);
@@ -192,7 +199,7 @@ fn differences(
         size += (high.abs() + low.abs()) / step;
     }
     let exact = problem.conductivity * field::divergence(problem.dimension(), &motion, &now);
-    let name = "agreement of two differentiations of Div Q".to_owned();
+    let name = "two computations of Div Q disagree".to_owned();
     let allowed = DIFFERENCE_TOLERANCE * largest.divergence + 1e-9 * size;
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
@@ -203,7 +210,8 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     let mut found = LargestViolation::default();
     for point in points {
         let (needed, stated) = needed_and_stated(problem, point);
-        let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s,".to_owned();
+        let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s, is violated"
+            .to_owned();
         found.add(point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg"));
     }
     found.into_result()

@@ -230,7 +230,7 @@ impl ConstitutiveLaw for CamClayLaw {
         }
         Err([
             "the stress is a function of the deformation in uniaxial strain only",
-            "make it a scene of dimension 1",
+            "use a scene of dimension 1",
         ])
     }
 }

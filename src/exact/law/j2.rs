@@ -55,8 +55,8 @@ impl ConstitutiveLaw for J2Law {
             return Ok(());
         }
         Err([
-            "what has flowed is a function of the deformation in uniaxial strain only",
-            "make it a scene of dimension 1",
+            "the plastic strain is a function of the deformation in uniaxial strain only",
+            "use a scene of dimension 1",
         ])
     }
 }

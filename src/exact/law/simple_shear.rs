@@ -36,7 +36,7 @@ pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     }
     Err([
         "the stress is a function of the deformation in simple shear only",
-        "make it a scene of dimension 2 with a displacement [\"gamma(t)*Y\", 0]",
+        "use a scene of dimension 2 with a displacement [\"gamma(t)*Y\", 0]",
     ])
 }
 

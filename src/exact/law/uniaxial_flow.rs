@@ -44,7 +44,7 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
         }
         Err([
             "the stress is a function of the deformation in uniaxial strain only",
-            "make it a scene of dimension 1",
+            "use a scene of dimension 1",
         ])
     }
 }

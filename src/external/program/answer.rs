@@ -222,7 +222,7 @@ impl Answer {
             let reason = if text.trim_start().starts_with('{') {
                 plain(&error)
             } else {
-                "what else it prints belongs on its standard error".to_owned()
+                "print other text on standard error".to_owned()
             };
             ProgramError::NoMessage { reason, excerpt: excerpt(&text) }
         })

@@ -11,13 +11,13 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ProgramError {
     /// The command has an unbalanced quote, or ends with a backslash.
-    #[error("command has a quote that is not closed, or ends with a backslash")]
+    #[error("command has an unclosed quote, or ends with a backslash")]
     Quotes,
     /// The command is empty.
     #[error("is empty: expected a command with its arguments")]
     EmptyCommand,
     /// The operating system does not support the memory limit.
-    #[error("no limit of memory can be set on this system")]
+    #[error("memory cannot be limited on this system")]
     MemoryLimit,
     /// The program does not start.
     #[error("`{program}`: {error}")]
@@ -31,13 +31,13 @@ pub enum ProgramError {
     #[error("has no pipe")]
     Pipe,
     /// No answer arrived in time.
-    #[error("has been silent for {0} s")]
+    #[error("did not answer within {0} s")]
     Silent(f64),
     /// The process ended without an answer; with its status and output.
     #[error("ended without an answer ({0})")]
     Ended(String),
     /// The process closed its standard output but is still running.
-    #[error("closed its output and went on")]
+    #[error("closed its output but did not end")]
     ClosedOutput,
     /// The output of the process cannot be read.
     #[error("cannot be read: {0}")]
@@ -49,10 +49,10 @@ pub enum ProgramError {
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
     /// An answer contains a number that JSON does not support, such as NaN.
-    #[error("answered with {0}, which is no number")]
+    #[error("answered with {0}, which is not a number")]
     NoNumber(&'static str),
     /// The output contains a line that is not a message of the protocol.
-    #[error("answered with what is no message ({reason}): `{excerpt}`")]
+    #[error("sent an invalid message ({reason}): `{excerpt}`")]
     NoMessage {
         /// The violated rule.
         reason: String,
@@ -69,7 +69,7 @@ pub enum ProgramError {
     },
     /// The solver uses an unsupported version of the protocol.
     #[error(
-        "speaks version {stated} of the protocol; expected version {} or {}",
+        "uses version {stated} of the protocol; expected version {} or {}",
         .expected[0],
         .expected[1]
     )]
@@ -81,7 +81,7 @@ pub enum ProgramError {
     },
     /// The solver's name is invalid.
     #[error(
-        "is called `{0}`: expected up to {max} letters, digits, `-`, `_` or `.`",
+        "has the invalid name `{0}`: expected up to {max} letters, digits, `-`, `_` or `.`",
         max = LONGEST_NAME
     )]
     Name(String),
@@ -89,19 +89,22 @@ pub enum ProgramError {
     #[error("has the formal order {0}: expected one up to {max}", max = HIGHEST_ORDER)]
     FormalOrder(f64),
     /// A second process stated a different name, version or capability than the first process.
-    #[error("said another hello than the first time")]
+    #[error("sent a different `hello` than the first time")]
     ChangedHello,
     /// The solver refuses the problem, for the given reason.
     #[error("{0}")]
     Refused(String),
     /// The solver reports a failure, with a description.
-    #[error("says: {0}")]
+    #[error("reports: {0}")]
     Failed(String),
     /// A required column is missing.
-    #[error("gave no column `{0}`")]
+    #[error("sent no column `{0}`")]
     NoColumn(&'static str),
     /// A column refers to bytes outside the block.
-    #[error("gave the column `{name}` as {length} doubles from byte {offset} on, of {bytes} bytes")]
+    #[error(
+        "placed the column `{name}` beyond its {bytes} bytes: {length} doubles from byte \
+             {offset} on"
+    )]
     ColumnBytes {
         /// Name of the column.
         name: String,
@@ -113,7 +116,7 @@ pub enum ProgramError {
         bytes: usize,
     },
     /// A column has the wrong number of entries.
-    #[error("gave the column `{name}` {found} numbers, expected {expected}")]
+    #[error("sent {found} numbers in the column `{name}`, expected {expected}")]
     ColumnLength {
         /// Name of the column.
         name: String,
@@ -123,7 +126,7 @@ pub enum ProgramError {
         expected: usize,
     },
     /// A column has an entry that is not finite.
-    #[error("gave the column `{name}` {value} as number {index}")]
+    #[error("sent {value} as number {index} of the column `{name}`")]
     NotFinite {
         /// Name of the column.
         name: String,
@@ -133,10 +136,10 @@ pub enum ProgramError {
         index: usize,
     },
     /// The smallest determinant of F is not a positive number.
-    #[error("gave `min_j` {0}: a determinant of F is a positive number")]
+    #[error("sent {0} as `min_j`, but a determinant of F is positive")]
     Determinant(f64),
     /// A gradient has the wrong number of derivatives.
-    #[error("gave a gradient of {found} numbers, expected {expected}: {names}")]
+    #[error("sent a gradient of {found} numbers, expected {expected}: {names}")]
     GradientLength {
         /// Number of derivatives in the gradient.
         found: usize,
@@ -146,7 +149,7 @@ pub enum ProgramError {
         names: String,
     },
     /// A gradient contains a number that JSON does not support, such as NaN.
-    #[error("answered `differentiate` with {word}, which is no number; requested: {names}")]
+    #[error("answered `differentiate` with {word}, which is not a number; requested: {names}")]
     GradientNoNumber {
         /// Text of the number.
         word: &'static str,
@@ -154,7 +157,7 @@ pub enum ProgramError {
         names: String,
     },
     /// A derivative, or the value of the functional, is not finite.
-    #[error("gave {value} as the {of}")]
+    #[error("sent {value} as the {of}")]
     GradientNotFinite {
         /// The number.
         value: f64,
@@ -165,10 +168,10 @@ pub enum ProgramError {
     #[error("has no points")]
     NoPoints,
     /// The solver's points are outside the bodies of the problem.
-    #[error("gave points: {0}")]
+    #[error("sent invalid points: {0}")]
     Points(FieldError),
     /// A request for values cannot be answered.
-    #[error("asked for values of `{field}`: {reason}")]
+    #[error("requested values of `{field}`: {reason}")]
     Request {
         /// Name of the field.
         field: String,
@@ -176,10 +179,10 @@ pub enum ProgramError {
         reason: FieldError,
     },
     /// The solver sent more requests for values than any correct solver needs.
-    #[error("asked for values {0} times")]
+    #[error("requested values {0} times")]
     TooManyRequests(u64),
     /// A failure of a process that also wrote to its standard error.
-    #[error("{error}; its last words: {lines}")]
+    #[error("{error}; its last output on standard error: {lines}")]
     WithStandardError {
         /// The failure.
         error: Box<ProgramError>,

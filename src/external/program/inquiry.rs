@@ -153,7 +153,7 @@ impl Inquiry {
             && displacement.len() != labels.len()
         {
             let (found, wanted) = (displacement.len(), labels.len());
-            let reason = format!("gave {found} numbers as `displacement`, expected {wanted}");
+            let reason = format!("sent {found} numbers as `displacement`, expected {wanted}");
             return Err(FieldError::Request(reason));
         }
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
@@ -176,7 +176,7 @@ impl Inquiry {
             return match face {
                 Some(_) => {
                     let reason =
-                        "it depends on the place, and the request has no `reference_position`";
+                        "it depends on the position, but the request has no `reference_position`";
                     Err(FieldError::Request(reason.to_owned()))
                 }
                 None => Ok(self.labels.clone()),
@@ -209,7 +209,7 @@ impl Inquiry {
         match displacement {
             None if force.depends_on_displacement() => {
                 let reason =
-                    "it depends on the displacement, and the request has no `displacement`";
+                    "it depends on the displacement, but the request has no `displacement`";
                 return Err(FieldError::Request(reason.to_owned()));
             }
             None if *are_own => {
@@ -246,7 +246,7 @@ impl Inquiry {
         places: &RequestedPlaces,
     ) -> Result<Vec<f64>, FieldError> {
         let Some(fields) = &self.fields else {
-            let reason = "the problem has no fields besides its particles";
+            let reason = "the problem has no fields other than its particles";
             return Err(FieldError::Undefined(reason.to_owned()));
         };
         let mut at = FieldPlaces::new(&places.labels, &places.bodies);
@@ -294,7 +294,7 @@ fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
         None if field.is_initial() => Ok(0.0),
         None => Err(FieldError::Request("the request has no time `t`".to_owned())),
         Some(t) if field.is_initial() && t != 0.0 => {
-            Err(FieldError::Request(format!("it is known at t = 0 only, not at t = {t}")))
+            Err(FieldError::Request(format!("it is defined at t = 0 only, not at t = {t}")))
         }
         Some(t) if !t.is_finite() => Err(FieldError::Request(format!("the time is {t}"))),
         Some(t) => Ok(t),

@@ -174,12 +174,15 @@ impl SolverFactory for SolverProgram {
 
     fn settings(&self) -> Vec<(String, String)> {
         let version = printable(&self.hello.version);
-        let version = if version.is_empty() { "not said".to_owned() } else { version };
+        let version = if version.is_empty() { "not stated".to_owned() } else { version };
         vec![
             ("solver".to_owned(), self.hello.name.clone()),
             ("version".to_owned(), version),
             ("precision".to_owned(), self.hello.precision.name().to_owned()),
-            ("formal order".to_owned(), format!("{}, by its own account", self.hello.formal_order)),
+            (
+                "formal order".to_owned(),
+                format!("{}, as stated by the solver", self.hello.formal_order),
+            ),
         ]
     }
 
@@ -194,7 +197,7 @@ impl SolverFactory for SolverProgram {
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated
-                .map(|need| format!("{need} (handed over in version 2 of the protocol only)"))
+                .map(|need| format!("{need} (available in version 2 of the protocol only)"))
                 .collect();
             lacking.extend(new);
         }

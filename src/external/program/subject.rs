@@ -177,7 +177,10 @@ impl Subject for ProgramSubject {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         if dt != self.dt {
             let told = self.dt;
-            return Err(Failure::External(format!("was told of steps of {told} s, not of {dt} s")));
+            return Err(Failure::External(format!(
+                "was initialised for steps of {told} s, not {dt} \
+                                                  s"
+            )));
         }
         self.called += 1;
         if self.next == Some(self.called) {

@@ -250,7 +250,7 @@ impl MaterialProperties for CamClay {
     }
 
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {
-        Err("is integrated in rate form, and has no energy")
+        Err("is integrated in rate form and has no stored energy")
     }
 }
 

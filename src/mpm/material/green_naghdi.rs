@@ -117,7 +117,7 @@ impl MaterialProperties for GreenNaghdi {
     }
 
     fn has_energy(&self, _: usize) -> Result<(), &'static str> {
-        Err("is integrated in rate form, and has no energy")
+        Err("is integrated in rate form and has no stored energy")
     }
 }
 

@@ -108,7 +108,7 @@ impl MaterialProperties for LinearElastic {
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         match dimension {
             1 => Ok(()),
-            _ => Err("is integrated in rate form, and has an energy in 1-D only"),
+            _ => Err("is integrated in rate form and has a stored energy in 1-D only"),
         }
     }
 }

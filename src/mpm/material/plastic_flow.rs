@@ -217,7 +217,10 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
     }
 
     fn starts_stressed(&self) -> Result<(), &'static str> {
-        Err("the yield stress bounds the whole stress, of which the law knows its own part only")
+        Err(
+            "the yield stress limits the total stress, but the law computes only the part from the \
+             deformation",
+        )
     }
 }
 

@@ -45,7 +45,9 @@ impl<const D: usize> Bodies<D> {
             let first = particles(&solvers);
             let solver = Solver::new(setup).map_err(|failure| among(failure, first))?;
             if solvers.first().is_some_and(|known| known.grid().counts != solver.grid().counts) {
-                return Err(Failure::Solve("bodies meet on one grid, and these have two".into()));
+                return Err(Failure::Solve(
+                    "bodies must share one grid, but these have two".into(),
+                ));
             }
             solvers.push(solver);
         }

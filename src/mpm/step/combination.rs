@@ -42,38 +42,39 @@ pub fn combine(
     }
     if mass == MassName::Consistent && kind == TransferKind::Series {
         return Err(refusal!(
-            "the transfer `{t}` stands in for a consistent mass matrix by powers of the lumped one, \
-             and the mass matrix is `{m}`"
+            "the transfer `{t}` is not supported with the mass matrix `{m}`: it approximates the \
+             consistent one by powers of the lumped one"
         ));
     }
     // For a linear field, node i receives m_i v(x_i), the product of the lumped matrix and the
     // nodal velocities. Solving with a consistent matrix would amplify this field.
     if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
         return Err(refusal!(
-            "the transfer `{t}` gives each node the momentum of its row sum of mass, and the mass \
-             matrix is `{m}`"
+            "the transfer `{t}` is not supported with the mass matrix `{m}`: it gives each node \
+             the momentum of its row sum of mass"
         ));
     }
     if kind == TransferKind::Cells && domain(basis) != Domain::Point {
         return Err(refusal!(
-            "the transfer `{t}` integrates over cells, and the basis `{b}` over the domains of \
-             particles"
+            "the transfer `{t}` is not supported with the basis `{b}`: it integrates over cells, \
+             not over the domains of particles"
         ));
     }
     if kind == TransferKind::Cells && frame == FrameName::Total {
         return Err(refusal!(
-            "the transfer `{t}` fits Cauchy stresses, and the frame `{f}` has none"
+            "the transfer `{t}` is not supported in the frame `{f}`: it fits Cauchy stresses"
         ));
     }
     if kind == TransferKind::Cells && mass == MassName::Consistent {
         return Err(refusal!(
-            "the transfer `{t}` integrates mass over cells, and the mass matrix `{m}` sums it over \
-             particles"
+            "the transfer `{t}` is not supported with the mass matrix `{m}`: it integrates mass \
+             over cells, not over particles"
         ));
     }
     if frame == FrameName::Total && domain(basis) == Domain::Follows {
         return Err(refusal!(
-            "the domains of the basis `{b}` follow the deformation, and the frame `{f}` sees none"
+            "the basis `{b}` is not supported in the frame `{f}`: its domains follow a deformation \
+             that the reference configuration does not have"
         ));
     }
     Ok(())
@@ -94,19 +95,23 @@ pub fn combine_bodies(
     let (t, m, f, s) = (transfer.name(), mass.name(), frame.name(), start.name());
     match (transfer.kind(), mass, frame, start) {
         (TransferKind::Series, ..) => Err(refusal!(
-            "the transfer `{t}` improves the field of one body, and several meet at nodes"
+            "the transfer `{t}` is not supported for several bodies: it improves the velocity \
+             field of a single body"
         )),
         (TransferKind::Cells, ..) => Err(refusal!(
-            "the transfer `{t}` fits the field of one body in cells, and several meet there"
+            "the transfer `{t}` is not supported for several bodies: it fits the velocity field of \
+             a single body"
         )),
         (_, MassName::Consistent, ..) => Err(refusal!(
-            "the mass matrix `{m}` is that of one body, and several have mass at the same nodes"
+            "the mass matrix `{m}` is not supported for several bodies, which have mass at the \
+             same nodes"
         )),
         (_, _, FrameName::Total, _) => Err(refusal!(
-            "in the frame `{f}` bodies stay in their reference places, and do not meet elsewhere"
+            "the frame `{f}` is not supported for several bodies: they stay at their reference \
+             positions and cannot meet"
         )),
         (_, _, _, Start::HalfStepBack) if contact => Err(refusal!(
-            "the start `{s}` takes half a step back, and contact cannot be taken back"
+            "`start: {s}` is not supported with contact: a half step with contact has no inverse"
         )),
         _ => Ok(()),
     }
@@ -121,7 +126,7 @@ pub fn combine_precision(precision: Precision, bodies: usize) -> Result<(), Comb
         return Ok(());
     }
     Err(refusal!(
-        "`precision: {}` rounds the state of one body, and the scene has {bodies}",
+        "`precision: {}` is supported for a single body only, but the scene has {bodies} bodies",
         precision.name()
     ))
 }
@@ -138,16 +143,15 @@ pub fn combine_across(
     let (b, t, p) = (basis.name(), transfer.name(), plane.name());
     if plane == PlaneState::Axisymmetric && domain(basis) != Domain::Point {
         return Err(refusal!(
-            "the functions of the basis `{b}` are means over domains in the plane, and in \
-             `plane: {p}` they would have to be means around the axis (Nairn & Guilkey 2015)"
+            "the basis `{b}` is not supported in `plane: {p}`: its functions are means over \
+             domains in the plane, not around the axis (Nairn & Guilkey 2015)"
         ));
     }
     if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
         return Ok(());
     }
     Err(refusal!(
-        "the transfer `{t}` integrates over cells in the plane, and in `plane: {p}` volumes are not \
-         those of the plane"
+        "the transfer `{t}` is not supported in `plane: {p}`: it integrates over cells in the plane"
     ))
 }
 
@@ -169,35 +173,35 @@ pub fn combine_volume(
     let (v, f, p, law) = (volume.name(), frame.name(), plane.name(), material.name());
     if frame == FrameName::Total {
         return Err(refusal!(
-            "`volume: {v}` averages with the weights of current positions, and the frame `{f}` has \
-             those of the reference"
+            "`volume: {v}` is not supported in the frame `{f}`: it averages with the weights of \
+             current positions"
         ));
     }
     if dimension == 1 {
         return Err(refusal!(
-            "`volume: {v}` would average the whole strain in 1-D, where the volume ratio is the \
-             stretch and nothing locks"
+            "`volume: {v}` is not supported in 1-D: it would average the whole strain, and \
+             volumetric locking does not occur"
         ));
     }
     match plane {
         PlaneState::Strain => {}
         PlaneState::Stress => {
             return Err(refusal!(
-                "`volume: {v}` averages the volume ratio of the plane, and in `plane: {p}` the \
-                 stretch across the plane is free, so that nothing locks"
+                "`volume: {v}` is not supported in `plane: {p}`: the stretch across the plane is \
+                 free, so volumetric locking does not occur"
             ));
         }
         PlaneState::Axisymmetric => {
             return Err(refusal!(
-                "`volume: {v}` averages the volume ratio of the plane, and in `plane: {p}` the \
-                 stretch around the axis is part of it"
+                "`volume: {v}` is not supported in `plane: {p}`: its average does not contain the \
+                 hoop stretch"
             ));
         }
     }
     material
         .properties()
         .takes_averaged_volume()
-        .map_err(|reason| refusal!("`volume: {v}` does not go with the law `{law}`: {reason}"))
+        .map_err(|reason| refusal!("`volume: {v}` is not supported with the law `{law}`: {reason}"))
 }
 
 fn domain(basis: BasisName) -> Domain {

@@ -8,7 +8,7 @@ type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
 /// Returns the columns of the work for each target error.
 pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
-    let mut columns = vec![name("cheapest for")];
+    let mut columns = vec![name("method")];
     for (k, target) in ranking.targets.iter().enumerate() {
         columns.extend([
             MethodColumn::text(format!("<= {target:e}"), "work for the error", move |row| {

@@ -88,14 +88,15 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
 }
 
 /// Returns the columns of the largest error at the end and its order, if another norm is judged.
-pub(crate) fn largest_error<'a>() -> [LevelColumn<'a>; 2] {
+pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
+    let heading = if is_primary { "linf at end" } else { "linf of displacement at end" };
     let about = "order of linf between the next coarser level and this one";
     [
-        LevelColumn::text("linf", "largest error", |row| {
+        LevelColumn::text(heading, "largest error", |row| {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("linf order", about, |row| {
+        LevelColumn::text("order of linf", about, |row| {
             let index = row.index.checked_sub(1)?;
             let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
             let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
@@ -141,7 +142,7 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
             Cell::plain(row.level.run.counters.crossings)
         }),
         LevelColumn::text(
-            "crossings from",
+            "first crossing",
             "coarsest level on which particles change cells",
             |row| {
                 let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;

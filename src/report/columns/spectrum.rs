@@ -35,7 +35,7 @@ fn measured(row: &SpectrumRow) -> Option<&WaveFigures> {
 
 fn cells<'a>() -> WaveColumn<'a> {
     figure(
-        "cells",
+        "cells per wavelength",
         "cells",
         "cells per wavelength",
         |value| value.to_string(),
@@ -95,14 +95,14 @@ pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),
         figure(
-            "cells for 1 %",
+            "cells per wavelength for a phase error of 1 %",
             "cells_for_one_percent",
             "cells per wavelength from which on the predicted phase error is below 1 %",
             |value| format!("{value:.2}"),
             |row| row.cells_for_one_percent,
         ),
         figure(
-            "limit of C",
+            "stability limit of C",
             "limit",
             "predicted stability limit of the Courant number",
             |value| format!("{value:.4}"),

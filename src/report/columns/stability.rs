@@ -65,18 +65,19 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
             |row| limit_cell(row.critical.as_ref().and_then(|critical| critical.observed)),
         ),
     ];
-    columns.extend(confirmed(study));
+    columns.extend(confirmed(study, sought));
     columns
 }
 
 /// Returns one column for each fraction of the predicted limit at which a run confirms the limit.
-fn confirmed(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
+fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let critical = study.rows.iter().filter_map(|row| row.critical.as_ref());
     let longest = critical.max_by_key(|critical| critical.confirmed.len());
     let shares = longest.into_iter().flat_map(|critical| &critical.confirmed).enumerate();
     let column = |(k, (share, _)): (usize, &(f64, Trial))| {
         let about = "verdict of a run at this share of the predicted limit";
-        RowColumn::text(format!("at {share}"), about, move |row| {
+        let heading = format!("runs at {share} of the predicted {sought}");
+        RowColumn::text(heading, about, move |row| {
             let run = row.critical.as_ref().and_then(|critical| critical.confirmed.get(k));
             run.map(|(_, trial)| trial.verdict.words())
         })

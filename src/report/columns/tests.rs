@@ -30,7 +30,7 @@ fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
 fn the_document_lists_the_columns() {
     let levels = vec![
         vec![level::name(Axis::Space), level::judged(), level::order()],
-        level::largest_error().into(),
+        level::largest_error(true).into(),
         vec![level::velocity()],
         level::counters(),
         level::energy_rate().into(),

@@ -93,7 +93,9 @@ fn statement(report: &str) -> Vec<(String, String)> {
     }
     let is_stated = |key: &str| ["parameters", "function", "problem"].contains(&key);
     let part = |part: &str| {
-        let (key, value) = part.split_once(' ').unwrap_or((part, ""));
+        // Reports of former versions have no colon after the key.
+        let part = part.replacen(": ", " ", 1);
+        let (key, value) = part.split_once(' ').unwrap_or((part.as_str(), ""));
         (key.to_owned(), value.to_owned())
     };
     let parts = |(key, value): (String, String)| match key.as_str() {

@@ -161,7 +161,7 @@ fn gradient_study() -> Value {
 fn ranking() -> Value {
     let methods = row(&cost::json_columns(&Ranking::new(String::new(), 1.0, &[], Vec::new())));
     object([
-        ("problem", text(), "end of the run, and the truth"),
+        ("problem", text(), "end of the run, and the solution to compare with"),
         ("size", number(), "divisor of errors"),
         ("work", text(), "unit of the work"),
         ("targets", list(number()), "errors whose work is compared"),

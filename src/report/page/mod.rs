@@ -106,8 +106,8 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
 fn foot() -> Html {
     let commit = commit().map_or_else(String::new, |commit| format!(", commit {commit}"));
     let words = format!(
-        "mpm-verify {}{commit}. An expected failure is as binding as an expected order: FAIL says \
-         that a case is not as its suite expects.",
+        "mpm-verify {}{commit}. An expected failure is as binding as an expected order: FAIL means \
+         that the result of a case differs from the expectation.",
         env!("CARGO_PKG_VERSION")
     );
     Html::block("footer", &[], &[Html::tag("p", &[("class", "muted")], words)])

@@ -161,7 +161,8 @@ pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     };
     let heads = Html::tag("tr", &[], VERDICT_COLUMNS.map(head).to_vec());
     let legend = "Order: observed, with its 95 % interval. Finest error and transfers between \
-                   particles and nodes: on the finest level; what an error is of, a suite says.";
+                  particles and nodes: on the finest level. The report of a suite names the \
+                  quantity of the error.";
     let table = [Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)];
     Html::block(
         "section",

@@ -131,7 +131,7 @@ fn the_page_says_what_was_run() {
     outcome.cases[0].because = "a reason".to_owned();
     let page = of(&[outcome], "");
     let version = format!("mpm-verify {}", env!("CARGO_PKG_VERSION"));
-    for words in [&version, ": a title</h2>", "a source", "0000000000000abc", "because a reason"] {
+    for words in [&version, ": a title</h2>", "a source", "0000000000000abc", "reason: a reason"] {
         assert!(page.contains(words), "{words}");
     }
     assert!(commit().is_none_or(|commit| page.contains(&format!(", commit {commit}. "))));

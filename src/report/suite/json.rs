@@ -25,7 +25,7 @@
 //!         "stable_time_step": null, "order": null, "spread": null,
 //!         "counts": true, "excluded_by": null, "rounding_bound": null, "failure": null}],
 //!     "forces": null, "stability": null}],
-//!   "cost": [{"problem": "until t = 0.5 s, against the exact solution", "size": 0.05,
+//!   "cost": [{"problem": "until t = 0.5 s, compared with the exact solution", "size": 0.05,
 //!     "work": "transfers", "targets": [0.01, 0.001, 0.0001], "methods": [{"case": "...",
 //!       "reached": [{"work": 130000.0, "at_most": false, "times": 1.0}, null, null],
 //!       "best": 5e-3, "not_reached": "floor", "pareto_front": [0, 1],

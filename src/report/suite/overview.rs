@@ -2,7 +2,7 @@
 
 use super::verdicts;
 use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
-use crate::report::text::prose::{paragraph_lines, row};
+use crate::report::text::prose::{paragraph_lines, row, row_of_width};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
@@ -13,13 +13,13 @@ const WIDTHS: [(&str, usize); 16] = [
     ("uGIMP", BASIS),
     ("cpGIMP", BASIS),
     ("CPDI", BASIS),
-    ("quadratic", BASIS),
-    ("cubic", BASIS),
+    ("quadratic B-spline", 18),
+    ("cubic B-spline", BASIS),
     ("FEM", BASIS),
     ("other", BASIS),
     ("case", 38),
     ("verdict", 14),
-    ("95 %", 14),
+    ("95 % interval", 14),
     ("finest error", 12),
     ("floor", 9),
     ("for 1e-3", 8),
@@ -46,14 +46,15 @@ fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -
     }
     lines.extend([
         String::new(),
-        "  Suites in which methods of a basis fail, as expected or not:".to_owned(),
+        "  Suites in which some method with the given basis fails, whether expected or not:"
+            .to_owned(),
     ]);
     for (column, basis) in COLUMNS.iter().enumerate() {
         let failing = failures(outcomes, column).into_iter();
         let failing = failing.map(|(suite, words)| format!("{suite} ({})", words.join(", ")));
         let failing = failing.collect::<Vec<_>>().join(", ");
         if !failing.is_empty() {
-            row(&mut lines, basis, &failing);
+            row_of_width(&mut lines, 20, basis, &failing);
         }
     }
     lines.push(String::new());
@@ -90,7 +91,7 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let hits = covered.iter().filter(|covered| **covered).count();
     (all > 0).then(|| {
         format!(
-            "extrapolated displacement at the observed place: the 95 % interval contains the exact \
+            "extrapolated displacement at the observed point: the 95 % interval contains the exact \
              value in {hits} of {} cases; {refused} of {all} cases have no estimate",
             covered.len()
         )

@@ -44,7 +44,7 @@ fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
         row(lines, key, value);
     }
     let others: Vec<String> =
-        others.iter().map(|(key, value)| format!("{} {value}", key.trim())).collect();
+        others.iter().map(|(key, value)| format!("{}: {value}", key.trim())).collect();
     row(lines, "problem", &others.join("; "));
 }
 

@@ -20,8 +20,13 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
         }
     }
-    for methods in rankings.iter().filter_map(cheapest) {
-        row(lines, "cheapest for", &methods);
+    let all: Vec<(&str, String)> = rankings
+        .iter()
+        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking)?)))
+        .collect();
+    for (problem, methods) in &all {
+        let of_problem = if all.len() > 1 { format!("{problem}, ") } else { String::new() };
+        row(lines, "cheapest", &format!("{of_problem}{methods}"));
     }
     lines.push(String::new());
     let expectations = expectations(cases);
@@ -86,7 +91,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
         CaseColumn::text("order", "observed order", move |case| {
             order(case).map(|order| decimals(2)(order.value))
         }),
-        CaseColumn::text("95 %", "interval of the order", move |case| {
+        CaseColumn::text("95 % interval", "interval of the order", move |case| {
             order(case).map(|order| format!("[{:.2}, {:.2}]", order.low, order.high))
         })
         .flush_left(),

@@ -36,11 +36,10 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
         let work = columns::reach_text(row.reaches[k]);
-        Some(format!("{target:e} by {} with {work}", row.method.name))
+        Some(format!("for {target:e}: {}, {work} {TRANSFERS}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    (!best.is_empty())
-        .then(|| format!("{} {TRANSFERS}; errors {}", best.join("; "), relative(ranking)))
+    (!best.is_empty()).then(|| format!("{}; errors {}", best.join("; "), relative(ranking)))
 }
 
 /// States the value by which the errors of a ranking are divided.
@@ -152,10 +151,14 @@ fn predictions() -> [TableColumn<'static, Predicted>; 5] {
         TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _], _)| {
             short(*predicted)
         }),
-        TableColumn::<Predicted>::text("95 %", "interval of the prediction", |(.., interval)| {
-            let ends = |one: &Interval| format!("[{}, {}]", short(one.low), short(one.high));
-            interval.as_ref().map_or("-".to_owned(), ends)
-        }),
+        TableColumn::<Predicted>::text(
+            "95 % interval",
+            "interval of the prediction",
+            |(.., interval)| {
+                let ends = |one: &Interval| format!("[{}, {}]", short(one.low), short(one.high));
+                interval.as_ref().map_or("-".to_owned(), ends)
+            },
+        ),
         TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured], _)| {
             short(*measured)
         }),

@@ -166,7 +166,8 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
     let counters = counters.filter(|column| !of_levels.contains(&column.heading.as_ref()));
-    let columns = level::largest_error().into_iter().chain(counters);
+    let is_primary = studies.iter().all(|(_, study)| study.of.is_primary());
+    let columns = level::largest_error(is_primary).into_iter().chain(counters);
     by_case(lines, "on the finest level", studies, columns);
 }
 
@@ -261,7 +262,7 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
         LimitColumn::text("covered", "whether the interval contains the exact value", |row| {
             row.is_covered.map(|covered| if covered { "yes" } else { "no" })
         }),
-        LimitColumn::text("refused", "why there is no limit", |row| {
+        LimitColumn::text("reason", "why there is no limit", |row| {
             row.result.err().map(EstimateRefusal::name)
         })
         .flush_left(),

@@ -17,15 +17,16 @@ pub fn indented(text: &str) -> String {
 
 /// Adds a row with `key` in the first column and the wrapped `value` in the second.
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
-    beside(lines, 14, key, value);
+    row_of_width(lines, 14, key, value);
 }
 
 /// Adds a paragraph with a bullet.
 pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
-    beside(lines, 4, mark, paragraph);
+    row_of_width(lines, 4, mark, paragraph);
 }
 
-fn beside(lines: &mut Vec<String>, column: usize, key: &str, value: &str) {
+/// `key` in a first column of this width, `value` wrapped in the second.
+pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, value: &str) {
     let mut wrapped = Vec::new();
     wrap(&mut wrapped, WIDTH - column - 2, value);
     for (i, line) in wrapped.iter().enumerate() {

@@ -154,7 +154,9 @@ pub(crate) fn shared<'a>(
     found.into_iter().map(move |(value, names)| {
         let of = match names.len() {
             _ if single => String::new(),
-            count if count == most && count > 2 && is_largest_alone => " (all others)".to_owned(),
+            count if count == most && count > 2 && is_largest_alone => {
+                " (all other cases)".to_owned()
+            }
             _ => format!(" ({})", together(&names)),
         };
         (value, of)

@@ -96,7 +96,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
         let levels = plan.refine.levels(self.context.extent);
         let level = *levels.get(index).ok_or("it has no levels")?;
         let (level, _) = self.steps.of(plan, case, level)?;
-        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
         let same_method;
         let truth = match case.against {
             Against::Nothing => None,
@@ -143,7 +143,7 @@ impl<'a> ConvergenceRunner<'a> {
         let Some(solver) = self.context.solver else {
             if case.solver.is_some() {
                 let lacks = vec!["`--solver COMMAND`".to_owned()];
-                return not_applicable(plan, case, lacks, "is not there without");
+                return not_applicable(plan, case, lacks, "must be named with");
             }
             return self
                 .run(case, expectation, progress)
@@ -245,7 +245,7 @@ impl CaseRuns<'_, '_> {
     fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
-        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
         let comparison = self.comparison(keeps_field);
@@ -265,7 +265,7 @@ impl CaseRuns<'_, '_> {
         if repeat < 2 {
             return self.level(level, keeps_field);
         }
-        let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+        let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
         let comparison = self.comparison(keeps_field);
         let mut first = None;
         let mut records = Vec::new();
@@ -325,7 +325,7 @@ impl Reruns for CaseRuns<'_, '_> {
         let scene = &self.runner.plan.scene;
         let halved = taken(level).halved(axis, scene.dimension())?;
         Some(match size::too_large(scene, halved) {
-            Some((what, amount)) => Err(format!("{amount:.1e} {what} are too many").into()),
+            Some((what, amount)) => Err(format!("{amount:.1e} {what} exceed the limit").into()),
             None => self.level(halved, false),
         })
     }

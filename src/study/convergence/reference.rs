@@ -44,7 +44,7 @@ impl Reference {
         let method = reference_method(fine);
         let mut bar = bar(plan, method, fine.cells)?;
         let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
-        let clock = plan.clock(Against::Reference, until, dt).ok_or("dt makes no sense")?;
+        let clock = plan.clock(Against::Reference, until, dt).ok_or("dt is invalid")?;
         let mut states = vec![state(&bar)];
         for step in 1..=clock.steps {
             bar.step(clock.dt()).map_err(|failure| format!("reference: {failure}"))?;
@@ -118,7 +118,7 @@ impl FineGrid {
             states.push((now.displacement.clone(), now.velocity.clone()));
         })?;
         let lattice = Lattice::of(&end.label, end.dimension);
-        let lattice = lattice.ok_or("reference: its particles are no lattice")?;
+        let lattice = lattice.ok_or("reference: its particles are not on a lattice")?;
         Ok(Self { until: case.until, lattice, states })
     }
 
@@ -248,7 +248,7 @@ pub(crate) fn run(
     mut show: impl FnMut(&Samples),
 ) -> Result<Samples, SubjectError> {
     let mut subject = subject(plan, second_order(case.method), level)?;
-    let clock = case.clock(plan, level.dt).ok_or("dt makes no sense")?;
+    let clock = case.clock(plan, level.dt).ok_or("dt is invalid")?;
     let mut now = Samples::default();
     subject.sample(&mut now);
     show(&now);

@@ -156,7 +156,7 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
         Some(count) => push(&mut rows, "load steps", &count.to_string()),
         None => push(&mut rows, "until", &format!("t = {} s", stated(case.until))),
     }
-    push(&mut rows, "against", case.against.words());
+    push(&mut rows, "compared with", case.against.words());
     rows
 }
 

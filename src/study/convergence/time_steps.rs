@@ -209,8 +209,8 @@ fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Opti
     let is_near = (ratio - 1.0).abs() <= STEP_TOLERANCE;
     (!is_near).then(|| {
         let text = format!(
-            "{name}, {cells} cells: the run takes {steps} steps of {dt:.4e} s, {ratio:.3} times what \
-             the suite asks for; a longer run, or a step that divides it, would take the step itself"
+            "{name}, {cells} cells: the run takes {steps} steps of {dt:.4e} s, {ratio:.3} times \
+             the stated step, because the stated step does not divide the run"
         );
         (text, false)
     })

@@ -41,13 +41,13 @@ pub enum BudgetError {
     #[error("the suite does not refine its cells")]
     NotInSpace,
     /// No error of the suite can be related to the size of its solution.
-    #[error("no error of it has a size to be compared with")]
+    #[error("none of its errors has a scale")]
     NoScale,
     /// No method has an error that can be extrapolated.
     #[error("no error is predicted: no method converges on three levels")]
     NoPrediction,
     /// Every prediction exceeds the budget.
-    #[error("nothing is predicted to be done in {budget} s; the least is {least:.2e} s")]
+    #[error("no setting is predicted to run within {budget} s; the fastest takes {least:.2e} s")]
     TooShort {
         /// The budget (s).
         budget: f64,

@@ -100,7 +100,7 @@ impl Candidate {
         let level = self.level(self.finest().cells);
         seconds(&self.plan, &self.case, level)?;
         let took = seconds(&self.plan, &self.case, level)?;
-        let load = self.load(level).ok_or("the time step makes no sense")?;
+        let load = self.load(level).ok_or("the time step is invalid")?;
         let model = Model::fit(&[(load, took)]).ok_or("no time at all")?;
         let coarsest = self.load(self.plan.refine.levels[0]).ok_or("no steps")?;
         Ok((model, model.predict(&coarsest)))
@@ -139,7 +139,10 @@ impl Candidate {
         last.then(|| match self.error.obstacle() {
             Some(obstacle) => format!("no error is predicted: {obstacle}"),
             None if next > self.most_known() => {
-                format!("no error is known beyond 1/{FINE_GRID} of the fine grid of the truth")
+                format!(
+                    "no error is defined beyond 1/{FINE_GRID} of the fine grid of the \
+                         reference"
+                )
             }
             None => format!("no error is predicted beyond {} times as fine a grid", self.reach),
         })

@@ -77,7 +77,7 @@ fn seconds_of(
     level: LevelPlan,
     make: impl FnOnce() -> Result<Box<dyn Subject>, SubjectError> + Send,
 ) -> Result<f64, SubjectError> {
-    let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+    let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
     alone(|| {
         let mut subject = make()?;
         let watch = LoadMonitor::start();

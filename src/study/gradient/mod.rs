@@ -53,7 +53,7 @@ impl CaseRunner for GradientRunner<'_> {
             let lacks = vec!["a solver with gradients (`--solver COMMAND`)".to_owned()];
             return CaseOutcome {
                 reason: "needs a solver with gradients".to_owned(),
-                ..described.not_applicable(lacks, "is not there without")
+                ..described.not_applicable(lacks, "must be named with")
             };
         };
         let lacks = lacking(plan, case, solver);

@@ -210,7 +210,7 @@ impl GradientRun<'_> {
             return Ok(Gradient { value: *value, gradient: gradient.to_vec() });
         }
         let (found, expected) = (numbers.len().saturating_sub(1), self.request.len());
-        let reason = format!("gave a gradient of {found} numbers, expected {expected}");
+        let reason = format!("sent a gradient of {found} numbers, expected {expected}");
         Err(GradientError::Failed(reason))
     }
 

@@ -37,7 +37,10 @@ impl SceneFields {
 
     fn body(&self, number: usize) -> Result<&FieldBody, FieldError> {
         self.bodies.get(number).ok_or_else(|| {
-            FieldError::Request(format!("there is no body {number}, but {}", self.bodies.len()))
+            FieldError::Request(format!(
+                "there is no body {number}; the problem has {}",
+                self.bodies.len()
+            ))
         })
     }
 
@@ -90,7 +93,7 @@ impl SceneFields {
     ) -> Result<Vec<f64>, FieldError> {
         let FieldBody { scene, initial } = self.body(number)?;
         let undefined = |reason: String| {
-            FieldError::Undefined(format!("the stress at the start is not known there: {reason}"))
+            FieldError::Undefined(format!("the initial stress is not defined there: {reason}"))
         };
         let is_revolved = self.scene.plane == PlaneState::Axisymmetric;
         let axis = NEAR_AXIS * scene.size();
@@ -114,7 +117,7 @@ impl SceneFields {
         }
         initial.put(&mut particles);
         let law = scene.material.in_plane(self.scene.plane);
-        let law = law.ok_or_else(|| undefined("a law unknown in its plane".to_owned()))?;
+        let law = law.ok_or_else(|| undefined("a law not supported in its plane".to_owned()))?;
         let mut law = initial.stressed(law, &mut particles);
         complete_start(&mut particles, law.as_mut())
             .map_err(|failure| undefined(failure.to_string()))?;
@@ -132,7 +135,10 @@ impl SceneFields {
     ) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let Some(field) = &numbers.field else {
-            let reason = format!("`{what}` has no values at places; its constants are in `values`");
+            let reason = format!(
+                "`{what}` does not depend on the position; its constants are in \
+                                  `values`"
+            );
             return Err(FieldError::Request(reason));
         };
         if field.depends_on(d)[2] && at.displacement.is_none() {
@@ -227,8 +233,8 @@ impl FieldSource for SceneFields {
         let has_noise =
             matches!(of, FieldName::Velocity | FieldName::DeformationGradient | FieldName::Stress);
         if self.is_perturbed && has_noise {
-            let reason = "this run starts with random perturbations, which are known at the \
-                          particles only: the columns of `particles` have them";
+            let reason = "this run starts with random perturbations, which are defined at the \
+                          particles only: read them from the columns of `particles`";
             return Err(FieldError::Undefined(reason.to_owned()));
         }
         let values = match of {

@@ -29,7 +29,7 @@ pub fn level_problem(
     case: &Case,
     level: LevelPlan,
 ) -> Result<LevelProblem, SubjectError> {
-    let clock = case.clock(plan, level.dt).ok_or("the time step makes no sense")?;
+    let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
     Ok(problem(
         suite,
         &plan.scene,

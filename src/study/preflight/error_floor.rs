@@ -40,17 +40,17 @@ fn floor_finding(
     let shows = preflight.levels().iter().find(|level| size > SEEN * of_cells(level.h));
     let (severity, level) = match (shows, preflight.levels().last()) {
         (Some(level), _) => {
-            (Severity::Warning, format!("shows from about {} cells on", level.cells))
+            (Severity::Warning, format!("becomes visible from about {} cells on", level.cells))
         }
         (None, Some(finest)) if size > SOON * of_cells(finest.h) => {
             let times = (SEEN * of_cells(finest.h) / size).sqrt();
             let cells = format!("{:.0e}", times * finest.cells as f64);
             let cells: f64 = cells.parse().unwrap_or(f64::NAN);
-            (Severity::Note, format!("will show from about {cells} cells on"))
+            (Severity::Note, format!("would become visible from about {cells} cells on"))
         }
         _ => return None,
     };
-    let message = format!("{origin} this leaves an error of about {size:.1e} m, which {level}");
+    let message = format!("{origin} an error of about {size:.1e} m remains, which {level}");
     let found = preflight.finding(severity, &preflight.motion(), &message);
     Some(if severity == Severity::Warning { found.with_help(help) } else { found })
 }
@@ -76,10 +76,11 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
         Linearisation::of(problem, motion, case.until, norm)
     {
         let origin = format!(
-            "the truth is linearised: of the terms of its equations {residual:.1e} is left"
+            "the exact solution is linearised, with a residual of {residual:.1e} of the terms of \
+             its equations:"
         );
-        let remedy = "or state a solution of the law itself";
-        return Some(ModelError { size: error, origin: origin + ", and", remedy });
+        let remedy = "or state an exact solution of the law itself";
+        return Some(ModelError { size: error, origin, remedy });
     }
     let strain = motion.gradient;
     let is_small = !problem.equation.is_finite() && strain > 0.0;
@@ -94,9 +95,10 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let early = 0.5 * motion.acceleration * case.until * case.until;
     let early = if problem.at_rest { f64::INFINITY } else { early };
     let origin = format!(
-        "the truth is one of small strain, and MPM has finite strains: at a strain of {strain:.1e}"
+        "the exact solution assumes small strains, but MPM computes finite strains: at a strain of \
+         {strain:.1e}"
     );
-    let remedy = "or state a finite-strain truth";
+    let remedy = "or state a finite-strain solution";
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
@@ -112,7 +114,7 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         return Vec::new();
     };
     let ModelError { size, origin, remedy } = error;
-    let help = format!("a tenth of the amplitude leaves a hundredth of it; {remedy}");
+    let help = format!("a tenth of the amplitude reduces this error to a hundredth; {remedy}");
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
@@ -205,15 +207,16 @@ pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(stated) = &problem.linearised else { return Vec::new() };
     let (left, allowed) = (problem.residual(), stated.tolerance);
     let help = if left <= TOLERANCE {
-        "nothing is left of the law but rounding: remove `linearised`".to_owned()
+        "the residual is only rounding: remove `linearised`".to_owned()
     } else if allowed > MOST * left {
         let enough: f64 = format!("{:.0e}", 2.0 * left).parse().unwrap_or(left);
-        format!("{enough:e} is enough, and lets fewer wrong solutions pass")
+        format!("{enough:e} is sufficient, and accepts fewer wrong solutions")
     } else {
         return Vec::new();
     };
     let message = format!(
-        "{allowed:.1e} of the terms of the equations may be left, and the solution leaves {left:.1e}"
+        "the stated `tolerance` is {allowed:.1e}, but the residual of the solution is only \
+         {left:.1e}"
     );
     let path = preflight.truth().then("linearised").then("tolerance");
     vec![preflight.finding(Severity::Note, &path, &message).with_help(&help)]

@@ -35,7 +35,7 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let message = format!(
-        "particles change their cell on {} of {} levels, which then do not count",
+        "particles change their cell on {} of {} levels, which therefore do not count",
         levels.len() - counting,
         levels.len()
     );
@@ -78,8 +78,8 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
             }
             let name = ["x", "y", "z"][axis];
             let message = format!(
-                "the motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
-                 goes from {start:.4} to {end:.4} m",
+                "the motion extends in {name} from {low:.4} to {high:.4} m, but with {} cells the \
+                 grid extends from {start:.4} to {end:.4} m",
                 level.cells
             );
             let found = preflight.finding(Severity::Warning, &preflight.motion(), &message);
@@ -116,7 +116,7 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         );
         let found = preflight.finding(Severity::Warning, &Path::top("refine"), &message);
         Some(found.with_help(
-            "take another number of particles in a cell, or `particles: {shift: [...]}`",
+            "use another number of particles per cell, or `particles: {shift: [...]}`",
         ))
     });
     found.into_iter().collect()

@@ -113,10 +113,11 @@ fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let level = preflight.levels().iter().find(|level| courant(level) > 1.0)?;
     let (cells, courant) = (level.cells, courant(level));
     let message = format!(
-        "with {cells} cells the time step is {courant:.2} times what a wave takes to cross a cell"
+        "with {cells} cells the time step is {courant:.2} times the time in which a wave crosses a \
+         cell"
     );
     let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
-    let help = "`dt: {courant: 0.5}` takes half of the stable time step on every level";
+    let help = "`dt: {courant: 0.5}` uses half of the stable time step on every level";
     Some(found.with_label("expected a stable step").with_help(help))
 }
 
@@ -130,7 +131,8 @@ fn too_long_for_heat(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let level = preflight.levels().iter().find(|level| level.dt > limit(level))?;
     let (cells, limit, times) = (level.cells, limit(level), level.dt / limit(level));
     let message = format!(
-        "with {cells} cells the time step is {times:.2} times the stable one of heat, {limit:.2e} s"
+        "with {cells} cells the time step is {times:.2} times the stable time step of heat \
+         conduction, {limit:.2e} s"
     );
     let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
     let help = "steps of heat are stable up to about h^2*density*capacity/(2*conductivity)";
@@ -148,8 +150,8 @@ fn fixed(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let case = preflight.of_an_order().find(|case| matches!(case.method, Method::Mpm { .. }))?;
     let order = in_time(case.method, preflight.plan.exact.as_ref());
     let message = format!(
-        "the time step is the same on every level: its error, of order {order}, stays while that of \
-         the cells falls"
+        "the time step is the same on every level: its error, of order {order}, does not fall with \
+         the cell size"
     );
     let found = preflight.finding(Severity::Note, &steps(preflight), &message);
     Some(found.with_help("a formula of h, or `{courant: 0.5}`, refines both together"))

@@ -30,7 +30,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         return Vec::new();
     };
     let message = format!(
-        "the suite states an equilibrium, and nothing in the scene or in {} removes energy: the body \
+        "the suite states an equilibrium, but neither the scene nor {} removes energy: the body \
          oscillates about its equilibrium",
         case.name
     );

@@ -89,7 +89,7 @@ fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
 fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFunction, SubjectError> {
     let (young, poisson) = material.elasticity().ok_or("the material has no Young's modulus")?;
     let law = BarLaw::find(law.name())
-        .ok_or_else(|| format!("the reference FEM has no `{}`", law.name()))?;
+        .ok_or_else(|| format!("the built-in FEM does not support the law `{}`", law.name()))?;
     Ok(law.piola(young, poisson))
 }
 

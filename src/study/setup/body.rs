@@ -75,7 +75,7 @@ pub(crate) fn setup<const D: usize>(
     if scene.plane == PlaneState::Axisymmetric {
         effects.insert(0, Box::new(Hoop::default()));
     }
-    let law = body.own.material.in_plane(scene.plane).ok_or("a law unknown in its plane")?;
+    let law = body.own.material.in_plane(scene.plane).ok_or("a law not supported in its plane")?;
     Ok(Setup {
         kernel,
         transfer: transfer.build(),
@@ -142,7 +142,7 @@ pub fn effects<const D: usize>(
     (grid, basis): (&Grid<D>, BasisName),
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
-    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is no convergence study")?;
+    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is not a convergence study")?;
     let site = BodySite { grid, basis, heat: plan.heat_problem(), particles };
     built(&plan.scene.loads, site)
 }

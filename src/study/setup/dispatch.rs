@@ -20,7 +20,9 @@ pub fn subject(
 ) -> Result<Box<dyn Subject>, SubjectError> {
     match (method, plan.scene.dimension()) {
         (Method::Fem { .. }, 1) => Ok(Box::new(bar(plan, method, level.cells)?)),
-        (Method::Fem { .. }, d) => Err(format!("the reference FEM is 1-D, the scene {d}-D").into()),
+        (Method::Fem { .. }, d) => {
+            Err(format!("the built-in FEM is 1-D, but the scene is {d}-D").into())
+        }
         (Method::External { .. }, _) => Err("no solver was named on the command line".into()),
         (Method::Mpm { .. }, d) => with_dimension!(d, D => mpm::<D>(plan, method, level)),
         (Method::QuasiStatic { basis, load_steps }, d) => with_dimension!(d, D => {

@@ -47,10 +47,8 @@ pub(super) fn subject(
     subject.sample(&mut samples);
     // Without totals or stresses, growth of the energy could not be detected.
     match (subject.totals(), samples.stress.is_empty()) {
-        (None, _) => Err("it gives no totals, from which the kinetic energy is read".into()),
-        (_, true) => {
-            Err("it gives no stress at the start, from which the energy is computed".into())
-        }
+        (None, _) => Err("it sends no totals, which contain the kinetic energy".into()),
+        (_, true) => Err("it sends no initial stress, from which the energy is computed".into()),
         _ => Ok(subject),
     }
 }

@@ -70,7 +70,7 @@ impl CaseRunner for StabilityRunner<'_> {
         let (plan, case) = (self.plan, &self.plan.cases[case]);
         let study: &StabilityStudy = outcome.results().ok_or("it could not be run")?;
         if study.sought.is_some() {
-            return Err("it looks for a limit, by many runs".into());
+            return Err("it searches for a limit with many runs".into());
         }
         let trial = |row: &StabilityRow| row.trial.as_ref().map(|trial| trial.verdict);
         let grows = |row: &&StabilityRow| trial(row) != Some(Stability::Stable);
@@ -137,10 +137,10 @@ pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
 fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     let mut push = |key: &str, value: String| push(rows, key, &value);
     let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
-    push("swept", format!("{} = {}", plan.swept, values.join(", ")));
+    push("values", format!("of {}: {}", plan.swept, values.join(", ")));
     if let Some((name, from, to)) = &plan.sought {
         push(
-            "sought",
+            "unknown",
             format!("the largest stable {name}, from {} to {}", shown(*from), shown(*to)),
         );
     }
@@ -159,14 +159,17 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     if let (Some(first), Some(last)) = (setup.dt.first(), setup.dt.last()) {
         let turns = setup.dt.len() / 2;
         if turns > 0 {
-            push("steps in turn", format!("{turns} of {first:e} s, {turns} of {last:e} s"));
+            push("consecutive steps", format!("{turns} of {first:e} s, {turns} of {last:e} s"));
         }
     }
     if setup.frozen {
         push("configuration", "frozen: no step moves a particle or its domain".to_owned());
     }
     if setup.perturb > 0.0 {
-        push("start", format!("random, of size {:e} in every number of the state", setup.perturb));
+        push(
+            "start",
+            format!("random perturbation of {:e} of every component of the state", setup.perturb),
+        );
     }
     push(
         "verdicts",

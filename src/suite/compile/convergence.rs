@@ -113,7 +113,7 @@ fn acknowledged(
     let mut names = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
         let path = Path::top("acknowledge").then(i);
-        evaluator.because(&path, "an acknowledged warning", &spec.because)?;
+        evaluator.because(&path, "this acknowledged warning", &spec.because)?;
         if names.contains(&spec.warning) {
             let message = format!("`{}` is acknowledged twice", spec.warning.name());
             return Err(evaluator.diagnostic(&path.then("warning"), &message));

@@ -63,7 +63,7 @@ pub(crate) fn assign(
         let idle = |glob: &String| !names.iter().any(|name| pattern::fits(glob, name));
         if let Some(k) = globs.as_slice().iter().position(idle) {
             let at = path.then(i).then("case").alternative(globs, k);
-            let message = format!("`{}` fits no case", globs.as_slice()[k]);
+            let message = format!("`{}` matches no case", globs.as_slice()[k]);
             let diagnostic = evaluator.diagnostic(&at, &message);
             return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
         }
@@ -73,7 +73,7 @@ pub(crate) fn assign(
         match owners[..] {
             [only] => Ok(Some(only)),
             [] => {
-                let message = format!("nothing is expected of the case `{name}`");
+                let message = format!("the case `{name}` has no expectation");
                 Err(evaluator.diagnostic_at_key(&path, &message))
             }
             [_, second, ..] => {
@@ -96,7 +96,7 @@ fn in_full(
     let path = path.then("full");
     for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
         if given {
-            let message = format!("what is expected of a full run has no `{key}` of its own");
+            let message = format!("the expectation of a full run cannot have its own `{key}`");
             return Err(evaluator
                 .diagnostic_at_key(&path.then(key), &message)
                 .with_help("remove it"));
@@ -118,12 +118,12 @@ fn expectation(
         None if !limits.is_empty() => None,
         None => {
             let diagnostic = evaluator
-                .diagnostic(path, "this expects neither an order nor a verdict nor a bound");
+                .diagnostic(path, "this expectation has no order, no verdict and no bound");
             let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
             return Err(diagnostic.with_help(help));
         }
     };
-    let because = evaluator.because(path, "an expectation", &spec.because)?;
+    let because = evaluator.because(path, "this expectation", &spec.because)?;
     let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
         spec.as_ref().map(|pair| evaluator.interval(&path.then(key), pair)).transpose()
     };
@@ -204,12 +204,14 @@ fn refuse_missing_figure(
         FigureNeed::Nothing => return Ok(()),
         FigureNeed::ObservedPlace => (
             plan.observe.is_some(),
-            "nothing is observed",
+            "`observed_within` needs an observed point, but the suite has no `observe`",
             "add `observe: {at: [...]}` to the suite",
         ),
-        FigureNeed::StateOfRest => {
-            (is_at_rest(), "the truth is no state of rest", "state it under `equilibrium`")
-        }
+        FigureNeed::StateOfRest => (
+            is_at_rest(),
+            "`rest_below` needs an `equilibrium`",
+            "state the exact solution under `equilibrium`",
+        ),
     };
     if has_figure {
         return Ok(());
@@ -241,7 +243,8 @@ fn drifts(
         }
         let is_revolved = plan.scene.plane == PlaneState::Axisymmetric;
         if is_revolved && matches!(sum, Conserved::Momentum | Conserved::AngularMomentum) {
-            let message = "a sum over the meridian plane, which a body of revolution does not keep";
+            let message = "this sum over the meridian plane is not conserved in a body of \
+                           revolution";
             let diagnostic = evaluator.diagnostic_at_key(&path, message);
             return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
         }
@@ -252,8 +255,8 @@ fn drifts(
     }
     if drifts.is_empty() {
         let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
-        let diagnostic = evaluator.diagnostic(path, "this bounds no drift");
-        return Err(diagnostic.with_help(&format!("name some of: {}", names.join(", "))));
+        let diagnostic = evaluator.diagnostic(path, "`drift` is empty");
+        return Err(diagnostic.with_help(&format!("add one or more of: {}", names.join(", "))));
     }
     Ok(drifts)
 }
@@ -271,7 +274,7 @@ pub(crate) fn any_method(
     plan: &ConvergencePlan,
 ) -> Result<AnyMethod, Diagnostic> {
     let path = Path::top("any_method");
-    let because = evaluator.because(&path, "the accuracy of any method", &spec.because)?;
+    let because = evaluator.because(&path, "this requirement", &spec.because)?;
     let order = spec.order.as_ref().map(|text| {
         let path = path.then("order");
         let order = evaluator.positive(&path, text, "the order")?;
@@ -290,17 +293,17 @@ pub(crate) fn any_method(
     let gated = spec.gated.unwrap_or(true);
     let has_bounds = order.is_some() || error_below.is_some();
     if gated && !has_bounds && !spec.any_law {
-        let diagnostic = evaluator.diagnostic(&path, "this states nothing that a method can reach");
+        let diagnostic = evaluator.diagnostic(&path, "this entry states no requirement");
         let help = "add `order: 1`, `error_below: 1e-12`, `any_law: true` or `gated: false`";
         return Err(diagnostic.with_help(help));
     }
     if !gated && has_bounds {
-        let message = "a suite that is not gated has no order and no bound for other methods";
+        let message = "with `gated: false`, a required order or bound has no effect";
         let diagnostic = evaluator.diagnostic_at_key(&path.then("gated"), message);
         return Err(diagnostic.with_help("remove `gated`, or `order` and `error_below`"));
     }
     if spec.any_law && !plan.exact.as_ref().is_some_and(is_translation) {
-        let message = "the law matters, because the solution is not a translation";
+        let message = "the solution depends on the law, because it is not a translation";
         let diagnostic = evaluator.diagnostic(&path.then("any_law"), message);
         return Err(diagnostic.with_help("remove `any_law`"));
     }

@@ -64,33 +64,37 @@ fn refuse_unfit_problem(
     let (key, truth) = spec.truth();
     let top = |key: &str| Path::top("scene").then(key);
     let refused = [
-        (!scene.bodies.is_empty(), top("bodies"), "a gradient study has one body"),
-        (scene.outline.is_some(), top("body"), "the body of a gradient study is a box"),
-        (scene.plane != PlaneState::Strain, top("plane"), "a gradient study is in plane strain"),
+        (!scene.bodies.is_empty(), top("bodies"), "a gradient study supports a single body only"),
+        (scene.outline.is_some(), top("body"), "the body of a gradient study must be a box"),
+        (
+            scene.plane != PlaneState::Strain,
+            top("plane"),
+            "a gradient study must be in plane strain",
+        ),
         (
             !scene.initial_displacement.is_empty(),
             top("initial_displacement"),
-            "the body of a gradient study starts undeformed",
+            "the body of a gradient study must start undeformed",
         ),
         (
             scene.density.uniform().is_none(),
             top("material"),
-            "the body of a gradient study has one density",
+            "the body of a gradient study must have a uniform density",
         ),
         (
             !scene.initial_stress.is_none(),
             top("initial_stress"),
-            "the body of a gradient study starts without stress",
+            "the body of a gradient study must start without stress",
         ),
         (
             spec.run.until.as_ref().is_some_and(|until| until.as_slice().len() > 1),
             Path::top("run").then("until"),
-            "a gradient study has one end of the run",
+            "a gradient study must have a single end time",
         ),
         (
             spec.run.load_steps.is_some(),
             Path::top("run").then("load_steps"),
-            "a gradient study is one of a motion in time",
+            "a gradient study does not support load steps",
         ),
         (
             spec.run.instants.is_some(),
@@ -100,17 +104,17 @@ fn refuse_unfit_problem(
         (
             !truth.is_some_and(|truth| truth.displacement.is_some() && truth.temperature.is_none()),
             Path::top(key),
-            "the exact solution of a gradient study is a displacement",
+            "the exact solution of a gradient study must be a displacement",
         ),
         (
             problem.refine.axis != Axis::Space,
             Path::top("refine"),
-            "a gradient study refines `cells`",
+            "a gradient study must refine `cells`",
         ),
         (
             problem.refine.rule.is_some(),
             Path::top("run").then("dt"),
-            "the time step of a gradient study does not depend on the method",
+            "the time step of a gradient study must not depend on the method",
         ),
     ];
     match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
@@ -177,7 +181,7 @@ fn parameters(
     let path = Path::top("gradient").then("with_respect_to");
     let entries = spec.gradient.with_respect_to.as_slice();
     if entries.is_empty() {
-        let diagnostic = evaluator.diagnostic(&path, "there is no parameter");
+        let diagnostic = evaluator.diagnostic(&path, "`with_respect_to` names no parameter");
         return Err(diagnostic.with_help("write `with_respect_to: {young: E}`"));
     }
     let one = |(key, name): &(String, String)| {
@@ -185,7 +189,7 @@ fn parameters(
         let all = GradientParameter::ALL;
         let Some(parameter) = all.iter().find(|one| one.name() == key) else {
             let known: Vec<&str> = all.iter().map(|one| one.name()).collect();
-            let message = format!("`{key}` is not a parameter of a problem");
+            let message = format!("`{key}` is not a parameter of the problem");
             let diagnostic = evaluator.diagnostic_at_key(&path, &message);
             return Err(diagnostic.with_help(&suggestion("parameters", key, &known)));
         };
@@ -225,16 +229,18 @@ fn differentiated(
     }
     let value = evaluator.number(path, &NumberText::Formula(name.clone()))?;
     if value == 0.0 {
-        let message = format!("`{name}` is 0, and a perturbation is a share of it");
-        return Err(evaluator.diagnostic(path, &message).with_label("expected another value"));
+        let message = format!("`{name}` is 0, but perturbations are relative to its value");
+        return Err(evaluator
+            .diagnostic(path, &message)
+            .with_label("expected a value other than 0"));
     }
     let motion = motion(evaluator, spec, problem, name, value)?;
     let factor = motion.velocity_factor().ok_or_else(|| {
-        let message = format!("the initial velocity changes its shape with `{name}`");
+        let message = format!("the shape of the initial velocity depends on `{name}`");
         evaluator.diagnostic(path, &message)
     })?;
     if spec.equilibrium.is_none() && !motion.starts_at_rest_position() {
-        let message = "the body of a gradient study starts undeformed";
+        let message = "the body of a gradient study must start undeformed";
         return Err(evaluator.diagnostic_at_key(&Path::top("exact").then("displacement"), message));
     }
     let growth = factor * value;
@@ -262,7 +268,7 @@ fn differentiated(
     };
     with_value(source, spec, (name, other), check).map_err(|error| {
         let reason = error.message();
-        let message = format!("the suite does not hold for {name} = {}: {reason}", shown(other));
+        let message = format!("the suite is not valid for {name} = {}: {reason}", shown(other));
         evaluator.diagnostic(path, &message)
     })?;
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
@@ -397,9 +403,9 @@ fn terms(
     let order = spec.order.as_ref().map(|pair| evaluator.interval(&path.then("order"), pair));
     let order = order.transpose()?;
     if spec.state.is_none() && order.is_none() {
-        let diagnostic = evaluator.diagnostic(&path, "nothing is expected");
+        let diagnostic = evaluator.diagnostic(&path, "this expectation is empty");
         return Err(diagnostic.with_label("expected `state`, `order`, or both"));
     }
-    let because = evaluator.because(&path, "an expectation", &spec.because)?;
+    let because = evaluator.because(&path, "this expectation", &spec.because)?;
     Ok((GradientTerms { state: spec.state, order, finest: None }, because))
 }

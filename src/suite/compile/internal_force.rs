@@ -60,7 +60,7 @@ fn cases(
     let bases: Vec<BasisName> = spec.methods.iter().flat_map(bases).collect();
     if bases.is_empty() {
         let path = Path::top("methods");
-        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
+        return Err(evaluator.diagnostic(&path, "the suite has no cases: `methods` is empty"));
     }
     let names: Vec<String> =
         bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
@@ -76,7 +76,7 @@ fn cases(
         if let Some(owner) = owner {
             let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
             expected = Some(expectation(evaluator, &path, spec)?);
-            because = evaluator.because(&path, "an expectation", &spec.because)?;
+            because = evaluator.because(&path, "this expectation", &spec.because)?;
         }
         Ok(ForceCase { name, basis, expected, because })
     };
@@ -93,7 +93,7 @@ fn expectation(
         (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
         (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
         _ => Err(evaluator
-            .diagnostic(path, "one thing can be expected of a force")
+            .diagnostic(path, "this expectation must state exactly one bound")
             .with_label("expected either `agrees_within` or `steps_below`")),
     }
 }

@@ -22,7 +22,8 @@ pub fn suite_schema() -> String {
     let mut schema = schemars::json_schema!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "mpm-verify suite",
-        "description": "A suite of benchmarks: a problem with its truth, methods, and what is expected of them.",
+        "description": "A suite of benchmarks: a problem with its exact solution, methods, and \
+                        expectations.",
         "type": "object",
         "if": of_study("stability"),
         "then": stability,

@@ -67,7 +67,7 @@ pub(crate) fn plan(
 
 /// Returns the diagnostic for a suite that lacks a `property` required by the study.
 fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
-    evaluator.diagnostic(path, &format!("spectrum needs {property}"))
+    evaluator.diagnostic(path, &format!("a spectrum study needs {property}"))
 }
 
 /// Refuses a scene that is not a periodic row of a linear elastic body at rest.
@@ -215,7 +215,7 @@ fn curve(
         return Err(needs(evaluator, path, "methods of MPM in time"));
     };
     combine(basis, transfer, mass, frame).map_err(|reason| {
-        let help = "give what goes together an entry of `methods` of its own";
+        let help = "list compatible settings in separate entries of `methods`";
         evaluator.diagnostic(path, &reason.to_string()).with_help(help)
     })?;
     if volume == VolumeName::Averaged {
@@ -247,10 +247,10 @@ fn expectation(
     let phase_within = share("phase_within", &spec.phase_within)?;
     let damping_within = share("damping_within", &spec.damping_within)?;
     if phase_within.is_none() && damping_within.is_none() {
-        let diagnostic = evaluator.diagnostic(&path, "nothing is expected of this case");
+        let diagnostic = evaluator.diagnostic(&path, "this expectation is empty");
         return Err(diagnostic.with_label("expected `phase_within` or `damping_within`"));
     }
-    let because = evaluator.because(&path, "an expectation", &spec.because)?;
+    let because = evaluator.because(&path, "this expectation", &spec.because)?;
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 

@@ -96,7 +96,7 @@ impl<'a> Evaluator<'a> {
             .split_once('(')
             .and_then(|(name, rest)| Some((name.trim(), rest.trim_end().strip_suffix(')')?)))
             .ok_or_else(|| {
-                self.diagnostic_at_key(&path, &format!("`{head}` is not the head of a function"))
+                self.diagnostic_at_key(&path, &format!("`{head}` is not a function declaration"))
                     .with_help("write the name and its arguments: `s(tau)`")
             })?;
         let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
@@ -173,7 +173,7 @@ impl<'a> Evaluator<'a> {
         if value > 0.0 {
             return Ok(value);
         }
-        let message = format!("{what} is {}, and must be above zero", shown(value));
+        let message = format!("{what} is {}, but must be above zero", shown(value));
         Err(self.unusable(path, text, &message, "expected a positive number"))
     }
 
@@ -245,9 +245,9 @@ impl<'a> Evaluator<'a> {
         if !text.is_empty() {
             return Ok(text.to_owned());
         }
-        let message = format!("{stated} needs its reason");
+        let message = format!("`because` is empty: state the reason for {stated}");
         let diagnostic = self.diagnostic(&path.then("because"), &message);
-        Err(diagnostic.with_label("expected words"))
+        Err(diagnostic.with_label("expected a text"))
     }
 
     /// Returns a diagnostic about the value at `path`.

@@ -125,7 +125,10 @@ impl Evaluator<'_> {
         Scope::named(by)
             .map_err(|error| with_help(self.diagnostic(&by_path, &error.message), &error))?;
         if by == name {
-            return Err(self.diagnostic(&by_path, &format!("`{name}` is a table by itself")));
+            return Err(self.diagnostic(
+                &by_path,
+                &format!("the table of `{name}` depends on `{name}` itself"),
+            ));
         }
         let by_parameter = self.parameters.contains(by);
         if by_parameter {
@@ -149,7 +152,8 @@ impl Evaluator<'_> {
             let path = path.then(i);
             let [at, value] = row.as_slice() else {
                 let diagnostic = self.diagnostic(&path, "this row does not have two numbers");
-                let label = format!("expected a value of `{}`, and the parameter's there", spec.by);
+                let label =
+                    format!("expected a value of `{}` and the value of the parameter", spec.by);
                 return Err(diagnostic.with_label(&label));
             };
             let row = (self.number(&path.then(0), at)?, self.number(&path.then(1), value)?);
@@ -161,8 +165,8 @@ impl Evaluator<'_> {
             rows.push(row);
         }
         if rows.len() < 2 {
-            let diagnostic = self.diagnostic(path, "a table has at least two rows");
-            return Err(diagnostic.with_help("a parameter of one value is a number"));
+            let diagnostic = self.diagnostic(path, "a table needs at least two rows");
+            return Err(diagnostic.with_help("for a constant parameter, write a number"));
         }
         Ok(rows)
     }

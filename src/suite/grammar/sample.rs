@@ -167,7 +167,11 @@ fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()
         .any(|key| diagnostic.message().contains(&format!("`{key}`")));
-    if is_irregular { diagnostic.with_help("spectrum needs regular particles") } else { diagnostic }
+    if is_irregular {
+        diagnostic.with_help("a spectrum study needs regular particles")
+    } else {
+        diagnostic
+    }
 }
 
 /// Parses a suite into the type for this kind of `study`.

@@ -104,7 +104,7 @@ impl ConvergencePlan {
         match order.map(|(order, _)| order) {
             None if error_below.is_none() && own_error_below.is_none() => {
                 Gating::NotGated(format!(
-                    "the suite refines {}, and the solver states its order in space only",
+                    "the suite refines {}, but the solver states its order in space only",
                     self.refine.axis.name()
                 ))
             }

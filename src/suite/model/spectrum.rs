@@ -107,7 +107,7 @@ impl StudyPlan for SpectrumPlan {
         let ExternalMethod { name, formal_order, precision } = solver;
         let same = self.case_of(name);
         let unknown = || {
-            let message = "the suite does not state the method of the solver, so that there is no \
+            let message = "the suite does not state the method of the solver, so there is no \
                            prediction";
             Gating::NotGated(message.to_owned())
         };

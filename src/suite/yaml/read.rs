@@ -161,7 +161,7 @@ impl<'a> Fault<'a> {
         };
         Some(
             self.at_token(&format!("unknown {kind} `{name}`"))
-                .with_label(&format!("no {kind} that is known here"))
+                .with_label(&format!("not a known {kind}"))
                 .with_help(&help),
         )
     }

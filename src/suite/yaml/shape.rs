@@ -183,9 +183,9 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
     if value.is_finite() {
         return Ok(value);
     }
-    let found = if value.is_nan() { "not a number" } else { "infinite" };
+    let found = if value.is_nan() { "NaN" } else { "infinity" };
     Err(refuse(
-        &format!("expected {expected}, found one that is {found}"),
+        &format!("expected {expected}, found {found}"),
         &format!("{expected} is expected here"),
         "",
     ))

@@ -125,7 +125,7 @@ impl Expectation {
         if let Some(cause) = self.floor
             && found.floor != Some(cause)
         {
-            let got = found.floor.map_or("not told", FloorCause::name);
+            let got = found.floor.map_or("not determined", FloorCause::name);
             let line = format!("expected the floor of `{}`, got `{got}`", cause.name());
             unmet.push(UnmetFigure { line, measured: found.floor.is_some() });
         }

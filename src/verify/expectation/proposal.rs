@@ -74,11 +74,11 @@ pub fn propose(study: &Convergence) -> Proposal {
             because
         }
         None if study.compared => {
-            "from the run: bounds that hold today, and no order is claimed; say why not, or mend \
-             the suite"
+            "from the run: bounds that hold today, without a claimed order; state the reason, or \
+             correct the suite"
                 .to_owned()
         }
-        None => "sums that a run keeps; nothing is compared".to_owned(),
+        None => "conserved sums; errors are not compared".to_owned(),
     };
     let from_run = |text| ProposedKey { text, ground: Ground::Run };
     keys.extend(crossings(study).map(from_run));
@@ -106,7 +106,9 @@ fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let verdict = |word: &str| ProposedOrder {
         key: format!("verdict: {word}"),
         ground: Ground::Run,
-        because: format!("from the run; {theory}; say why this case differs, or mend the suite"),
+        because: format!(
+            "from the run; {theory}; state why this case differs, or correct the suite"
+        ),
     };
     let within = |order: f64, ground, because| ProposedOrder {
         key: format!("order: {}", range(order)),
@@ -121,7 +123,7 @@ fn claim(study: &Convergence) -> Option<ProposedOrder> {
             }
             let nearest = (2.0 * observed.value).round() / 2.0;
             if nearest > 0.0 && is_inside(&observed, nearest) {
-                let because = format!("from the run; {theory}; say why it is another one here");
+                let because = format!("from the run; {theory}; state why it differs here");
                 return Some(within(nearest, Ground::Run, because));
             }
             (study.verdict() == Verdict::TooLow).then(|| verdict("too_low"))

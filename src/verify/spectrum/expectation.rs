@@ -17,10 +17,12 @@ pub struct SpectrumExpectation {
 impl SpectrumExpectation {
     /// Returns the expectation in one line.
     pub fn summary(&self) -> String {
-        let phase = self.phase_within.map(|share| format!("phase error within {share} of theory"));
+        let phase = self
+            .phase_within
+            .map(|share| format!("phase error within {} of theory", percent(share)));
         let damping = self
             .damping_within
-            .map(|share| format!("ln of the amplitude within {share} of theory"));
+            .map(|share| format!("ln of the amplitude within {} of theory", percent(share)));
         [phase, damping].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
@@ -61,6 +63,11 @@ impl SpectrumExpectation {
         }
         unmet
     }
+}
+
+/// A share in per cent, rounded to six decimals: 0.07 is 7 %, not 7.000000000000001 %.
+fn percent(share: f64) -> String {
+    format!("{} %", libm::round(1e8 * share) / 1e6)
 }
 
 #[cfg(test)]

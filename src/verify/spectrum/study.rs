@@ -85,11 +85,11 @@ impl SpectrumStudy {
         let kept = measured().map(WaveFigures::kept).fold(f64::INFINITY, f64::min);
         let (count, failed) = (self.rows.len(), self.rows.len() - measured().count());
         if failed == count {
-            return format!("no results: the runs of all {count} waves failed");
+            return format!("no results: all {count} runs failed");
         }
-        let failed = if failed == 0 { String::new() } else { format!(", {failed} runs failed") };
+        let failed = if failed == 0 { String::new() } else { format!(", {failed} of them failed") };
         format!(
-            "phase error up to {:.2} %, amplitude per period at least {:.4}, over {count} waves{failed}",
+            "phase error up to {:.2} %, amplitude per period at least {:.4}, over {count} runs{failed}",
             100.0 * most,
             kept
         )

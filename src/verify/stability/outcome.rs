@@ -102,6 +102,9 @@ impl StabilityStudy {
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let most = values.iter().copied().fold(0.0, f64::max);
         let runs: usize = critical().map(|critical| critical.confirmed.len()).sum();
+        let longest = critical().max_by_key(|critical| critical.confirmed.len());
+        let shares = longest.into_iter().flat_map(|critical| &critical.confirmed);
+        let shares: Vec<String> = shares.map(|(share, _)| share.to_string()).collect();
         let found = if values.is_empty() {
             format!("none in the range, over {count} {rows}")
         } else {
@@ -111,7 +114,7 @@ impl StabilityStudy {
         if runs == 0 {
             found
         } else {
-            format!("{found}; {runs} runs at fractions of the predictions")
+            format!("{found}; {runs} runs at {} of the predicted limits", shares.join(", "))
         }
     }
 }

@@ -69,7 +69,7 @@ impl Judgement {
             window: None,
             pairwise: vec![None; levels],
             levels: Vec::new(),
-            reason: "nothing is compared".to_owned(),
+            reason: "errors are not compared".to_owned(),
         }
     }
 }

@@ -27,36 +27,36 @@ fn without_a_mistake_the_column_is_sound() {
 )]
 #[case::of_another_law(
     &[("equation: hencky", "equation: ▸neo_hookean")],
-    &["`neo_hookean` is not the problem of a `hencky` material"]
+    &["equation `neo_hookean` does not belong to the material `hencky`"]
 )]
 #[case::that_moves(&[(" - X\"]", " - X + ▸t\"]")], &["`t`"])]
 #[case::beside_a_motion(
     &[(STATE, "▸exact:\n  equation: hencky\n  displacement: [\"X*t\"]\n\nequilibrium:\n  equation: hencky")],
-    &["`exact` is a motion, and the suite states an equilibrium besides"]
+    &["the suite states both `exact` and `equilibrium`: keep one"]
 )]
 #[case::at_two_times(
     &[("until: 8", "until: [8, ▸9]")],
-    &["a body comes to rest once", "expected one end"]
+    &["a suite with `equilibrium` has a single end time", "expected one end"]
 )]
 #[case::on_the_way(
     &[("norm: l1", "norm: ▸max_l1")],
-    &["on its way a body is not in equilibrium", "expected a norm at the end"]
+    &["a `max_` norm needs a motion: with `equilibrium` the error exists only at the end", "expected a norm at the end"]
 )]
 #[case::of_its_motion(
     &[("of: stress", "of: ▸kinetic_energy")],
-    &["the exact kinetic energy of the body is zero throughout"]
+    &["the exact kinetic energy of the body is zero at all times"]
 )]
 #[case::of_finite_elements(
     &[("    - damping: \"pi*c/l0\" ", "   "), (MPM, FEM), ("of: stress, ", "")],
-    &["the reference FEM has no damping and does not come to rest"]
+    &["the built-in FEM has no damping, so it does not reach an equilibrium"]
 )]
 #[case::at_a_driven_wall(
     &[("boundary: {left: fixed}", "boundary: {left: fixed, ▸right: {velocity: [0]}}"), ("  dimension: 1\n", "  dimension: 1\n  grid: {from: [0], to: [l0]}\n")],
-    &["the face `right` is driven, and the body comes to rest"]
+    &["the face `right` has a given velocity, but `equilibrium` needs a body at rest"]
 )]
 #[case::with_a_driven_set(
     &[("  loads:\n", "  sets:\n    ▸tip: {box: {from: [49], to: [50]}}\n  loads:\n    - velocity: {on: tip, value: [0]}\n")],
-    &["the set `tip` is driven, and the body comes to rest"]
+    &["the set `tip` has a given velocity, but `equilibrium` needs a body at rest"]
 )]
 fn an_equilibrium(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SETTLED, edits, words);
@@ -74,7 +74,7 @@ fn an_equilibrium(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[case::that_depends_on_place(&[("\"pi*c/l0\"", "\"pi*c/▸X\"")], &["`X`"])]
 #[case::of_finite_elements(
     &[(STATE, "manufactured:"), (MPM, FEM), ("of: stress, ", "")],
-    &["the reference FEM has no damping"]
+    &["the built-in FEM does not support damping"]
 )]
 fn damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SETTLED, edits, words);
@@ -104,7 +104,7 @@ fn local_damping(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[test]
 fn local_damping_of_finite_elements() {
     let bar = include_str!("../../../verification/damping/local-damping-bar.yaml");
-    refused(bar, &[(MPM, FEM)], &["the reference FEM has no damping"]);
+    refused(bar, &[(MPM, FEM)], &["the built-in FEM does not support damping"]);
 }
 
 /// The exact solution of the oedometer is a motion, not a state of rest.
@@ -118,6 +118,6 @@ fn rest_is_asked_of_a_body_that_comes_to_rest() {
     refused(
         column,
         &[(&format!("{line}\n"), &edit)],
-        &["the truth is no state of rest", "`equilibrium`"],
+        &["`rest_below` needs an `equilibrium`", "`equilibrium`"],
     );
 }

@@ -7,11 +7,11 @@ use rstest::rstest;
 #[rstest]
 #[case::one_that_fits_no_case(
     &[("case: \"fem-*\"", "case: ▸\"fme-*\"")],
-    &["`fme-*` fits no case", "cases: mpm-linear-flip-musl, mpm-linear-flip-usl, fem-linear-lumped"]
+    &["`fme-*` matches no case", "cases: mpm-linear-flip-musl, mpm-linear-flip-usl, fem-linear-lumped"]
 )]
 #[case::one_of_several_patterns_that_fits_no_case(
     &[("case: \"mpm-*\"", "case: [\"mpm-*\", ▸\"mmp-*\"]")],
-    &["`mmp-*` fits no case"]
+    &["`mmp-*` matches no case"]
 )]
 #[case::a_second_one_for_a_case(
     &[("- case: \"fem-*\"", "- ▸case: \"*\"")],
@@ -19,7 +19,7 @@ use rstest::rstest;
 )]
 #[case::none_for_a_case(
     &[("expect:", "▸expect:"), ("case: \"mpm-*\"", "case: \"mpm-*-musl\"")],
-    &["nothing is expected of the case `mpm-linear-flip-usl`"]
+    &["the case `mpm-linear-flip-usl` has no expectation"]
 )]
 #[case::an_interval_the_wrong_way_round(
     &[("[1.5, 2.5]", "▸[2.5, 1.5]")],
@@ -28,16 +28,16 @@ use rstest::rstest;
 #[case::an_interval_with_one_end(&[("[1.5, 2.5]", "▸[2.5]")], &["an interval has two ends", "expected [low, high]"])]
 #[case::no_reason(
     &[("because: two levels", "because: ▸\"\" # two levels")],
-    &["an expectation needs its reason", "expected words"]
+    &["`because` is empty: state the reason for this expectation", "expected a text"]
 )]
 #[case::a_blank_reason(
     &[("because: two levels", "because: ▸\"  \" # two levels")],
-    &["an expectation needs its reason"]
+    &["`because` is empty: state the reason for this expectation"]
 )]
 #[case::neither_order_nor_verdict(
     &[("- case: \"mpm-*\"\n    verdict: too_few_levels\n", "- ▸case: \"mpm-*\"\n")],
     &[
-        "this expects neither an order nor a verdict nor a bound",
+        "this expectation has no order, no verdict and no bound",
         "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`",
     ]
 )]
@@ -60,7 +60,7 @@ fn expectations_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
         ("  - mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}\n", ""),
         ("  - fem: {element: linear, mass: lumped}\n", ""),
     ],
-    &["a suite without methods has no case"]
+    &["the suite has no cases: `methods` is empty"]
 )]
 fn methods_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

@@ -17,7 +17,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
 #[case::of_no_more_cells(
     BAR,
     &[("run:", "reference: {same_method: {cells: ▸47}}\nrun:")],
-    &["the fine grid has 47 cells, the finest level 12", "expected at least 4 times as many"]
+    &["the fine grid has 47 cells, but the finest level already has 12", "expected at least 4 times as many"]
 )]
 #[case::of_half_a_cell(
     BAR,
@@ -31,17 +31,17 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         (", dt: 1e-3, instants", ", instants"),
         ("cells: [6, 12], ppc: 4", "cells: 6, ppc: 4, dt: [2e-3, 1e-3]"),
     ],
-    &["on a fine grid knows the error of a grid", "list `cells` in `refine`"]
+    &["`same_method` on a fine grid measures only the error of the cell size", "list `cells` in `refine`"]
 )]
 #[case::and_shorter_steps(
     BAR,
     &[("run:", "reference: {▸same_method: {cells: 48, dt: 1e-4}}\nrun:")],
-    &["by shorter steps (`dt`) or by a fine grid (`cells`)", "state one of them"]
+    &["either shorter steps (`dt`) or a fine grid (`cells`)", "state one of them"]
 )]
 #[case::or_shorter_steps(
     BAR,
     &[("run:", "reference: {▸same_method: {}}\nrun:")],
-    &["by shorter steps (`dt`) or by a fine grid (`cells`)", "state one of them"]
+    &["either shorter steps (`dt`) or a fine grid (`cells`)", "state one of them"]
 )]
 #[case::without_a_step(
     BAR,
@@ -50,7 +50,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         (", dt: 1e-3, instants", ", instants"),
         ("cells: [6, 12], ppc: 4", "cells: [6, 12], ppc: 4, dt: [2e-3, 1e-3]"),
     ],
-    &["a time step for each level, and none for the fine grid", "as a formula of h"]
+    &["a time step for each level, but none for the fine grid", "as a formula of h"]
 )]
 #[case::whose_step_divides_no_instants(
     BAR,
@@ -58,7 +58,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         ("run:", "reference: {same_method: {cells: ▸50}}\nrun:"),
         ("dt: 1e-3", "dt: \"h/1000\""),
     ],
-    &["dt = 0.0006 becomes", "to end at 50 instants"]
+    &["dt = 0.0006 is changed to", "so that steps end at 50 instants"]
 )]
 #[case::of_a_width_that_does_not_fit(
     PLATE,
@@ -76,12 +76,12 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
 #[case::too_fine_to_keep(
     BAR,
     &[("run:", "reference: {same_method: {cells: ▸1000000}}\nrun:")],
-    &["3.3e6 particles at 50 instants are too many to keep"]
+    &["3.3e6 particles at 50 instants are too many to store"]
 )]
 #[case::without_a_stress(
     PLATE,
     &[("run:", "▸reference: {same_method: {cells: 32}}\njudge: {of: stress}\nrun:")],
-    &["a reference has no stress to compare with", "judge the displacement or the velocity"]
+    &["a reference does not provide the stress that this suite judges", "judge the displacement or the velocity"]
 )]
 #[case::of_a_disk(
     PLATE,
@@ -92,7 +92,7 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         EXACT,
         NO_PARAMETERS,
     ],
-    &["between the particles of a box, and this is one of kind `disk`"]
+    &["regular particles of a single box, but the scene has a body of kind `disk`"]
 )]
 #[case::of_a_panel(
     PLATE,
@@ -105,17 +105,17 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
         EXACT,
         NO_PARAMETERS,
     ],
-    &["between the particles of a box, and this is one of kind `quadrilateral`"]
+    &["regular particles of a single box, but the scene has a body of kind `quadrilateral`"]
 )]
 #[case::of_moved_particles(
     BAR,
     &[("run:", "reference: {▸same_method: {cells: 48}}\nparticles: {perturb: 0.2}\nrun:")],
-    &["between the particles of a box, and this is one whose `particles` are moved"]
+    &["regular particles of a single box, but the scene has moved `particles`"]
 )]
 #[case::of_several_bodies(
     HALVES,
     &[("run:", "reference: {▸same_method: {cells: 4000}}\nrun:")],
-    &["between the particles of a box, and this is several bodies"]
+    &["regular particles of a single box, but the scene has several bodies"]
 )]
 fn a_fine_grid(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(sound, edits, words);

@@ -28,7 +28,7 @@ use rstest::rstest;
 )]
 #[case::a_modulus_that_varies(
     &[("young: E", "young: \"E*▸X\"")],
-    &["unknown name `X`", "where it changes, state several `bodies` in `scene`"]
+    &["unknown name `X`", "for several materials, list several `bodies` in `scene`"]
 )]
 #[case::a_parameter_that_comes_later_in_a_function(
     &[("sin(pi*s/(2*L))", "sin(pi*s/(2*▸v0))"), ("L: 25 ", "L: \"25*mode(1)\" ")],
@@ -75,7 +75,7 @@ use rstest::rstest;
 )]
 #[case::a_head_without_parentheses(
     &[("mode(s):", "▸mode s:")],
-    &["`mode s` is not the head of a function", "write the name and its arguments: `s(tau)`"]
+    &["`mode s` is not a function declaration", "write the name and its arguments: `s(tau)`"]
 )]
 #[case::a_head_without_arguments(&[("mode(s):", "▸mode():")], &["`mode()` lacks a name or an argument", "`s(tau)`"])]
 #[case::a_head_without_a_name(&[("mode(s):", "▸(s):")], &["`(s)` lacks a name or an argument"])]

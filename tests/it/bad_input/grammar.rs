@@ -35,9 +35,9 @@ use rstest::rstest;
 #[case::a_tab(&[("  dimension", "▸\tdimension")], &["tab used for indentation; YAML needs spaces"])]
 #[case::not_a_number(
     &[("poisson: 0", "poisson: ▸.nan")],
-    &["expected a finite number, found one that is not a number"]
+    &["expected a finite number, found NaN"]
 )]
-#[case::infinity(&[("until: 0.5", "until: ▸.inf")], &["expected a finite number, found one that is infinite"])]
+#[case::infinity(&[("until: 0.5", "until: ▸.inf")], &["expected a finite number, found infinity"])]
 #[case::an_unknown_basis(&[("basis: linear", "basis: ▸liner")], &["unknown name `liner`", "did you mean `linear`?"])]
 #[case::an_unknown_scheme(&[("[musl, usl]", "[▸mulsl, usl]")], &["unknown name `mulsl`", "did you mean `musl`?"])]
 #[case::an_unknown_method(&[("- fem:", "- ▸fme:")], &["unknown name `fme`", "did you mean `fem`?"])]
@@ -87,11 +87,11 @@ fn a_stability_study_without_a_run() {
 #[case::the_study_forgotten(&[("study: internal_force\n", ""), ("internal_force:", "▸internal_force:")], &["unknown key `internal_force`"])]
 #[case::a_negative_volume(
     &[("volume: Omega", "volume: ▸\"-Omega\"")],
-    &["a particle's volume is -0.125, and must be above zero"]
+    &["a particle's volume is -0.125, but must be above zero"]
 )]
 #[case::no_reason(
     &[("because: >\n", "because: ▸\"\" #\n"), ("      the gradients of", "      # the gradients of"), ("      the error that", "      # the error that")],
-    &["an expectation needs its reason"]
+    &["`because` is empty: state the reason for this expectation"]
 )]
 #[case::a_basis_twice(
     &[("- mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline]}", "▸- mpm: {basis: [linear, linear]}")],
@@ -99,7 +99,7 @@ fn a_stability_study_without_a_run() {
 )]
 #[case::no_method(
     &[("\n  - mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline]}", " ▸[]")],
-    &["a suite without methods has no case"]
+    &["the suite has no cases: `methods` is empty"]
 )]
 #[case::two_expectations_at_once(
     &[("  - case: mpm-linear\n    agrees_within: 1e-14", "  - ▸case: mpm-linear\n    agrees_within: 1e-14\n    steps_below: 1")],

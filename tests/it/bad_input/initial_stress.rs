@@ -30,7 +30,7 @@ fn sound() {
         ("hencky: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"),
         ("  initial_stress", "  ▸initial_stress"),
     ],
-    &["a `j2` body has no initial stress", "the yield stress bounds the whole stress"]
+    &["a `j2` body does not support an initial stress", "the yield stress limits the total stress"]
 )]
 #[case::of_a_fluid(
     BAR,
@@ -38,17 +38,17 @@ fn sound() {
         ("hencky: {young: E, poisson: 0", "newtonian: {bulk: E, viscosity: 0"),
         ("  initial_stress", "  ▸initial_stress"),
     ],
-    &["a `newtonian` body has no initial stress", "state an `initial_displacement`"]
+    &["a `newtonian` body does not support an initial stress", "state an `initial_displacement`"]
 )]
 #[case::of_a_body_at_rest(
     RIGID,
     &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")],
-    &["a `rigid` body has no initial stress"]
+    &["a `rigid` body does not support an initial stress"]
 )]
 #[case::a_component_of_the_plane_on_a_line(
     BAR,
     &[("{xx: S0}", "{xx: S0, ▸xy: 1}")],
-    &["`xy` is no component in a scene of dimension 1", "components: `xx`"]
+    &["`xy` is not a stress component in 1-D", "components: `xx`"]
 )]
 #[case::a_component_below_the_diagonal(
     SLOPE,
@@ -58,7 +58,7 @@ fn sound() {
 #[case::no_component(
     BAR,
     &[("{xx: S0}", "▸{}")],
-    &["an initial stress without a component", "components: `xx`"]
+    &["`initial_stress` states no component", "components: `xx`"]
 )]
 #[case::a_stress_that_depends_on_time(
     BAR,
@@ -68,7 +68,7 @@ fn sound() {
 #[case::beside_a_list_of_bodies(
     SLOPE,
     &[("  boundary:", "  ▸initial_stress: {xx: 1}\n  boundary:")],
-    &["`initial_stress` speaks of one body"]
+    &["`initial_stress` is for a single body"]
 )]
 #[case::beside_expansion(
     HEATED,
@@ -76,12 +76,12 @@ fn sound() {
         ("  loads:", "  initial_stress: {xx: 1}\n  loads:"),
         ("- thermal_expansion", "- ▸thermal_expansion"),
     ],
-    &["an initial stress or expands by heat, not both"]
+    &["`thermal_expansion` is not supported with an initial stress"]
 )]
 #[case::in_finite_elements(
     RATE,
     &[("  initial_displacement", "  ▸initial_stress: {xx: 0}\n  initial_displacement")],
-    &["an initial stress, which the FEM does not have"]
+    &["the built-in FEM does not support an initial stress"]
 )]
 #[case::whose_energy_is_not_known(
     LONG,
@@ -89,12 +89,12 @@ fn sound() {
         ("  initial_velocity", "  initial_stress: {xx: 0}\n  initial_velocity"),
         ("    energy_rate", "    ▸energy_rate"),
     ],
-    &["the law `linear_elastic` is integrated in rate form, and has no energy beside an initial stress"]
+    &["the law `linear_elastic` is integrated in rate form and has no stored energy with an initial stress"]
 )]
 #[case::of_a_frozen_body(
     FROZEN,
     &[("scene:", "scene:\n  initial_stress: {xx: 1}"), ("frozen: true", "▸frozen: true")],
-    &["a frozen body rests without stress"]
+    &["a frozen run must start at rest, without loads and without initial stress"]
 )]
 fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(suite, edits, words);
@@ -121,7 +121,7 @@ fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]
 #[case::a_joint_out_of_balance(
     SLOPE,
     &[("base(Y): \"upper*H", "base(Y): \"0.9*upper*H"), ("displacement: [0", "displacement: [▸0")],
-    &["the same traction in"]
+    &["their tractions in"]
 )]
 fn no_balance(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(suite, edits, words);

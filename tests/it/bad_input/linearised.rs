@@ -21,35 +21,35 @@ const STATED: &str = "  linearised:
     &[("5e-6", "1e-6"), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
     &[
         "equation of motion in X, rho0 u_tt = Div P + rho0 b",
-        "2.00e-6 of the terms of the equations is left, and 1.00e-6 is stated as linearised",
+        "the residual is 2.00e-6 of the terms of the equations, above the stated `tolerance` of 1.00e-6",
     ]
 )]
 #[case::a_larger_strain(
     &[("eps: 1e-6", "eps: 1e-3"), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
-    &["2.00e-3 of the terms of the equations is left, and 5.00e-6 is stated as linearised"]
+    &["the residual is 2.00e-3 of the terms of the equations, above the stated `tolerance` of 5.00e-6"]
 )]
 #[case::another_frequency(
     &[("cos(k*c*t)\"]", "cos(1.001*k*c*t)\"]"), ("[\"mode(X)*cos(", "[▸\"mode(X)*cos(")],
-    &["equation of motion in X", "of the terms of the equations is left, and 5.00e-6 is stated"]
+    &["equation of motion in X", "of the terms of the equations, above the stated `tolerance` of 5.00e-6"]
 )]
 #[case::nothing(
     &[(STATED, ""), ("[\"mode(X)*cos(k*c*t)\"]", "[▸\"mode(X)*cos(k*c*t)\"]")],
     &[
         "this is not a solution of the problem that the scene states",
-        "if it is a linearised solution, which leaves 2.00e-6 of the terms of the equations",
+        "if the solution is linearised (its residual is 2.00e-6 of the terms of the equations)",
         "add `linearised: {tolerance: ..., because: ...}`",
     ]
 )]
 #[case::anything(&[("5e-6", "▸0.1")], &["a tolerance of 0.1 would let a wrong solution pass"])]
 #[case::no_number(&[("5e-6", "▸some")], &["unknown name `some`"])]
-#[case::less_than_nothing(&[("5e-6", "▸-5e-6")], &["the tolerance is -5e-6, and must be above zero"])]
+#[case::less_than_nothing(&[("5e-6", "▸-5e-6")], &["the tolerance is -5e-6, but must be above zero"])]
 #[case::no_reason(
     &[(STATED, "  linearised: ▸{tolerance: 5e-6}\n")],
     &["missing key `because` in `linearised`"]
 )]
 #[case::an_empty_reason(
     &[(STATED, "  linearised: {tolerance: 5e-6, because: ▸\"\"}\n")],
-    &["a linearised solution needs its reason", "expected words"]
+    &["`because` is empty: state the reason for this linearised solution", "expected a text"]
 )]
 #[case::no_tolerance(
     &[(STATED, "  linearised: ▸{because: strains are small}\n")],

@@ -13,32 +13,32 @@ const LOAD: &str = "    - gravity: [\"-g\"]";
 #[rstest]
 #[case::with_an_end(&[(RUN, "run: {load_steps: 20, ▸until: 1}")], &["load steps have no time", "keep one of them"])]
 #[case::without_either(&[(RUN, "run: ▸{dt: 1}"), (METHOD, "- external: {name: mine}")], &["a run needs an end", "load_steps"])]
-#[case::with_a_time_step(&[(RUN, "run: {load_steps: 20, ▸dt: 0.1}")], &["load steps have no length in time"])]
+#[case::with_a_time_step(&[(RUN, "run: {load_steps: 20, ▸dt: 0.1}")], &["`dt` is not supported with load steps: they have no duration"])]
 #[case::with_refined_time_steps(
-    &[("ppc: 2}", "ppc: 2, ▸dt: [4, 3, 2, 1]}")], &["load steps have no length in time"]
+    &[("ppc: 2}", "ppc: 2, ▸dt: [4, 3, 2, 1]}")], &["`dt` is not supported with load steps: they have no duration"]
 )]
 #[case::with_instants(
-    &[(RUN, "run: {load_steps: 20, ▸instants: 3}")], &["the error is taken after the last load step"]
+    &[(RUN, "run: {load_steps: 20, ▸instants: 3}")], &["`instants` is not supported with load steps: errors are computed after the last step only"]
 )]
 #[case::of_no_step(&[("[1, 20]", "▸0")], &["the number of load steps"])]
 #[case::of_half_a_step(&[("[1, 20]", "[1, ▸2.5]")], &["the number of load steps"])]
 #[case::of_too_many(&[("[1, 20]", "▸1000000")], &["expected a whole number from 1 to 1e5"])]
 #[case::twice(&[("[1, 20]", "[20, ▸20]")], &["20 load steps appear twice"])]
 #[case::with_a_motion(
-    &[("equilibrium:\n", "▸exact:\n")], &["an `exact` solution is a motion in time", "`equilibrium`"]
+    &[("equilibrium:\n", "▸exact:\n")], &["`exact` is not supported with load steps: it is a motion in time", "`equilibrium`"]
 )]
 #[case::with_a_manufactured_force(
-    &[("equilibrium:\n  equation: hencky\n", "▸manufactured:\n")], &["a manufactured force belongs to a motion"]
+    &[("equilibrium:\n  equation: hencky\n", "▸manufactured:\n")], &["`manufactured` is not supported with load steps"]
 )]
 #[case::with_a_reference(
-    &[("run: {", "▸reference: {same_method: {cells: 320}}\nrun: {")], &["a reference is computed in time"]
+    &[("run: {", "▸reference: {same_method: {cells: 320}}\nrun: {")], &["`reference` is not supported with load steps"]
 )]
 #[case::with_a_motion_in_the_equilibrium(&[("K(lambert_w(q(X)))) - X", "K(lambert_w(q(X)))) - X + 0*▸t")], &["t"])]
 #[case::of_an_explicit_method(
-    &[(METHOD, "- ▸mpm: {basis: linear, transfer: flip, scheme: musl}")], &["this method integrates in time"]
+    &[(METHOD, "- ▸mpm: {basis: linear, transfer: flip, scheme: musl}")], &["this method needs time steps, and the suite has load steps"]
 )]
 #[case::of_finite_elements(
-    &[(METHOD, "- ▸fem: {element: linear, mass: lumped}")], &["this method integrates in time"]
+    &[(METHOD, "- ▸fem: {element: linear, mass: lumped}")], &["this method needs time steps, and the suite has load steps"]
 )]
 fn a_run_has_load_steps_or_time(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(STEPS, edits, words);
@@ -51,7 +51,7 @@ fn a_run_has_load_steps_or_time(#[case] edits: Edits<'_>, #[case] words: &[&str]
 )]
 #[case::with_a_transfer(
     &[("scheme: quasi_static", "▸transfer: flip, scheme: quasi_static")],
-    &["`quasi_static` has no `transfer`", "no velocities"]
+    &["`quasi_static` does not support `transfer`", "no velocities"]
 )]
 #[case::with_a_mass_matrix(&[("scheme: quasi_static", "scheme: quasi_static, ▸mass: lumped")], &["no inertia"])]
 #[case::with_a_start(&[("scheme: quasi_static", "scheme: quasi_static, ▸start: at_zero")], &["no initial velocity"])]
@@ -65,19 +65,19 @@ fn a_run_has_load_steps_or_time(#[case] edits: Edits<'_>, #[case] words: &[&str]
     &[("scheme: quasi_static", "scheme: quasi_static, ▸precision: single")], &["double precision"]
 )]
 #[case::next_to_other_schemes(
-    &[("scheme: quasi_static", "▸scheme: [quasi_static, musl]")], &["an entry of `methods` of their own"]
+    &[("scheme: quasi_static", "▸scheme: [quasi_static, musl]")], &["a separate entry of `methods`"]
 )]
 #[case::misspelt(&[("scheme: quasi_static", "scheme: ▸quasistatic")], &["`quasi_static`"])]
 #[case::an_explicit_one_without_transfer(
     &[(RUN, "run: {until: 1, dt: 0.1}"), (METHOD, "- ▸mpm: {basis: linear, scheme: musl}")],
-    &["a scheme in time needs a `transfer`", "add `transfer: flip`"]
+    &["a scheme with time steps needs a `transfer`", "add `transfer: flip`"]
 )]
 fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(STEPS, edits, words);
 }
 
 #[rstest]
-#[case::a_load_in_time(&[(LOAD, "    - gravity: ▸[\"-g*t\"]")], &["`gravity` in load steps: it depends on t"])]
+#[case::a_load_in_time(&[(LOAD, "    - gravity: ▸[\"-g*t\"]")], &["`gravity` is not supported in load steps: it depends on t"])]
 #[case::a_force_of_the_displacement(
     &[(LOAD, "    - gravity: [\"-g\"]\n    - body_force: ▸[\"-ux\"]")], &["it depends on the displacement"]
 )]
@@ -86,20 +86,20 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
     &[(LOAD, "    - gravity: [\"-g\"]\n    - local_damping: ▸0.1")], &["there is no velocity to damp"]
 )]
 #[case::a_pressure(
-    &[(LOAD, "    - gravity: [\"-g\"]\n    - pressure: ▸{on: right, value: 1}")], &["it follows the face"]
+    &[(LOAD, "    - gravity: [\"-g\"]\n    - pressure: ▸{on: right, value: 1}")], &["it is a follower load"]
 )]
 #[case::a_free_body(
     &[("boundary: {left: fixed}", "boundary: {}"), ("  body:", "  ▸body:")], &["nothing holds the body along X"]
 )]
 #[case::no_load(&[("  loads:\n    - gravity: [\"-g\"]\n", ""), ("  material:", "  ▸material:")], &["the scene has none"])]
 #[case::a_start_in_motion(
-    &[("  loads:", "  ▸initial_velocity: [1]\n  loads:")], &["load steps have no velocity"]
+    &[("  loads:", "  ▸initial_velocity: [1]\n  loads:")], &["`initial_velocity` is not supported with load steps: they have no velocity"]
 )]
 #[case::a_start_elsewhere(
-    &[("  loads:", "  ▸initial_displacement: [1]\n  loads:")], &["start from the reference configuration"]
+    &[("  loads:", "  ▸initial_displacement: [1]\n  loads:")], &["they start from the reference configuration"]
 )]
 #[case::an_initial_stress(
-    &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")], &["start from a body without stress"]
+    &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")], &["they start without stress"]
 )]
 #[case::a_law_without_tangent(
     &[

@@ -27,19 +27,19 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::a_yield_stress_of_zero(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: ▸0, density: rho}}")],
-    &["the yield stress is 0, and must be above zero"]
+    &["the yield stress is 0, but must be above zero"]
 )]
 #[case::softening(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, hardening: ▸\"-E\", density: rho}}")],
-    &["the hardening modulus is -100, and must not be below zero", "expected zero or a positive number"]
+    &["the hardening modulus is -100, but must not be below zero", "expected zero or a positive number"]
 )]
 #[case::a_fluid_without_stiffness(
     &[(ELASTIC, "{newtonian: {bulk: ▸0, viscosity: 1, density: rho}}")],
-    &["the bulk modulus is 0, and must be above zero"]
+    &["the bulk modulus is 0, but must be above zero"]
 )]
 #[case::a_negative_viscosity(
     &[(ELASTIC, "{newtonian: {bulk: E, viscosity: ▸-1, density: rho}}")],
-    &["the viscosity is -1, and must not be below zero"]
+    &["the viscosity is -1, but must not be below zero"]
 )]
 #[case::a_hencky_solid_that_is_not_stable(
     &[(ELASTIC, "{hencky: {young: E, poisson: ▸0.5, density: rho}}")],
@@ -59,7 +59,7 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::a_negative_cohesion(
     &[(ELASTIC, "{mohr_coulomb: {young: E, poisson: 0, friction_angle: 30, dilation_angle: 0, cohesion: ▸-1, density: rho}}")],
-    &["the cohesion is -1, and must not be below zero"]
+    &["the cohesion is -1, but must not be below zero"]
 )]
 #[case::clay_that_swells_more_than_it_compacts(
     &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: ▸0.1, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: 100, preconsolidation: 150, density: rho}}")],
@@ -71,11 +71,11 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::clay_without_pressure(
     &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: ▸0, preconsolidation: 150, density: rho}}")],
-    &["the initial pressure is 0, and must be above zero"]
+    &["the initial pressure is 0, but must be above zero"]
 )]
 #[case::clay_under_tension(
     &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: 0.25,\n      initial_pressure: ▸-100, preconsolidation: 150, density: rho}}")],
-    &["the initial pressure is -100, and must be above zero"]
+    &["the initial pressure is -100, but must be above zero"]
 )]
 #[case::clay_that_is_incompressible(
     &[(ELASTIC, "{cam_clay: {critical_state_slope: 1.2,\n      swelling_slope: 0.02, compression_slope: 0.1, poisson: ▸0.5,\n      initial_pressure: 100, preconsolidation: 150, density: rho}}")],
@@ -83,7 +83,7 @@ const ELASTIC: &str = "{linear_elastic: {young: E, poisson: 0, density: rho}}";
 )]
 #[case::a_small_strain_truth_for_plastic_flow(
     &[(ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("small_strain", "▸small_strain")],
-    &["`small_strain` is not the problem of a `j2` material"]
+    &["equation `small_strain` does not belong to the material `j2`"]
 )]
 fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
@@ -96,11 +96,11 @@ const REFERENCE: &str = "reference:\n  equation: hencky\n  fem: {element: linear
 #[rstest]
 #[case::an_fem_bar_that_would_have_to_flow(
     &[(EXACT, REFERENCE), (ELASTIC, "{j2: {young: E, poisson: 0, yield: 1, density: rho}}"), ("- fem:", "- ▸fem:")],
-    &["the reference FEM has no `j2`", "name the `law` of an elastic bar"]
+    &["the built-in FEM does not support the law `j2`", "name the `law` of an elastic bar"]
 )]
 #[case::a_fluid_as_reference(
     &[(EXACT, REFERENCE), ("reference:", "▸reference:"), (ELASTIC, "{newtonian: {bulk: E, viscosity: 1, density: rho}}")],
-    &["the reference FEM is a solid bar, `newtonian` has no Young's modulus"]
+    &["the built-in FEM is a solid bar, but `newtonian` has no Young's modulus"]
 )]
 fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);

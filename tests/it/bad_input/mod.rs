@@ -114,7 +114,7 @@ fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
 fn a_complaint_reads_like_that_of_a_compiler() {
     let wrong = BAR.replace("until: 0.5", "until: -0.5");
     let want = "\
-error: the end of the run is -0.5, and must be above zero
+error: the end of the run is -0.5, but must be above zero
   --> wrong.yaml:27:14
    |
 27 | run: {until: -0.5, dt: 1e-3, instants: 50}

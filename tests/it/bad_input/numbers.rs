@@ -7,7 +7,7 @@ use rstest::rstest;
 #[rstest]
 #[case::a_negative_density(
     &[("density: rho", "density: ▸-1")],
-    &["the density is -1, and must be above zero", "expected a positive number"]
+    &["the density is -1, but must be above zero", "expected a positive number"]
 )]
 #[case::a_negative_density_deep_in_a_formula(
     &[("rho: 1\n", "rho: -1\n"), ("\"pi/(2*L)", "▸\"pi/(2*L)")],
@@ -35,7 +35,7 @@ use rstest::rstest;
 )]
 #[case::a_negative_stiffness(
     &[("E: 100", "E: -100"), ("sqrt(E/rho)", "sqrt(-E/rho)"), ("young: E", "young: ▸E")],
-    &["Young's modulus is -100, and must be above zero", "`E` is -100 (line 7)"]
+    &["Young's modulus is -100, but must be above zero", "`E` is -100 (line 7)"]
 )]
 #[case::a_fraction_of_a_cell_by_a_formula(
     &[("[6, 12]", "[6, ▸\"E/40\"]")],
@@ -93,7 +93,7 @@ use rstest::rstest;
     &[("dt: 1e-3", "dt: ▸\"1e-3*(4 - h)\"")],
     &["with 6 cells the time step is -0.001"]
 )]
-#[case::an_end_before_the_start(&[("until: 0.5", "until: ▸-0.5")], &["the end of the run is -0.5, and must be above zero"])]
+#[case::an_end_before_the_start(&[("until: 0.5", "until: ▸-0.5")], &["the end of the run is -0.5, but must be above zero"])]
 #[case::one_end_of_several_at_the_start(&[("until: 0.5", "until: [0.5, ▸0]")], &["the end of the run is 0"])]
 #[case::an_end_twice(&[("until: 0.5", "until: [0.5, ▸\"1/2\"]")], &["the end 0.5 s appears twice"])]
 #[case::an_end_after_the_universe(
@@ -126,7 +126,7 @@ fn three_particles_per_cell_cannot_be_spaced_equally_in_2d() {
 )]
 #[case::more_states_than_fit(
     &[("cells: 1280", "cells: ▸1e7")],
-    &["10000000 elements at 167 instants are too many to keep", "expected at most 5e7"]
+    &["10000000 elements at 167 instants are too many to store", "expected at most 5e7"]
 )]
 fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(COLUMN, edits, words);

@@ -27,7 +27,7 @@ const COOK: &str = include_str!("../../../verification/equilibrium/cooks-membran
 #[case::with_a_corner_in_space(&[("[48, 60]", "▸[48, 60, 0]")], &["2"])]
 #[case::in_space(
     &[("dimension: 2", "dimension: 3"), ("{quadrilateral:", "{▸quadrilateral:")],
-    &["the scene is 3-D, and `quadrilateral` a body in 2-D", "`box` or `ball`"]
+    &["the scene is 3-D, but `quadrilateral` is a body in 2-D", "`box` or `ball`"]
 )]
 #[case::held_where_it_has_a_corner(
     &[("{left: fixed}", "{left: fixed, ▸top: fixed}")],
@@ -43,7 +43,7 @@ const COOK: &str = include_str!("../../../verification/equilibrium/cooks-membran
 )]
 #[case::loaded_on_no_face(&[("{on: right,", "{on: ▸rigth,")], &["`rigth`", "did you mean `right`?"])]
 #[case::without_an_end(
-    &[("{left: fixed}", "{▸left: periodic, right: periodic}")], &["does not go on periodically"]
+    &[("{left: fixed}", "{▸left: periodic, right: periodic}")], &["a quadrilateral cannot have periodic faces"]
 )]
 #[case::with_a_word_unknown(&[("corners:", "▸corner:")], &["corner"])]
 fn a_panel(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
@@ -58,12 +58,12 @@ const PANEL: (&str, &str) = (
 #[test]
 fn a_panel_has_no_checked_solution() {
     let edits = [PANEL, ("exact:", "▸exact:")];
-    refused(PLATE, &edits, &["a solution is checked in a box or a body with a free rim"]);
+    refused(PLATE, &edits, &["a solution can be checked in a box or a body with a free rim"]);
 }
 
 #[test]
 fn no_heat_flows_in_a_panel() {
     let heat = "  loads:\n    - ▸heat: {conductivity: 1, capacity: 1}\n  initial_velocity";
-    let words = ["heat flows in a `box`, and the body is of kind `quadrilateral`"];
+    let words = ["heat is supported in a `box` only, but the body is of kind `quadrilateral`"];
     refused(PLATE, &[PANEL, ("  initial_velocity", heat)], &words);
 }

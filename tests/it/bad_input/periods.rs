@@ -44,12 +44,12 @@ fn a_stretched_ring_is_sound() {
 #[case::a_reference_place(
     "scheme: musl",
     "scheme: musl, frame: ▸total_lagrangian",
-    "a total-Lagrangian body stays in its reference place"
+    "`total_lagrangian` needs a periodic grid as long as the body"
 )]
 #[case::a_motion_of_another_period(
     "[\"0.2*X",
     "[▸\"0.19*X",
-    "left is periodic, x_X one period away from the opposite face, is violated"
+    "left is periodic, but x_X does not differ by one period"
 )]
 #[case::a_motion_that_does_not_stretch("[\"0.2*X + V*t", "[▸\"V*t", "expected 1.2")]
 fn a_stretched_ring_with(#[case] right: &str, #[case] wrong: &str, #[case] words: &str) {

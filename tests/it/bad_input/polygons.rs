@@ -38,7 +38,7 @@ const CORNERS: &str = "[[0.1, 0.15], [0.95, 0.25], [0.4, 0.9]]";
 )]
 #[case::outside_the_grid(
     &[("to: [1, 1]", "to: [1, ▸0.8]")],
-    &["the polygon reaches to 0.9, and the grid ends at 0.8", "at least 0.9"]
+    &["the polygon extends to 0.9, but the grid ends at 0.8", "at least 0.9"]
 )]
 #[case::that_is_tiny(
     &[
@@ -51,16 +51,16 @@ const CORNERS: &str = "[[0.1, 0.15], [0.95, 0.25], [0.4, 0.9]]";
 )]
 #[case::in_space(
     &[("dimension: 2", "dimension: 3"), ("{polygon:", "{▸polygon:")],
-    &["the scene is 3-D, and `polygon` a body in 2-D", "`box` or `ball`"]
+    &["the scene is 3-D, but `polygon` is a body in 2-D", "`box` or `ball`"]
 )]
 #[case::with_keys(&[(CORNERS, "▸{corners: [[0, 0], [1, 0], [1, 1]]}")], &["list"])]
 #[case::that_is_held(
     &[("  material:", "  boundary: {▸left: fixed}\n  material:")],
-    &["the rims of a body of kind `polygon` are free, not `left`"]
+    &["`left` cannot be held: a body of kind `polygon` has free rims only"]
 )]
 #[case::that_is_loaded(
     &[("  material:", "  loads:\n    - pressure: {on: ▸left, value: 1}\n  material:")],
-    &["the rims of a body of kind `polygon` are free, `left` has no load"]
+    &["`left` cannot be loaded: a body of kind `polygon` has free rims only"]
 )]
 #[case::under_traction(
     &[("[0.4, 0.9]]}", "[0.4, 0.89]]}"), ("displacement: [\"", "displacement: [▸\"")],
@@ -68,11 +68,11 @@ const CORNERS: &str = "[[0.1, 0.15], [0.95, 0.25], [0.4, 0.9]]";
 )]
 #[case::observed_beside_it(
     &[("\nexpect:", "\nobserve: {at: ▸[0.2, 0.7]}\n\nexpect:")],
-    &["this place is outside the body", "expected a place in the polygon"]
+    &["this point is outside the body", "expected a point in the polygon"]
 )]
 #[case::with_particles_that_are_moved(
     &[("\nexpect:", "\n▸particles: {shift: [0.25, 0]}\n\nexpect:")],
-    &["particles are moved off the lattice of a box"]
+    &["`particles` is supported for boxes only"]
 )]
 fn a_polygon(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(TRIANGLE, edits, words);
@@ -96,7 +96,11 @@ fn no_heat_flows_in_a_polygon() {
             "  loads:\n    - ▸heat: {conductivity: 1, capacity: 1}\n  initial_velocity",
         ),
     ];
-    refused(PLATE, &edits, &["heat flows in a `box`, and the body is of kind `polygon`"]);
+    refused(
+        PLATE,
+        &edits,
+        &["heat is supported in a `box` only, but the body is of kind `polygon`"],
+    );
 }
 
 const DISKS: &str = include_str!("../../../verification/contact-and-friction/two-disks.yaml");
@@ -105,7 +109,7 @@ const SECOND: &str = "- body: {disk: {centre: [0.8, 0.8], radius: R}}";
 #[test]
 fn a_corner_within_a_disk_is_refused() {
     let polygon = "- ▸body: {polygon: [[0.3, 0.3], [0.9, 0.3], [0.9, 0.9]]}";
-    refused(DISKS, &[(SECOND, polygon)], &["body 1 and body 2 have places in common"]);
+    refused(DISKS, &[(SECOND, polygon)], &["body 1 and body 2 overlap"]);
 }
 
 /// The bounding boxes of the two bodies overlap, but the bodies do not.

@@ -24,12 +24,15 @@ fn precisions(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 fn of_several_bodies() {
     let text = IMPACT.replacen("transfer:", "precision: single, transfer:", 1);
     let refused = super::load(&text).expect_err("two bodies").to_string();
-    assert!(refused.contains("`precision: single` rounds the state of one body"), "{refused}");
+    assert!(
+        refused.contains("`precision: single` is supported for a single body only"),
+        "{refused}"
+    );
 }
 
 #[test]
 fn of_a_stability_study() {
     let text = COLD_FLOW.replacen("transfer:", "precision: single, transfer:", 1);
     let refused = super::load(&text).expect_err("a stability study").to_string();
-    assert!(refused.contains("stability is studied in double precision"), "{refused}");
+    assert!(refused.contains("a stability study needs double precision"), "{refused}");
 }

@@ -73,12 +73,12 @@ fn a_set_may_be_far_larger_than_the_body() {
 #[rstest]
 #[case::beside_a_disk(
     DISK,
-    "the set `all` has no part of the disk",
+    "the set `all` contains no part of the disk",
     "the body is a disk about (0.1, 0)"
 )]
 #[case::beside_a_triangle(
     "{polygon: [[-1, -1], [1.05, -1], [-1, 1.05]]}",
-    "the set `all` has no part of the polygon",
+    "the set `all` contains no part of the polygon",
     "the body is a polygon"
 )]
 fn a_set(#[case] body: &str, #[case] message: &str, #[case] label: &str) {

@@ -19,11 +19,11 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::two_places_for_the_time_step(
     &[(PLAN, "refine: {cells: 6, ppc: 4, ▸dt: [1e-3, 5e-4]}")],
-    &["`run` states the time step already"]
+    &["the time step is already stated in `run`"]
 )]
 #[case::one_time_step(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, ▸dt: 1e-3}")],
-    &["one time step refines nothing", "move it to `run`"]
+    &["a single time step refines nothing", "move it to `run`"]
 )]
 #[case::growing_time_steps(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1e-3, ▸2e-3]}")],
@@ -35,7 +35,7 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::instants_of_a_computed_truth_that_cut_the_step(
     &[("dt: 1e-3", "dt: ▸3e-3"), ("\nrun:", "\nreference:\n  equation: small_strain\n  fem: {element: linear, mass: lumped, cells: 100, dt: 1e-3}\nrun:")],
-    &["dt = 0.003 becomes 0.0025 s, to end at 50 instants", "to 1 %", "`instants: 42` keeps this step"]
+    &["dt = 0.003 is changed to 0.0025 s, so that steps end at 50 instants", "to 1 %", "`instants: 42` keeps this step"]
 )]
 #[case::a_time_step_that_is_none(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: 6, ppc: 4, dt: [1e-3, ▸\"0/0\"]}")],
@@ -43,7 +43,7 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::cells_and_particles(
     &[(PLAN, "refine: {cells: [6, 12], ppc: ▸[1, 2]}")],
-    &["two things are refined at once", "particles per cell are refined alone"]
+    &["`ppc` is refined together with `cells` or `dt`", "to refine `ppc`, state one number of cells"]
 )]
 #[case::lists_of_unequal_length(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: [6, 12], ppc: 4, dt: ▸[3e-3, 2e-3, 1e-3]}")],
@@ -51,7 +51,7 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::full_of_two_lists(
     &[(STEP, NO_STEP), (PLAN, "refine: {cells: [6, 12], ppc: 4, dt: [2e-3, 1e-3], ▸full: 24}")],
-    &["one list of further levels cannot refine both"]
+    &["`full` is one list, so it cannot refine both"]
 )]
 #[case::full_that_is_not_finer(
     &[("ppc: 4}", "ppc: 4, full: [24, ▸10]}")],
@@ -67,18 +67,18 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::an_fem_with_refined_particles(
     &[(PLAN, "refine: {cells: 6, ppc: [1, 2]}"), ("  - fem:", "  - ▸fem:")],
-    &["an FEM has none"]
+    &["but an FEM has none"]
 )]
 #[case::full_expected_and_not_run(
     &[("    verdict: too_few_levels\n    finest_pair", "    verdict: too_few_levels\n    ▸full: {verdict: divergent, because: none}\n    finest_pair")],
-    &["there is no full run to expect this of"]
+    &["this expectation needs a full run, but `refine` has no `full`"]
 )]
 #[case::full_with_cases_of_its_own(
     &[
         ("ppc: 4}", "ppc: 4, full: 24}"),
         ("    verdict: too_few_levels\n    finest_pair", "    verdict: too_few_levels\n    full: {▸case: x, verdict: divergent, because: none}\n    finest_pair"),
     ],
-    &["has no `case` of its own"]
+    &["cannot have its own `case`"]
 )]
 #[case::a_floor_of_no_axis(
     &[("finest_pair: [1.5, 2.5]", "floor: ▸tiem")],
@@ -86,7 +86,7 @@ const NO_STEP: &str = ", instants";
 )]
 #[case::the_same_method_and_no_time_steps(
     &[("run:", "reference: {▸same_method: {dt: 1e-5}}\nrun:")],
-    &["knows the error of the time step only"]
+    &["measures only the error of the time step"]
 )]
 #[case::the_same_method_with_steps_as_long(
     &[
@@ -94,11 +94,11 @@ const NO_STEP: &str = ", instants";
         (STEP, NO_STEP),
         (PLAN, "refine: {cells: 6, ppc: 4, dt: [2e-3, 1e-3]}"),
     ],
-    &["the time step is 0.0002, the finest level's 0.001", "expected at most 1/8"]
+    &["the time step is 0.0002, but the finest level already has 0.001", "expected at most 1/8"]
 )]
 #[case::a_reference_of_nothing(
     &[("run:", "▸reference: {}\nrun:")],
-    &["a reference is a `fem` computation of an `equation`, or the `same_method`"]
+    &["a reference needs `equation` and `fem`, or `same_method`"]
 )]
 fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
@@ -118,11 +118,11 @@ fn a_plan_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 )]
 #[case::a_seed_of_nothing(
     &[("refine:", "particles: {shift: [0.1], ▸seed: 3}\nrefine:")],
-    &["nothing here is random", "add `perturb: 0.2`"]
+    &["`seed` has no effect without `perturb`", "add `perturb: 0.2`"]
 )]
 #[case::nothing_moved(
     &[("refine:", "▸particles: {shift: [0]}\nrefine:")],
-    &["this moves no particle"]
+    &["`particles` moves no particle"]
 )]
 #[case::a_shift_in_the_plane(
     &[("refine:", "particles: {shift: ▸[0.1, 0.1]}\nrefine:")],

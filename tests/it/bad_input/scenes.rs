@@ -53,14 +53,14 @@ use rstest::rstest;
 )]
 #[case::particles_without_a_number_of_them(
     &[(", ppc: 4", ""), ("- mpm:", "- ▸mpm:")],
-    &["MPM needs particles, and `refine` says no `ppc`", "add `ppc: 4` to `refine`"]
+    &["MPM needs particles, but `refine` has no `ppc`", "add `ppc: 4` to `refine`"]
 )]
 #[case::no_truth(
     &[
         ("suite: bar", "▸suite: bar"),
         ("exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n", ""),
     ],
-    &["no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or `reference`"]
+    &["a convergence study needs `exact`, `manufactured`, `equilibrium` or `reference`"]
 )]
 #[case::a_formula_for_another_equation(
     &[("small_strain", "▸log_strain")],
@@ -73,11 +73,11 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[rstest]
 #[case::a_method_for_one_dimension(
     &[("  - mpm:", "  - ▸fem: {element: linear, mass: lumped}\n  - mpm:")],
-    &["the reference FEM is 1-D, the scene 2-D"]
+    &["the built-in FEM is 1-D, but the scene is 2-D"]
 )]
 #[case::a_reference_for_one_dimension(
     &[("run:", "▸reference:\n  equation: small_strain\n  fem: {element: linear, mass: lumped, cells: 100, dt: 1e-3}\nrun:")],
-    &["the reference FEM is 1-D, the scene 2-D", "give this scene an `exact` solution"]
+    &["the built-in FEM is 1-D, but the scene is 2-D", "give this scene an `exact` solution"]
 )]
 #[case::a_fixed_face_between_nodes(
     &[
@@ -90,7 +90,7 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     ],
     &[
         "with 8 cells along the first axis the top face, which is fixed, is at 1.1",
-        "the nodes next to it at 1.125",
+        "but the nearest nodes are at 1.125",
         "expected a cell size that divides the length, not 0.0625 m",
     ]
 )]
@@ -108,7 +108,7 @@ fn gravity_twice() {
 fn two_tractions_on_one_face() {
     let load = "    - traction: {on: right, value: [p0]}\n";
     let twice = format!("{load}{}", load.replace("right", "▸right"));
-    refused(PULLED, &[(load, &twice)], &["the face `right` has a traction already"]);
+    refused(PULLED, &[(load, &twice)], &["the face `right` already has a traction"]);
 }
 
 const BENT: &str = include_str!("../../../verification/loads/bending-bar.yaml");
@@ -120,7 +120,7 @@ const BENT: &str = include_str!("../../../verification/loads/bending-bar.yaml");
 )]
 #[case::beside_another_load(
     &[("on: left", "on: ▸right")],
-    &["the face `right` has a pressure already"]
+    &["the face `right` already has a pressure"]
 )]
 #[case::on_the_base(&[("on: left", "on: ▸bottom")], &["the face `bottom` is fixed"])]
 #[case::with_a_direction(

@@ -67,7 +67,7 @@ fn lists_whose_product_is_a_thousand_million_cases() {
         list("usl", 1000)
     );
     let right = "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}";
-    let words = ["these lists unfold into 1000000000 cases", "expected at most 1000 in a suite"];
+    let words = ["these lists give 1000000000 cases", "expected at most 1000 in a suite"];
     refused_at_once(BAR, &[(right, &method)], &words);
 }
 

@@ -26,10 +26,10 @@ expect:
 
 #[rstest]
 #[case::of_perturbed_particles(
-    &[("ppc: 2}", "ppc: 2, ▸perturb: 0.1}")], &["spectrum needs regular particles"]
+    &[("ppc: 2}", "ppc: 2, ▸perturb: 0.1}")], &["a spectrum study needs regular particles"]
 )]
 #[case::of_further_particles(
-    &[("ppc: 2}", "ppc: 2, ▸extra: [[1]]}")], &["spectrum needs regular particles"]
+    &[("ppc: 2}", "ppc: 2, ▸extra: [[1]]}")], &["a spectrum study needs regular particles"]
 )]
 #[case::of_particles_in_another_cell(
     &[("ppc: 2}", "ppc: 2, shift: ▸[0.25]}")],
@@ -46,66 +46,66 @@ expect:
   grid: {from: [0], to: [16]}\n",
         ),
     ],
-    &["spectrum needs one body"]
+    &["a spectrum study needs one body"]
 )]
 #[case::of_a_nonlinear_law(
-    &[("{linear_elastic:", "▸{neo_hookean:")], &["spectrum needs a linear law: `linear_elastic`"]
+    &[("{linear_elastic:", "▸{neo_hookean:")], &["a spectrum study needs a linear law: `linear_elastic`"]
 )]
 #[case::with_walls(
     &[("{left: periodic, right: periodic}", "▸{left: fixed, right: fixed}")],
-    &["spectrum needs periodic faces"]
+    &["a spectrum study needs periodic faces"]
 )]
 #[case::with_free_faces(
     &[("\n  boundary: {left: periodic, right: periodic}", ""), ("scene:\n  ", "scene:\n  ▸")],
-    &["spectrum needs periodic faces"]
+    &["a spectrum study needs periodic faces"]
 )]
 #[case::in_the_plane(
     &[
         ("dimension: 1", "dimension: ▸2"),
         ("from: [0], to: [16]", "from: [0, 0], to: [16, 16]"),
     ],
-    &["spectrum needs one dimension"]
+    &["a spectrum study needs one dimension"]
 )]
 #[case::above_the_stability_limit(
     &[("courant: [0.4]", "courant: [0.4, ▸0.8]")],
-    &["spectrum needs a Courant number below the stability limit", "of `mpm-linear-flip-usl` is 0.7559"]
+    &["a spectrum study needs a Courant number below the stability limit", "of `mpm-linear-flip-usl` is 0.7559"]
 )]
 #[case::of_waves_that_are_too_short(
     &[("wavelength: [8, 16]", "wavelength: [8, ▸1.6]")],
-    &["spectrum needs at least 2 cells per wavelength"]
+    &["a spectrum study needs at least 2 cells per wavelength"]
 )]
 #[case::of_waves_that_do_not_fit(
     &[("wavelength: [8, 16]", "wavelength: [▸5, 16]")],
-    &["spectrum needs a whole number of wavelengths in the row of cells", "3.2 wavelengths"]
+    &["a spectrum study needs a whole number of wavelengths in the row of cells", "3.2 wavelengths"]
 )]
 #[case::of_waves_longer_than_the_row(
-    &[("wavelength: [8, 16]", "wavelength: ▸32")], &["spectrum needs a whole number of wavelengths"]
+    &[("wavelength: [8, 16]", "wavelength: ▸32")], &["a spectrum study needs a whole number of wavelengths"]
 )]
 #[case::of_a_wave_that_the_grid_does_not_see(
     &[("ppc: 2", "ppc: 1"), ("wavelength: [8, 16]", "wavelength: ▸2")],
-    &["spectrum needs a wave that the grid represents", "the symbol s of the mass of `mpm-linear-flip-usl` is 0"]
+    &["a spectrum study needs a wave that the grid represents", "the symbol s of the mass of `mpm-linear-flip-usl` is 0"]
 )]
 #[case::of_a_loaded_body(
-    &[("\nparticles:", "\n  loads:\n    ▸- gravity: [-1]\nparticles:")], &["spectrum needs a body without loads"]
+    &[("\nparticles:", "\n  loads:\n    ▸- gravity: [-1]\nparticles:")], &["a spectrum study needs a body without loads"]
 )]
 #[case::of_a_moving_body(
     &[("scene:\n  ", "scene:\n  ▸"), ("\nparticles:", "\n  initial_velocity: [1]\nparticles:")],
-    &["spectrum needs a body at rest"]
+    &["a spectrum study needs a body at rest"]
 )]
 #[case::of_a_transfer_without_closed_form(
     &[("basis: linear, transfer: flip", "basis: quadratic_bspline, transfer: ▸mls")],
-    &["spectrum needs a transfer with a closed form", "`mls` with a lumped mass matrix has none"]
+    &["a spectrum study needs a transfer with a closed form", "`mls` with a lumped mass matrix has none"]
 )]
 #[case::in_single_precision(
-    &[("scheme: usl", "scheme: usl, precision: ▸single")], &["spectrum needs double precision"]
+    &[("scheme: usl", "scheme: usl, precision: ▸single")], &["a spectrum study needs double precision"]
 )]
 #[case::of_an_fem(
     &[("- mpm: {basis: linear, transfer: flip, scheme: usl}", "- ▸fem: {element: linear, mass: lumped}")],
-    &["spectrum needs methods of MPM in time", "--solver COMMAND"]
+    &["a spectrum study needs methods of MPM in time", "--solver COMMAND"]
 )]
 #[case::with_nothing_expected(
     &[("  - phase_within: 0.02\n    damping_within: 0.02\n    because", "  - ▸because")],
-    &["nothing is expected of this case", "`phase_within` or `damping_within`"]
+    &["this expectation is empty", "`phase_within` or `damping_within`"]
 )]
 #[case::with_a_negative_bound(
     &[("phase_within: 0.02", "phase_within: ▸-0.02")], &["the deviation is -0.02"]

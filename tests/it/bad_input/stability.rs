@@ -8,11 +8,11 @@ use rstest::rstest;
     &[("sweep: {d: [", "sweep: {e: ▸[")], &["`e` is not a parameter", "did you mean"]
 )]
 #[case::of_two_parameters(
-    &[("sweep: {d: [0.5", "sweep: ▸{C: [1], d: [0.5")], &["one parameter is swept at a time"]
+    &[("sweep: {d: [0.5", "sweep: ▸{C: [1], d: [0.5")], &["`sweep` must vary exactly one parameter"]
 )]
-#[case::of_nothing(&[("sweep: {d: [0.5, 0.1, 0.02, 0.01, 0.002, 0.001]}", "sweep: ▸{}")], &["one parameter"])]
+#[case::of_nothing(&[("sweep: {d: [0.5, 0.1, 0.02, 0.01, 0.002, 0.001]}", "sweep: ▸{}")], &["exactly one parameter"])]
 #[case::whose_limit_is_sought(
-    &[("{parameter: C", "{parameter: ▸d")], &["`d` is swept, and its limit sought"]
+    &[("{parameter: C", "{parameter: ▸d")], &["`d` cannot be the parameter of both"]
 )]
 #[case::with_an_empty_range(
     &[("from: 0.01, to: 4", "from: 4, to: ▸4")], &["the range ends at 4 and starts at 4"]
@@ -27,15 +27,15 @@ use rstest::rstest;
 )]
 #[case::beside_a_grid_of_half_metres(
     &[("cells: 10", "cells: 20"), ("extra: [[\"4 + d\"]]", "extra: [▸[9]]")],
-    &["a particle at 9 is outside the grid", "expected a place from -2 to 8"]
+    &["a particle at 9 is outside the grid", "expected a position from -2 to 8"]
 )]
 #[case::of_a_loaded_body(
     &[("\nparticles:", "  loads:\n    - gravity: [-1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
-    &["a frozen body rests"]
+    &["a frozen run must start at rest"]
 )]
 #[case::of_a_body_that_starts_otherwise(
     &[("\nparticles:", "  initial_velocity: [1]\n\nparticles:"), ("frozen: true", "▸frozen: true")],
-    &["a frozen body rests"]
+    &["a frozen run must start at rest"]
 )]
 #[case::in_load_steps(
     &[
@@ -44,22 +44,22 @@ use rstest::rstest;
             "- mpm: {basis: linear, scheme: ▸quasi_static}",
         ),
     ],
-    &["stability is studied of steps in time"]
+    &["a stability study needs time steps"]
 )]
 #[case::without_a_limit(
     &[("critical: {parameter: C, from: 0.01, to: 4}\n", ""), ("    critical: {is", "    ▸critical: {is")],
-    &["no limit is sought"]
+    &["a limit is expected, but the suite has no `critical`"]
 )]
 #[case::with_a_single_run(
     &[("    critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "    ▸verdict: stable")],
-    &["no row has a single run"]
+    &["no row is a single run"]
 )]
 #[case::with_half_a_closed_form(
     &[("critical: {is: \"sqrt(2*d*(1 - d))\", within: \"0.6*d\"}", "critical: ▸{within: 0.1}")],
     &["expected both"]
 )]
 #[case::with_nothing_said(
-    &[("critical: {above: 1.7, below: 1.8}", "critical: ▸{}")], &["nothing is said of this figure"]
+    &[("critical: {above: 1.7, below: 1.8}", "critical: ▸{}")], &["this figure has no bound"]
 )]
 #[case::with_a_figure_unknown(
     &[
@@ -70,7 +70,7 @@ use rstest::rstest;
 )]
 #[case::of_an_fem(
     &[("- mpm: {basis: linear, transfer: [flip, pic, apic], scheme: [usl, usf, musl]}", "- ▸fem: {element: linear, mass: lumped}")],
-    &["stability is studied of MPM only"]
+    &["a stability study supports MPM only"]
 )]
 #[case::with_uneven_particles(
     &[("dimension: 1", "dimension: 2"), ("from: [0], to: [4]", "from: [0, 0], to: [4, 4]"),
@@ -85,7 +85,7 @@ use rstest::rstest;
     &[("transfer: [flip, pic, apic]", "transfer: [flip, {▸fmpn: 2}]")], &["fmpn"]
 )]
 #[case::with_steps_that_take_no_turns(
-    &[("frozen: true", "frozen: true, ▸every: 2")], &["steps of one length take no turns"]
+    &[("frozen: true", "frozen: true, ▸every: 2")], &["`every` needs a second step length"]
 )]
 #[case::with_turns_too_long(
     &[("frozen: true", "frozen: true, alternate: 1, every: ▸1e4")], &["expected at most 1000"]
@@ -108,16 +108,16 @@ const HALVES: [(&str, &str); 2] = [
 ];
 
 #[rstest]
-#[case::with_a_further_particle(("extra: [[", "▸extra: [["), "is of one body")]
+#[case::with_a_further_particle(("extra: [[", "▸extra: [["), "`extra` is supported for a single body only")]
 #[case::with_a_null_space(
-    ("methods:", "show: [▸null_share]\nmethods:"), "`null_share` is a figure of one body"
+    ("methods:", "show: [▸null_share]\nmethods:"), "`null_share` is supported for a single body only"
 )]
 #[case::in_contact_and_frozen(
-    ("frozen: true", "▸frozen: true"), "have no linear step"
+    ("frozen: true", "▸frozen: true"), "`frozen` is not supported with contact"
 )]
 fn a_stability_study_of_several_bodies(#[case] place: (&str, &str), #[case] words: &str) {
     let mut edits = vec![HALVES[1], HALVES[0], place];
-    if words != "is of one body" {
+    if words != "`extra` is supported for a single body only" {
         edits.push((", extra: [[\"4 + d\"]]", ""));
         edits.push(("  grid: ", "  contact: {friction: 0}\n  grid: "));
         edits.push(("d: 0.5       #", "d: 0.5   #"));

@@ -11,7 +11,7 @@ const NO_FEM: (&str, &str) = (
 
 #[rstest]
 #[case::for_a_method_that_has_none(
-    &[("dt: 1e-3", "dt: auto"), ("  - fem: {", "  - ▸fem: {")], &["chosen by a rule"]
+    &[("dt: 1e-3", "dt: auto"), ("  - fem: {", "  - ▸fem: {")], &["an automatic time step is available for MPM only"]
 )]
 #[case::of_no_length(
     &[MPM_ONLY, NO_FEM, ("dt: 1e-3", "dt: {courant: ▸0}")], &["must be above zero"]
@@ -29,7 +29,7 @@ fn a_rule(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 
 #[rstest]
 #[case::that_takes_turns(
-    &[("dt: \"C*h/c\"", "dt: {courant: C}, ▸alternate: 0.1")], &["take no turns"]
+    &[("dt: \"C*h/c\"", "dt: {courant: C}, ▸alternate: 0.1")], &["`alternate` is not supported with an automatic time step"]
 )]
 fn a_rule_of_a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SWEPT, edits, words);

@@ -11,13 +11,13 @@ fn edited(table: &str) -> String {
 }
 
 #[rstest]
-#[case::a_row_of_three("{by: L, table: [[0, 1], ▸[50, 1, 1]]}", &["this row does not have two numbers", "expected a value of `L`, and the parameter's there"])]
-#[case::one_row("{by: L, table: ▸[[0, 1]]}", &["a table has at least two rows", "a parameter of one value is a number"])]
+#[case::a_row_of_three("{by: L, table: [[0, 1], ▸[50, 1, 1]]}", &["this row does not have two numbers", "expected a value of `L` and the value of the parameter"])]
+#[case::one_row("{by: L, table: ▸[[0, 1]]}", &["a table needs at least two rows", "for a constant parameter, write a number"])]
 #[case::rows_out_of_order("{by: L, table: [[50, 1], [▸0, 1]]}", &["0 follows 50", "expected rows in ascending order"])]
 #[case::a_row_twice("{by: L, table: [[50, 1], [▸50, 1]]}", &["50 follows 50"])]
 #[case::an_infinite_value("{by: L, table: [[0, 1], [1, ▸1/0]]}", &["not finite"])]
 #[case::a_text("{by: L, table: [[0, 1], [1, ▸gg]]}", &["unknown name `gg`"])]
-#[case::by_itself("{by: ▸v0, table: [[0, 1], [1, 2]]}", &["`v0` is a table by itself"])]
+#[case::by_itself("{by: ▸v0, table: [[0, 1], [1, 2]]}", &["the table of `v0` depends on `v0` itself"])]
 #[case::by_a_later_parameter("{by: ▸omega, table: [[0, 1], [1, 2]]}", &["unknown name `omega`", "declared further down"])]
 #[case::by_a_formula("{by: ▸\"2*L\", table: [[0, 1], [1, 2]]}", &["`2*L` is not a name"])]
 #[case::another_key("{by: L, ▸rows: [[0, 1], [1, 2]]}", &["unknown key `rows`", "`table`"])]

@@ -54,7 +54,7 @@ fn a_law_in_rate_form(#[case] law: &str) {
     let name = format!("{law}: {{young");
     let edits: Edits<'_> = &[("neo_hookean: {young", &name), ("- mpm: {", "- ▸mpm: {")];
     let words = &[
-        &format!("`volume: averaged` does not go with the law `{law}`")[..],
+        &format!("`volume: averaged` is not supported with the law `{law}`")[..],
         "a law in rate form does not compute its stress from F or J",
     ];
     refused(PANEL, edits, words);
@@ -66,7 +66,7 @@ fn in_one_dimension() {
         "- mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}",
         "- ▸mpm: {basis: linear, transfer: flip, scheme: musl, volume: averaged}",
     )];
-    refused(BAR, edits, &["`volume: averaged`", "in 1-D", "nothing locks"]);
+    refused(BAR, edits, &["`volume: averaged`", "in 1-D", "volumetric locking does not occur"]);
 }
 
 #[test]
@@ -74,14 +74,22 @@ fn a_linear_fluid_in_one_dimension() {
     assert!(COLUMN.contains("linear_fluid") && COLUMN.contains("dimension: 1"));
     let text = COLUMN.replacen("scheme:", "volume: averaged, scheme:", 1);
     let refused = load(&text).expect_err("a column").to_string();
-    assert!(refused.contains("`volume: averaged` would average the whole strain in 1-D"));
+    assert!(
+        refused.contains(
+            "`volume: averaged` is not supported in 1-D: it would average the whole strain"
+        )
+    );
 }
 
 #[test]
 fn in_plane_stress() {
     let edits: Edits<'_> =
         &[("- mpm: {basis: linear,", "- ▸mpm: {volume: averaged, basis: linear,")];
-    refused(WAVE, edits, &["`volume: averaged`", "`plane: stress`", "nothing locks"]);
+    refused(
+        WAVE,
+        edits,
+        &["`volume: averaged`", "`plane: stress`", "volumetric locking does not occur"],
+    );
 }
 
 #[test]

@@ -103,14 +103,14 @@ fn the_published_force_is_refused() {
     &[("outer: 1.25", "outer: ▸0.5")],
     &["the outer radius is 0.5, the inner 0.75", "above `inner`"]
 )]
-#[case::a_radius_of_zero(&[("inner: 0.75", "inner: ▸0")], &["the radius is 0, and must be above zero"])]
+#[case::a_radius_of_zero(&[("inner: 0.75", "inner: ▸0")], &["the radius is 0, but must be above zero"])]
 #[case::a_body_of_another_dimension(
     &[("{annulus: {centre: [0, 0], inner: 0.75, outer: 1.25}}", "{▸ball: {centre: [0, 0, 0], radius: 1}}")],
-    &["the scene is 2-D, and `ball` a body in 3-D", "`box`, `annulus`, `disk`, `polygon` or `quadrilateral`"]
+    &["the scene is 2-D, but `ball` is a body in 3-D", "`box`, `annulus`, `disk`, `polygon` or `quadrilateral`"]
 )]
 #[case::a_rim_that_is_held(
     &[("  loads:", "  boundary: {▸left: fixed}\n  loads:")],
-    &["the rims of a body of kind `annulus` are free, not `left`"]
+    &["`left` cannot be held: a body of kind `annulus` has free rims only"]
 )]
 #[case::a_rim_that_does_not_exist(
     &[("  loads:", "  loads:\n    - pressure: {on: ▸iner, value: 1}")],
@@ -118,7 +118,7 @@ fn the_published_force_is_refused() {
 )]
 #[case::two_pressures_on_a_rim(
     &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1}\n    - pressure: {on: ▸inner, value: 2}")],
-    &["the rim `inner` has a pressure already"]
+    &["the rim `inner` already has a pressure"]
 )]
 #[case::a_pressure_at_the_particles_of_a_rim(
     &[("  loads:", "  loads:\n    - pressure: {on: inner, value: 1, at: ▸particles}")],
@@ -130,11 +130,11 @@ fn the_published_force_is_refused() {
 )]
 #[case::a_rim_that_is_pulled(
     &[("  loads:", "  loads:\n    - traction: {on: ▸inner, value: [1, 0]}")],
-    &["the rims of a body of kind `annulus` are free, `inner` has no load"]
+    &["`inner` cannot be loaded: a body of kind `annulus` has free rims only"]
 )]
 #[case::a_grid_that_is_too_small(
     &[("from: [-2, -2]", "from: [-2, ▸-1]")],
-    &["the annulus reaches to -1.25, and the grid ends at -1", "at most -1.25"]
+    &["the annulus extends to -1.25, but the grid ends at -1", "at most -1.25"]
 )]
 #[case::a_rim_under_traction(
     &[("outer: 1.25", "outer: 1.2"), ("    - \"cos(alpha(X", "    - ▸\"cos(alpha(X")],
@@ -142,7 +142,7 @@ fn the_published_force_is_refused() {
 )]
 #[case::an_observer_in_the_hole(
     &[("\nexpect:", "\nobserve: {at: ▸[0.1, 0.2]}\n\nexpect:")],
-    &["this place is outside the body", "expected a place in the annulus"]
+    &["this point is outside the body", "expected a point in the annulus"]
 )]
 fn an_annulus_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(&VORTEX.replace("FORCE", CURRENT), edits, words);

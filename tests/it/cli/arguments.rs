@@ -62,7 +62,7 @@ fn values_of_options_are_refused_with_what_is_expected() {
     compare a.json b.json --tolerance -0.1
     error: invalid value '-0.1' for '--tolerance <SHARE>': expected a finite number, zero or more
     check bar.yaml --solver 'python3 "solver.py'
-    error: --solver python3 "solver.py: the solver command has a quote that is not closed, or ends with a backslash
+    error: --solver python3 "solver.py: the solver command has an unclosed quote, or ends with a backslash
     check bar.yaml --solver ''
     error: --solver : the solver is empty: expected a command with its arguments
     "#);

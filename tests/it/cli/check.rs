@@ -44,7 +44,7 @@ fn an_acknowledged_warning_is_not_printed() {
     assert_eq!(warned.code, FAILED);
     assert_contains(
         &warned.errors,
-        &["times what a wave takes to cross a cell", "`acknowledge` `time_step`"],
+        &["times the time in which a wave crosses a cell", "`acknowledge` `time_step`"],
     );
     folder.write("bar.yaml", long_step(ACKNOWLEDGED));
     let found = folder.call(&["check", "bar.yaml", "--strict"]);
@@ -59,7 +59,7 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
     let found = folder.call(&["check", "bar.yaml", "--strict"]);
     assert_eq!(found.code, FAILED);
     let missing = "there is no warning `end_on_node` to acknowledge";
-    assert_contains(&found.errors, &[missing, "times what a wave takes to cross a cell"]);
+    assert_contains(&found.errors, &[missing, "times the time in which a wave crosses a cell"]);
 }
 
 #[rstest]
@@ -67,7 +67,7 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
 #[case::no_reason("[{warning: time_step}]", "missing key `because`")]
 #[case::an_empty_reason(
     "[{warning: time_step, because: \" \"}]",
-    "an acknowledged warning needs its reason"
+    "`because` is empty: state the reason for this acknowledged warning"
 )]
 #[case::the_same_twice(
     "[{warning: time_step, because: x}, {warning: time_step, because: y}]",

@@ -259,7 +259,7 @@ fn a_commit_that_is_not_there_is_an_error() {
     assert_eq!(found.code, BAD_INPUT);
     assert_contains(
         &found.errors,
-        &["`older` is no file and no folder, and no commit with snapshots"],
+        &["`older` is neither a file, nor a folder, nor a commit with snapshots"],
     );
 }
 
@@ -271,7 +271,7 @@ fn a_run_is_not_compared_with_snapshots() {
     let found = folder.call(&["compare", "old", "run"]);
     assert_eq!(found.code, BAD_INPUT, "{}", found.errors);
     insta::assert_snapshot!(found.errors, @"
-    error: `old` and `run` are the results of a run and snapshots, which have other figures
+    error: `old` and `run` are the results of a run and snapshots, which have different figures
     help: compare two runs (JSON), or two sets of snapshots (folders or commits)
     ");
     assert_eq!(folder.call(&["compare", "run", "run/report.json"]).code, SOUND);

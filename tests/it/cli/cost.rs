@@ -115,7 +115,7 @@ fn what_cannot_be_bought_says_so() {
     let folder = Folder::with("bar.yaml", BAR);
     let poor = folder.call(&["cost", "bar.yaml", "--budget", "1e-9s"]);
     assert_eq!(poor.code, FAILED);
-    assert_contains(&poor.errors, &["nothing is predicted to be done in"]);
+    assert_contains(&poor.errors, &["no setting is predicted to run within"]);
     let time = folder.call(&["cost", "heat-temporal-order", "--budget", "1s"]);
     assert_eq!(time.code, FAILED);
     assert_contains(&time.errors, &["does not refine its cells"]);

@@ -14,7 +14,7 @@ use rstest::rstest;
     "mpm-linear-flip-usl-vs-exact\n  expected: failed\n  because: a particle that has just entered",
 ])]
 #[case::a_linearised_wave("acoustic-column", &[
-    "linearised        2.0e-6 of the terms of its equations is left (5e-6 allowed), an error of about \
+    "linearised        residual of 2.0e-6 of the terms of its equations (5e-6 allowed), an error of about \
      3e-13 m during the run, because strains are 1e-6",
 ])]
 #[case::one_particle("grid-crossing", &[
@@ -72,7 +72,7 @@ fn contact_can_be_left_out_too() {
 #[test]
 fn without_what_is_not_there_nothing_changes() {
     let found = Folder::new().call(&["explain", "set-force", "--without", "gravity"]);
-    assert_contains(&found.out, &["`gravity` is not there, nothing changes"]);
+    assert_contains(&found.out, &["`gravity` is not used, so nothing changes"]);
 }
 
 #[test]

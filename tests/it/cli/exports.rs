@@ -139,7 +139,7 @@ fn titles_and_labels_are_those_of_tables_and_figures_only() {
 #[rstest]
 #[case(
     "--label|mpm-linear-flip-mus=a",
-    "error: --label mpm-linear-flip-mus: no case of this name; did you mean `mpm-linear-flip-musl`?"
+    "error: --label mpm-linear-flip-mus: no case has this name; did you mean `mpm-linear-flip-musl`?"
 )]
 #[case(
     "--label|fem-linear-lumped=a|--label|mpm-linear-flip-musl=a",

@@ -14,8 +14,11 @@ fn a_run_that_is_interrupted_says_how_to_go_on() {
     let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-8");
     folder.write("long.yaml", long);
     for (more, words) in [
-        (&[][..], "interrupted, and nothing is kept: with a folder for results, `mpm-verify run"),
-        (&["--resume", "kept"], "long.yaml --resume kept` goes on from here"),
+        (
+            &[][..],
+            "interrupted, and no results are stored: with a folder for results, `mpm-verify run",
+        ),
+        (&["--resume", "kept"], "long.yaml --resume kept` resumes the run"),
     ] {
         let mut command = folder.command(&[&["run", "first.yaml", "long.yaml"], more].concat());
         let mut child =

@@ -269,7 +269,7 @@ fn what_is_wrong_with_a_file_is_in_the_document_of_check() {
     let diagnostic = &document["suites"][0]["diagnostics"][0];
     let wanted = json!({
         "severity": "error", "file": "bad.yaml", "line": 9, "column": 3,
-        "message": "unknown key `dimensions`", "label": "no key that is known here",
+        "message": "unknown key `dimensions`", "label": "not a known key",
         "help": "did you mean `dimension`?",
     });
     assert_eq!((diagnostic, &document["errors"]), (&wanted, &json!(1)));

@@ -218,7 +218,7 @@ fn a_folder_without_a_suite_is_an_error() {
     let folder = Folder::with("empty/notes.txt", "nothing");
     for command in ["list", "check", "explain", "run", "cost"] {
         let errors = folder.refused(&[command, "empty"]);
-        assert_contains(&errors, &["this folder holds no suite"]);
+        assert_contains(&errors, &["this folder contains no suite"]);
     }
 }
 

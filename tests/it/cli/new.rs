@@ -62,9 +62,9 @@ fn a_truth_that_the_material_does_not_have_is_refused() {
     ];
     insta::assert_snapshot!(refusals(&folder, &calls), @"
     new first --truth manufactured --material linear_elastic
-    error: --truth manufactured: no force is manufactured for `linear_elastic`, a law in rate form has no stress of the deformation alone
+    error: --truth manufactured: a force cannot be manufactured for `linear_elastic`: a law in rate form does not compute its stress from the deformation
     new first --truth standing_wave --material hencky
-    error: --truth standing_wave: no wave of `hencky` stands, waves of finite strain steepen; it is a truth of `linear_elastic`
+    error: --truth standing_wave: `hencky` has no standing wave, because waves of finite strain steepen: use `linear_elastic`
     ");
     assert!(folder.files(".").is_empty());
 }
@@ -108,7 +108,7 @@ fn what_is_proposed_for_a_new_suite_makes_it_a_gate() {
 fn a_file_that_is_there_is_left_alone() {
     let folder = Folder::with("first.yaml", "mine");
     let errors = folder.refused(&["new", "first"]);
-    insta::assert_snapshot!(errors, @"error: first.yaml is there already, and is not overwritten; --output names another file");
+    insta::assert_snapshot!(errors, @"error: first.yaml already exists and is not overwritten; choose another file with --output");
     assert_eq!(folder.read("first.yaml"), "mine");
 }
 

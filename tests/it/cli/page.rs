@@ -91,5 +91,5 @@ fn a_page_that_cannot_be_written_is_refused_before_anything_runs() {
     folder.write("a.yaml", BAR);
     folder.write("b.yaml", BAR);
     let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
-    assert_contains(&errors, &["two suites are called `short-bar`"]);
+    assert_contains(&errors, &["two suites have the name `short-bar`"]);
 }

@@ -31,7 +31,7 @@ fn the_bare_command_prints_an_overview_and_in_full_only_what_did_not_come_as_exp
     assert_eq!(folder.call(&["run"]).out, found.out);
     folder.write("verification/bars/bar-1.snap", "accepted");
     let accepted = folder.call(&[]).out;
-    assert_contains(&accepted, &["reports: verification/GROUP/SUITE.snap, "]);
+    assert_contains(&accepted, &["reports: accepted snapshots in verification/GROUP/SUITE.snap; "]);
     let written = folder.call(&["--out", "results"]).out;
     assert!(written.ends_with("reports: results/SUITE.txt\n"), "{written}");
 }
@@ -78,7 +78,7 @@ fn suites_are_chosen_by_pattern_and_group(#[case] target: &str, #[case] count: u
 fn a_pattern_that_fits_nothing_is_an_error() {
     let errors = six().refused(&["check", "bear-*"]);
     insta::assert_snapshot!(errors, @"
-    error: no suite has a name like `bear-*`
+    error: no suite matches `bear-*`
     --> bear-*
      = help: `*` stands for any text: `mms-*`, `heat/*`
     1 error

@@ -86,7 +86,7 @@ fn a_problem_that_cannot_be_written_is_refused() {
     problem bar.yaml --format xls
     error: invalid value 'xls' for '--format <FORMAT>': expected one of csv, json, npz, vtu
     problem courant-limit
-    error: courant-limit: it is no convergence study
+    error: courant-limit: it is not a convergence study
     problem heat-step --at 0.1
     error: heat-step: the suite states no exact motion
     ");

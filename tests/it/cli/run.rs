@@ -63,7 +63,7 @@ fn a_bad_file_does_not_hide_the_report_of_a_good_one() {
      --> bad.yaml:9:3
       |
     9 |   dimensions: 1
-      |   ^^^^^^^^^^ no key that is known here
+      |   ^^^^^^^^^^ not a known key
       |
       = help: did you mean `dimension`?
     error: there is no suite called `odometer`
@@ -150,7 +150,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
     let folder = Folder::with("a.yaml", BAR);
     folder.write("b.yaml", BAR);
     let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--out", "results"]);
-    insta::assert_snapshot!(errors, @"error: --out: two suites are called `short-bar`, and would write the same files");
+    insta::assert_snapshot!(errors, @"error: --out: two suites have the name `short-bar` and would write the same files");
     assert_eq!(folder.call(&["run", "a.yaml", "b.yaml"]).code, SOUND);
 }
 

@@ -55,7 +55,7 @@ fn a_part_without_a_case_passes() {
     let folder = Folder::with("verification/a.yaml", BAR);
     let found = folder.call(&["run", "--shard", "7/7"]);
     assert_eq!((found.code, found.out.as_str()), (SOUND, ""));
-    insta::assert_snapshot!(found.errors, @"note: no case is left for this part");
+    insta::assert_snapshot!(found.errors, @"note: this shard has no case");
 }
 
 #[rstest]
@@ -76,7 +76,7 @@ fn cases_are_chosen_by_their_names() {
     let cases: Vec<&str> = found.out.lines().filter(|line| line.contains("::")).collect();
     assert!(cases.len() == 1 && cases[0].contains("other-bar::mpm-linear-flip-usl"), "{cases:?}");
     let errors = folder.refused(&["run", "--case", "apic"]);
-    insta::assert_snapshot!(errors, @"error: --case apic: no case has this in its name");
+    insta::assert_snapshot!(errors, @"error: --case apic: no name of a case contains this text");
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn a_study_without_runs_says_so() {
     let folder = Folder::new();
     let found = folder.call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"]);
     assert_eq!(found.code, SOUND);
-    assert_contains(&found.errors, &["nothing to show: "]);
+    assert_contains(&found.errors, &["no output: "]);
 }
 
 #[test]

@@ -32,23 +32,23 @@ fn run(script: &str) -> (i32, String, String) {
 #[rstest]
 #[case::too_few(
     r#"echo '{"type":"gradient","value":1,"gradient":[1]}'"#,
-    "gave a gradient of 1 numbers, expected 3: young, density, initial_velocity"
+    "sent a gradient of 1 numbers, expected 3: young, density, initial_velocity"
 )]
 #[case::too_many(
     r#"echo '{"type":"gradient","value":1,"gradient":[1,2,3,4]}'"#,
-    "gave a gradient of 4 numbers, expected 3: young, density, initial_velocity"
+    "sent a gradient of 4 numbers, expected 3: young, density, initial_velocity"
 )]
 #[case::nan(
     r#"echo '{"type":"gradient","value":1,"gradient":[1,NaN,3]}'"#,
-    "answered `differentiate` with NaN, which is no number; requested: young, density"
+    "answered `differentiate` with NaN, which is not a number; requested: young, density"
 )]
 #[case::infinity(
     r#"echo '{"type":"gradient","value":1,"gradient":[1,2,-Infinity]}'"#,
-    "answered `differentiate` with Infinity, which is no number; requested: young, density"
+    "answered `differentiate` with Infinity, which is not a number; requested: young, density"
 )]
 #[case::too_large_a_number(
     r#"echo '{"type":"gradient","value":1,"gradient":[1e999,2,3]}'"#,
-    "answered with what is no message (number out of range"
+    "sent an invalid message (number out of range"
 )]
 #[case::text(
     r#"echo '{"type":"gradient","value":1,"gradient":"young"}'"#,
@@ -68,7 +68,7 @@ fn run(script: &str) -> (i32, String, String) {
     "adjoint: NaN at step 17"
 )]
 #[case::a_crash("exit 3", "the solver ended without an answer (exit status 3)")]
-#[case::silence("sleep 99", "has been silent for 2 s")]
+#[case::silence("sleep 99", "did not answer within 2 s")]
 fn a_gradient_that_breaks_the_protocol_fails(#[case] then: &str, #[case] words: &str) {
     let (code, said, _) = run(&script(HELLO, then));
     // Nothing is expected of this solver, so the run succeeds.
@@ -114,7 +114,7 @@ fn a_solver_without_gradients_is_not_asked() {
 fn a_misspelt_parameter_among_the_capabilities_is_reported() {
     let misspelt = HELLO.replace(r#"["young","#, r#"["youngs","#);
     let (_, said, _) = run(&script(&misspelt, "exit 1"));
-    assert!(said.contains("`youngs` is not one of the gradients; did you mean `young`?"), "{said}");
+    assert!(said.contains("unknown name `youngs` in gradients; did you mean `young`?"), "{said}");
     assert!(said.contains("gradients: young (stated as `youngs`)"), "{said}");
 }
 
@@ -148,7 +148,7 @@ fn a_misspelt_parameter_among_the_capabilities_is_reported() {
 #[case::no_parameter(
     "{young: E, density: rho, initial_velocity: v0}",
     "{}",
-    "there is no parameter"
+    "`with_respect_to` names no parameter"
 )]
 #[case::a_level_that_does_not_exist("  cells: 32", "  cells: 33", "no level has 33 cells")]
 #[case::a_sweep_of_one_point("points: 11", "points: 1", "a sweep of 1 points")]
@@ -176,9 +176,9 @@ fn a_suite_of_gradients_is_refused(#[case] old: &str, #[case] new: &str, #[case]
 }
 
 #[rstest]
-#[case::an_end_for_each_case("until: 1.3", "until: [1.3, 2]", "one end of the run")]
+#[case::an_end_for_each_case("until: 1.3", "until: [1.3, 2]", "a single end time")]
 #[case::instants("until: 1.3", "until: 1.3, instants: 10", "the end of the run only")]
-#[case::refined_steps("dt: \"0.4*h\"", "dt: {courant: 0.4}", "does not depend on the method")]
+#[case::refined_steps("dt: \"0.4*h\"", "dt: {courant: 0.4}", "must not depend on the method")]
 fn a_problem_without_sensitivities_is_refused(
     #[case] old: &str,
     #[case] new: &str,
@@ -194,7 +194,10 @@ fn a_suite_without_an_exact_solution_is_refused_with_a_place() {
     let (before, truth) = SUITE.split_once("exact:\n").expect("the suite has an exact solution");
     let (_, after) = truth.split_once("\ngradient:").expect("the functional follows");
     let said = refusal(&format!("{before}gradient:{after}"));
-    assert!(said.contains("the exact solution of a gradient study is a displacement"), "{said}");
+    assert!(
+        said.contains("the exact solution of a gradient study must be a displacement"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -202,7 +205,7 @@ fn a_parameter_that_is_zero_is_refused() {
     let suite = SUITE.replace("  L: 1 ", "  nu: 0\n  L: 1 ").replace("poisson: 0", "poisson: nu");
     let suite = suite.replace("{young: E, density: rho, initial_velocity: v0}", "{poisson: nu}");
     let said = refusal(&suite);
-    assert!(said.contains("`nu` is 0, and a perturbation is a share of it"), "{said}");
+    assert!(said.contains("`nu` is 0, but perturbations are relative to its value"), "{said}");
 }
 
 /// Returns the error that `check` reports about a suite.

@@ -132,15 +132,18 @@ fn a_suite_states_what_any_method_can_reach(
 }
 
 #[rstest]
-#[case::nothing("", "this states nothing that a method can reach")]
-#[case::no_order("order: 0,", "the order is 0, and must be above zero")]
+#[case::nothing("", "this entry states no requirement")]
+#[case::no_order("order: 0,", "the order is 0, but must be above zero")]
 #[case::a_high_order("order: 21,", "expected an order up to 20")]
 #[case::no_bound("error_below: -1,", "the bound on errors is -1")]
 #[case::a_law_that_matters(
     "any_law: true,",
-    "the law matters, because the solution is not a translation"
+    "the solution depends on the law, because it is not a translation"
 )]
-#[case::not_gated_with_a_bound("gated: false, order: 1,", "a suite that is not gated has no order")]
+#[case::not_gated_with_a_bound(
+    "gated: false, order: 1,",
+    "with `gated: false`, a required order or bound has no effect"
+)]
 #[case::a_misspelt_key("orders: 1,", "did you mean `order`?")]
 fn a_mistake_in_any_method(#[case] keys: &str, #[case] words: &str) {
     let folder = folder("h");
@@ -350,8 +353,8 @@ fn a_configuration_with(
 #[case::no_order("formal_order: 0\n", &["the order is 0", "expected a number above 0 and up to 20"])]
 #[case::not_a_number("suites:\n  short-bar: {order: .nan, because: why}\n", &["solver.yaml:2:22", "a finite number is expected here"])]
 #[case::no_bound("suites:\n  short-bar: {error_below: 0, because: why}\n", &["the bound on errors is 0"])]
-#[case::no_terms("suites:\n  short-bar: {}\n", &["solver.yaml:2:3", "neither an order nor a bound"])]
-#[case::no_reason("suites:\n  short-bar: {order: 1}\n", &["an order or a bound for a suite needs its reason"])]
+#[case::no_terms("suites:\n  short-bar: {}\n", &["solver.yaml:2:3", "this entry states no order, no bound"])]
+#[case::no_reason("suites:\n  short-bar: {order: 1}\n", &["an order or a bound needs a reason"])]
 #[case::an_empty_reason("suites:\n  short-bar: {skip: ''}\n", &["the reason is empty"])]
 #[case::an_order_that_is_skipped("suites:\n  short-bar: {order: 1, skip: why}\n", &["remove `skip`"])]
 #[case::a_suite_twice("suites:\n  short-bar: {skip: a}\n  short-bar: {skip: b}\n", &["short-bar"])]

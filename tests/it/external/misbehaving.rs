@@ -30,15 +30,15 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 #[case::a_signal("kill -9 $$", "the solver ended without an answer (killed by signal 9)")]
 #[case::last_words(
     "echo 'out of cheese' >&2; echo 'first'",
-    "`first`; its last words: out of cheese"
+    "`first`; its last output on standard error: out of cheese"
 )]
 #[case::a_trace(
     "printf 'Trace:\\n  File \"a.py\", line 7, in step\\n    x / y\\n    ~~^~~\\nZeroDivisionError: zero\\n' >&2; exit 1",
-    "; its last words: File \"a.py\", line 7, in step | x / y | ZeroDivisionError: zero"
+    "; its last output on standard error: File \"a.py\", line 7, in step | x / y | ZeroDivisionError: zero"
 )]
 #[case::garbage(
     "echo hello there",
-    "answered with what is no message (what else it prints belongs on its standard error): `hello"
+    "sent an invalid message (print other text on standard error): `hello"
 )]
 #[case::another_type("echo '{\"type\":\"ready\"}'", "answered `advance` with `ready`")]
 #[case::an_unknown_type("echo '{\"type\":\"done\"}'", "unknown variant `done`")]
@@ -49,9 +49,9 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 )]
 #[case::too_few_numbers(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[0],\"velocity\":[0]}}'",
-    "gave the column `displacement` 1 numbers, expected 16"
+    "sent 1 numbers in the column `displacement`, expected 16"
 )]
-#[case::no_column("echo '{\"type\":\"state\",\"columns\":{}}'", "gave no column `displacement`")]
+#[case::no_column("echo '{\"type\":\"state\",\"columns\":{}}'", "sent no column `displacement`")]
 #[case::a_fraction_of_a_count(
     "echo '{\"type\":\"state\",\"columns\":{},\"crossings\":1.5}'",
     "expected a whole number, zero or more at line 1"
@@ -66,28 +66,28 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 )]
 #[case::a_negative_determinant(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":ZEROS,\"velocity\":ZEROS},\"min_j\":-1}'",
-    "gave `min_j` -1: a determinant of F is a positive number"
+    "sent -1 as `min_j`, but a determinant of F is positive"
 )]
 #[case::nan(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[NaN]}}'",
-    "answered with NaN, which is no number"
+    "answered with NaN, which is not a number"
 )]
 #[case::beyond_the_block(
     "printf '{\"type\":\"state\",\"bytes\":1,\"columns\":{\"displacement\":{\"f64\":[0,16]}}}\\nx'",
-    "gave the column `displacement` as 16 doubles from byte 0 on, of 1 bytes"
+    "placed the column `displacement` beyond its 1 bytes: 16 doubles from byte 0 on"
 )]
 #[case::an_impossible_block(
     "echo '{\"type\":\"state\",\"bytes\":99999999999999,\"columns\":{}}'; sleep 9",
     "answered with more than 1048576 bytes"
 )]
 #[case::a_flood_of_bytes("yes | tr -d '\\n'", "answered with more than 1048576 bytes")]
-#[case::a_flood_of_lines("yes", "answered with what is no message")]
+#[case::a_flood_of_lines("yes", "sent an invalid message")]
 #[case::endless_questions(
     "while :; do echo '{\"type\":\"body_force\",\"t\":0}'; read -r m; done",
-    "asked for values 1001 times"
+    "requested values 1001 times"
 )]
-#[case::silence("sleep 99", "has been silent for 0.3 s")]
-#[case::a_closed_pipe("exec >&-; sleep 99", "closed its output and went on")]
+#[case::silence("sleep 99", "did not answer within 0.3 s")]
+#[case::a_closed_pipe("exec >&-; sleep 99", "closed its output but did not end")]
 #[case::its_own_word("echo '{\"type\":\"failed\",\"reason\":\"all is lost\"}'", "all is lost")]
 fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words: &str) {
     // Tests that wait for the whole timeout use a short one.
@@ -108,7 +108,7 @@ fn a_process_that_reads_nothing_is_silent() {
         "read -r m; echo '{HELLO}'; read -r m; case \"$m\" in *bye*) ;; *) sleep 99;; esac"
     );
     let (_, said) = run(&deaf, &["--solver-timeout", "0.3s"]);
-    assert!(said.contains("has been silent for 0.3 s"), "{said}");
+    assert!(said.contains("did not answer within 0.3 s"), "{said}");
 }
 
 #[test]
@@ -144,11 +144,11 @@ fn no_grandchild_is_left() {
 #[case::no_hello("true", "ended without an answer (exit status 0)")]
 #[case::an_older_version(
     "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":7,\\\"name\\\":\\\"x\\\"}\"'",
-    "speaks version 7 of the protocol; expected version 1 or 2"
+    "uses version 7 of the protocol; expected version 1 or 2"
 )]
 #[case::a_name_that_is_a_path(
     "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":1,\\\"name\\\":\\\"../x\\\"}\"'",
-    "is called `../x`: expected up to 64 letters"
+    "has the invalid name `../x`: expected up to 64 letters"
 )]
 fn a_command_that_cannot_be_greeted_is_bad_input(#[case] command: &str, #[case] words: &str) {
     let folder = Folder::new();

@@ -54,7 +54,7 @@ fn a_program_is_judged_like_any_method() {
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
     for words in [
-        "solver: odd; version: 1; precision: double; formal order: 2, by its own account",
+        "solver: odd; version: 1; precision: double; formal order: 2, as stated by the solver",
         "odd converging 2.00 [2.00, 2.00]",
         "explored short-bar::odd converging",
     ] {
@@ -94,7 +94,7 @@ fn what_a_program_lacks_is_not_applicable() {
 fn studies_that_look_inside_a_method_are_left_out() {
     let found = folder().call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    assert!(found.errors.contains("grid-crossing: left out"), "{}", found.errors);
+    assert!(found.errors.contains("grid-crossing: skipped"), "{}", found.errors);
 }
 
 /// Creates a solver that writes a line into `log` for each problem that it accepts.

@@ -49,11 +49,17 @@ fn a_report_shows_no_transfers_of_solvers_that_count_none(folder: Folder) {
     assert_eq!(answer.code, SOUND, "{}", answer.errors);
     let (_, finest) = answer.out.split_once("on the finest level").expect("a table");
     let transfers = |case: &str| {
-        let mut lines = finest.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
-        let head = lines.find(|cells| cells.first() == Some(&"case")).expect("heads");
-        // `linf order` is one heading of two words.
-        let column = head.iter().position(|cell| *cell == "transfers").expect("a column") - 1;
-        lines.find(|cells| cells.first() == Some(&case)).expect("a row")[column].to_owned()
+        // Cells are separated by at least two spaces.
+        let cells = |line: &str| {
+            let cells = line.split("  ").map(|cell| cell.trim().to_owned());
+            cells.filter(|cell| !cell.is_empty()).collect::<Vec<String>>()
+        };
+        let mut lines = finest.lines().map(cells);
+        let mut row = |name: &str| {
+            lines.find(|cells| cells.first().is_some_and(|cell| cell == name)).expect("a row")
+        };
+        let column = row("case").iter().position(|cell| cell == "transfers").expect("a column");
+        row(case)[column].clone()
     };
     assert_eq!(transfers("mine"), "-");
     assert!(transfers("fem-linear-lumped").parse::<u64>().is_ok_and(|count| count > 0));
@@ -144,7 +150,7 @@ fn a_case_is_chosen_by_the_name_that_the_solver_is_given(folder: Folder) {
 )]
 #[case::parts(
     "--with-methods|--shard|1/2|--solver|a=sh one.sh",
-    "error: --shard: parts have one solver, or methods only"
+    "error: --shard: `--shard` supports one solver, or the built-in methods only"
 )]
 #[case::no_command(
     "--solver|a=",

@@ -62,7 +62,7 @@ fn a_share_of_the_step_is_one_of_what_a_wave_takes_to_cross_a_cell() {
 #[rstest]
 #[case::a_space("{name: my solver}", "this is not a name for a solver")]
 #[case::no_name("{formal_order: 2}", "missing key `name`")]
-#[case::no_order("{name: a, formal_order: 0}", "the formal order is 0, and must be above zero")]
+#[case::no_order("{name: a, formal_order: 0}", "the formal order is 0, but must be above zero")]
 #[case::a_high_order("{name: a, formal_order: 21}", "the formal order is 21")]
 #[case::another_precision("{name: a, precision: half}", "`half`")]
 #[case::a_command("{name: a, command: rm}", "unknown key `command`")]
@@ -78,5 +78,5 @@ fn a_solver_needs_particles() {
     let text = text.replace("  - mpm: {basis: linear, transfer: flip, scheme: musl}\n", "");
     let source = Source::from_text("bar.yaml", &text).expect("a text");
     let shown = Suite::load(&source).expect_err("a mistake").to_string();
-    assert!(shown.contains("a solver needs particles, and `refine` says no `ppc`"), "{shown}");
+    assert!(shown.contains("a solver needs particles, but `refine` has no `ppc`"), "{shown}");
 }

@@ -84,7 +84,7 @@ fn answers(suite: &str, requests: &[Value]) -> Vec<Value> {
     folder.write("suite.yaml", suite);
     folder.write("solver.sh", script(requests));
     let found = folder.call(&["run", "suite.yaml", "--solver", "sh solver.sh"]);
-    assert!(found.out.contains("the solver says: done"), "{}{}", found.out, found.errors);
+    assert!(found.out.contains("the solver reports: done"), "{}{}", found.out, found.errors);
     let parse = |line: &str| serde_json::from_str(line).expect("JSON");
     folder.read("log").lines().map(parse).collect()
 }
@@ -377,15 +377,15 @@ fn a_body_force_takes_the_displacement() {
 #[case::unknown(json!({"of": "velocty"}), "unknown field; did you mean `velocity`?")]
 #[case::unknown_load(json!({"of": "load:77", "t": 0}), "`load:77`: unknown field")]
 #[case::no_time(json!({"of": "body_force"}), "the request has no time `t`")]
-#[case::a_later_time(json!({"of": "stress", "t": 0.5}), "it is known at t = 0 only, not at t = 0.5")]
-#[case::too_few(json!({"of": "velocity", "reference_position": [0.1]}), "`reference_position` 1 numbers, expected 2")]
+#[case::a_later_time(json!({"of": "stress", "t": 0.5}), "it is defined at t = 0 only, not at t = 0.5")]
+#[case::too_few(json!({"of": "velocity", "reference_position": [0.1]}), "sent 1 numbers in the column `reference_position`, expected 2")]
 #[case::outside(json!({"of": "velocity", "reference_position": [0.1, 0.1, 1.5, 0.2]}), "place 1, (1.5, 0.2) m, is outside the body")]
 #[case::just_outside(json!({"of": "velocity", "reference_position": [1.00001, 0.2]}), "place 0, (1.00001, 0.2) m, is outside the body")]
 #[case::no_body(json!({"of": "velocity", "reference_position": [0.1, 0.2], "body": 3}), "there is no body 3")]
 #[case::beside_the_face(json!({"of": "face:left", "t": 0, "reference_position": [0.1, 0.2]}), "is not on the face `left`")]
 #[case::everywhere_on_a_face(json!({"of": "face:left", "t": 0}), "the request has no `reference_position`")]
-#[case::no_value(json!({"of": "face:right", "t": 0}), "`free` has no values at places")]
-#[case::displacement(json!({"of": "body_force", "t": 0, "displacement": [0.1, 0.1]}), "gave 2 numbers as `displacement`")]
+#[case::no_value(json!({"of": "face:right", "t": 0}), "`free` does not depend on the position")]
+#[case::displacement(json!({"of": "body_force", "t": 0, "displacement": [0.1, 0.1]}), "sent 2 numbers as `displacement`")]
 fn a_wrong_request_fails_the_case(#[case] request: Value, #[case] reason: &str) {
     let mut request = request;
     request["type"] = json!("values");
@@ -393,16 +393,16 @@ fn a_wrong_request_fails_the_case(#[case] request: Value, #[case] reason: &str) 
 }
 
 #[rstest]
-#[case::a_word("NaN", "answered with NaN, which is no number")]
-#[case::an_infinite_time("1e999", "answered with what is no message")]
+#[case::a_word("NaN", "answered with NaN, which is not a number")]
+#[case::an_infinite_time("1e999", "sent an invalid message")]
 fn a_request_with_no_number_fails_the_case(#[case] number: &str, #[case] reason: &str) {
     let request = json!({"type": "values", "of": "velocity", "reference_position": [0.5, 77]});
     fails(&script(&[request]).replace("77", number), reason);
 }
 
 #[rstest]
-#[case::outside("[2, 0.2]", "[1]", "gave points: place 0, (2, 0.2) m, is outside the body")]
-#[case::too_few("[0.5]", "[1]", "gave the column `reference_position` 1 numbers, expected 2")]
+#[case::outside("[2, 0.2]", "[1]", "sent invalid points: place 0, (2, 0.2) m, is outside the body")]
+#[case::too_few("[0.5]", "[1]", "sent 1 numbers in the column `reference_position`, expected 2")]
 #[case::none("[]", "[]", "has no points")]
 fn wrong_points_fail_the_case(#[case] places: &str, #[case] weight: &str, #[case] reason: &str) {
     let points = format!(
@@ -415,7 +415,7 @@ fn wrong_points_fail_the_case(#[case] places: &str, #[case] weight: &str, #[case
 fn too_many_requests_fail_the_case() {
     let endless =
         "yes '{\"type\":\"values\",\"of\":\"velocity\"}' | head -n 10001 & cat >/dev/null; wait";
-    fails(&script(&[]).replace("echo \"$m\" >>log", endless), "asked for values 10001 times");
+    fails(&script(&[]).replace("echo \"$m\" >>log", endless), "requested values 10001 times");
 }
 
 /// Asserts that a solver fails for the loaded body, for a `reason`, and passes the bar.
@@ -447,7 +447,7 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
     for need in
         ["loads: traction", "loads: damping", "conditions: friction", "conditions: velocity"]
     {
-        let said = format!("{need} (handed over in version 2 of the protocol only)");
+        let said = format!("{need} (available in version 2 of the protocol only)");
         assert!(found.out.contains(&said), "no `{said}` in\n{}", found.out);
     }
     assert!(!found.out.contains("gravity"), "{}", found.out);
@@ -471,7 +471,7 @@ fn a_check_lists_what_a_solver_can_take() {
     let found = folder.call(&check);
     assert!(found.out.contains("loaded: not applicable"), "{}", found.out);
     let quiet = folder.call(&[&check[..], &["--quiet"]].concat());
-    let expected = "\nthe solver can take 1 of 2 suites:\n  short-bar\nit lacks most often, with the number of suites:\n";
+    let expected = "\nthe solver can run 1 of 2 suites:\n  short-bar\nmost frequent missing capabilities, with the number of suites:\n";
     assert!(quiet.out.starts_with(expected), "{}", quiet.out);
     assert!(found.out.ends_with(&quiet.out), "{}", found.out);
 }
@@ -491,7 +491,7 @@ fn unknown_names_in_capabilities_are_reported(#[case] command: &str, #[case] cod
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
     for words in [
         "unknown capability `periodic_axes`; known: dimensions, laws",
-        "`linear-elastic` is not one of the laws; did you mean `linear_elastic`?",
+        "unknown name `linear-elastic` in laws; did you mean `linear_elastic`?",
     ] {
         assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
     }

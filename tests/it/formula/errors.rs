@@ -133,8 +133,8 @@ fn declarations_take_fresh_names(#[case] name: &str, #[case] message: &str) {
 #[case(&["L"], "`L` is already a constant")]
 #[case(&["s"], "`s` is already a function")]
 #[case(&["sin"], "`sin` is already a builtin name")]
-#[case(&["f"], "the parameter `f` of `f` is taken already")]
-#[case(&["a", "a"], "the parameter `a` of `f` is taken already")]
+#[case(&["f"], "the parameter `f` of `f` is already in use")]
+#[case(&["a", "a"], "the parameter `a` of `f` is already in use")]
 #[case(&["n"], "`n` is already a parameter of `f`")]
 fn parameters_take_fresh_names(#[case] parameters: &[&str], #[case] message: &str) {
     let parameters: Vec<String> = parameters.iter().map(ToString::to_string).collect();

@@ -50,7 +50,7 @@ fn a_table_by_a_constant_is_one() {
 }
 
 #[rstest]
-#[case("ramp", &["X"], "`ramp` is a table by `t`, which is not known here")]
+#[case("ramp", &["X"], "`ramp` is a table by `t`, which is not defined here")]
 #[case("ramp(1)", &["t"], "`ramp` is a table, not a function")]
 fn a_table_is_read_where_its_variable_is(
     #[case] text: &str,

@@ -152,7 +152,7 @@ fn a_solver_that_cannot_be_watched_is_no_stable_one() {
     assert_eq!(outcome.lacks, ["columns: stress"]);
     let outcome = judged(MOVING_BAR, &Silent);
     assert_eq!((outcome.result(), outcome.verdict.as_str()), ("n/a", "not applicable"));
-    assert!(outcome.reason.contains("gives no totals"), "{}", outcome.reason);
+    assert!(outcome.reason.contains("sends no totals"), "{}", outcome.reason);
 }
 
 #[rstest]
@@ -169,5 +169,5 @@ fn a_study_that_the_protocol_does_not_hand_over_is_lacking(
 ) {
     let suite = suite(&MOVING_BAR.replace(from, to));
     let lacks = lacking(&suite, &WatchedSolver);
-    assert_eq!(lacks, [format!("{words}, which the protocol does not hand over")]);
+    assert_eq!(lacks, [format!("{words}, which the protocol does not contain")]);
 }

@@ -249,7 +249,7 @@ impl<'a> ProgramBuilder<'a> {
         let local = frame.locals.iter().find(|(local, _)| *local == by);
         let constant = self.scope.value(by).map(Operand::Constant);
         let Some(operand) = local.map(|(_, operand)| *operand).or(constant) else {
-            let message = format!("`{name}` is a table by `{by}`, which is not known here");
+            let message = format!("`{name}` is a table by `{by}`, which is not defined here");
             return Err(FormulaError::new(node.span.clone(), message).help(frame.listing()));
         };
         self.uses.insert(name.to_owned());

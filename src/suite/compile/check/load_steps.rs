@@ -23,43 +23,48 @@ pub(crate) fn refuse_time(
         let path = Path::top("methods").then(i).then("mpm").then("scheme");
         let message = "`quasi_static` needs a number of load steps";
         let diagnostic = evaluator.diagnostic(&path, message);
-        return Err(diagnostic.with_help("write `run: {load_steps: 20}` in place of `until`"));
+        return Err(diagnostic.with_help("write `run: {load_steps: 20}` instead of `until`"));
     }
     let run = Path::top("run");
     let refused = [
-        (spec.run.dt.is_some(), run.then("dt"), "load steps have no length in time"),
+        (
+            spec.run.dt.is_some(),
+            run.then("dt"),
+            "`dt` is not supported with load steps: they have no duration",
+        ),
         (
             spec.refine.dt.is_some(),
             Path::top("refine").then("dt"),
-            "load steps have no length in time",
+            "`dt` is not supported with load steps: they have no duration",
         ),
         (
             spec.run.instants.is_some(),
             run.then("instants"),
-            "the error is taken after the last load step",
+            "`instants` is not supported with load steps: errors are computed after the last step \
+             only",
         ),
         (
             spec.exact.is_some(),
             Path::top("exact"),
-            "an `exact` solution is a motion in time, and load steps have no time",
+            "`exact` is not supported with load steps: it is a motion in time",
         ),
         (
             spec.manufactured.is_some(),
             Path::top("manufactured"),
-            "a manufactured force belongs to a motion in time, and load steps have no time",
+            "`manufactured` is not supported with load steps: it is a motion in time",
         ),
         (
             spec.reference.is_some(),
             Path::top("reference"),
-            "a reference is computed in time, and load steps have no time",
+            "`reference` is not supported with load steps: it is computed in time",
         ),
     ];
     if let Some((_, path, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         let diagnostic = evaluator.diagnostic_at_key(&path, message);
-        return Err(diagnostic.with_help("state the `equilibrium` under the whole load"));
+        return Err(diagnostic.with_help("state the `equilibrium` under the full load"));
     }
     if spec.equilibrium.is_none() {
-        let message = "load steps end in an equilibrium, and the suite states none";
+        let message = "load steps need an `equilibrium`: they end in one";
         let diagnostic = evaluator.diagnostic_at_key(&run.then("load_steps"), message);
         return Err(diagnostic.with_help("add `equilibrium: {equation: ..., displacement: [...]}`"));
     }
@@ -67,7 +72,7 @@ pub(crate) fn refuse_time(
         |spec: &MethodSpec| !spec.is_quasi_static() && !matches!(spec, MethodSpec::External { .. });
     match method(&is_dynamic) {
         Some(i) => {
-            let message = "this method integrates in time, and load steps have no time";
+            let message = "this method needs time steps, and the suite has load steps";
             let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
             Err(diagnostic.with_help("use `mpm: {basis: cpgimp, scheme: quasi_static}`"))
         }
@@ -91,37 +96,44 @@ pub(crate) fn refuse_unfit(
     let top = Path::top("scene");
     let help = "load steps need loads and walls that depend neither on time nor on the motion";
     let refused = [
-        (!scene.bodies.is_empty(), "bodies", "load steps of several bodies are not implemented"),
+        (!scene.bodies.is_empty(), "bodies", "load steps are supported for a single body only"),
         (
             scene.plane != PlaneState::Strain,
             "plane",
-            "load steps are implemented in plane strain and 3-D only",
+            "load steps are supported in plane strain and 3-D only",
         ),
         (
             !scene.initial_stress.is_none(),
             "initial_stress",
-            "load steps start from a body without stress",
+            "`initial_stress` is not supported with load steps: they start without stress",
         ),
         (
             !scene.initial_displacement.is_empty(),
             "initial_displacement",
-            "load steps start from the reference configuration",
+            "`initial_displacement` is not supported with load steps: they start from the \
+             reference configuration",
         ),
-        (!scene.initial_velocity.is_empty(), "initial_velocity", "load steps have no velocity"),
-        (scene.loads.is_empty(), "material", "load steps apply a load, and the scene has none"),
+        (
+            !scene.initial_velocity.is_empty(),
+            "initial_velocity",
+            "`initial_velocity` is not supported with load steps: they have no velocity",
+        ),
+        (scene.loads.is_empty(), "material", "load steps need a load, but the scene has none"),
     ];
     if let Some((_, key, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         return Err(evaluator.diagnostic_at_key(&top.then(key), message));
     }
     for (listed, stated) in scene.loads.iter().zip(listed_paths(spec, scene)) {
         if let Some(reason) = against_load(listed, scene.dimension()) {
-            let message = format!("`{}` in load steps: {reason}", listed.effect.name());
+            let message =
+                format!("`{}` is not supported in load steps: {reason}", listed.effect.name());
             return Err(evaluator.diagnostic(&stated, &message).with_help(help));
         }
     }
     let moving = |face: &&SceneFace| !KNOWN_CONDITIONS.contains(&face.condition());
     if let Some(face) = scene.faces.iter().find(moving) {
-        let message = format!("the {} face {}, not in load steps", face.name, face.hold.verb());
+        let message =
+            format!("the {} face {}, which load steps do not support", face.name, face.hold.verb());
         let at = top.then("boundary").then(face.name);
         return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
@@ -161,10 +173,10 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
         }
         EffectName::PrescribedVelocity => return Some("a velocity belongs to a motion in time"),
         EffectName::Heat | EffectName::ThermalExpansion => {
-            return Some("heat flows in time");
+            return Some("heat conduction depends on time");
         }
         EffectName::Pressure => {
-            return Some("it follows the face, and the tangent has no such term");
+            return Some("it is a follower load, which the tangent does not contain");
         }
         EffectName::Gravity
         | EffectName::BodyForce
@@ -174,9 +186,9 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     let [_, of_time, of_displacement] =
         load.numbers().field.map_or([false; 3], |field| field.depends_on(dimension));
     if of_time {
-        return Some("it depends on t, and load steps have no time");
+        return Some("it depends on t, but load steps have no time");
     }
-    of_displacement.then_some("it depends on the displacement, and the tangent has no such term")
+    of_displacement.then_some("it depends on the displacement, which the tangent does not contain")
 }
 
 /// Returns the paths of the loads in the file, in the order of `scene`.

@@ -26,11 +26,11 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
         return Ok(());
     }
     let path = Path::top("scene");
-    let help = "remove the FEM, also as `reference`, or the condition";
+    let help = "remove the FEM (also as `reference`), or the condition";
     for face in &scene.faces {
         if face.hold.is_lacked_by_fem() {
             let message = format!(
-                "the {} face {}, and the FEM knows fixed and free ends only",
+                "the {} face {}, but the built-in FEM supports only fixed and free ends",
                 face.name,
                 face.hold.verb()
             );
@@ -40,11 +40,13 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
     }
     if !scene.initial_stress.is_none() {
         let at = path.then("initial_stress");
-        let message = "an initial stress, which the FEM does not have";
+        let message = "the built-in FEM does not support an initial stress";
         return Err(evaluator.diagnostic_at_key(&at, message).with_help(help));
     }
     if let Some(set) = scene.driven_set() {
-        let message = format!("the set `{set}` is driven, which the FEM cannot do");
+        let message = format!(
+            "the set `{set}` has a given velocity, which the built-in FEM does not support"
+        );
         let at = path.then("sets").then(set);
         return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
@@ -59,13 +61,14 @@ pub(crate) fn refuse_law_unknown_to_fem(
 ) -> Result<(), Diagnostic> {
     let name = scene.material.name();
     let elastic = scene.material.elasticity().is_some();
-    let of_fluid = || format!("the reference FEM is a solid bar, `{name}` has no Young's modulus");
+    let of_fluid =
+        || format!("the built-in FEM is a solid bar, but `{name}` has no Young's modulus");
     if spec.has_fem_reference() && !elastic {
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
     }
     let foreign = |law: EquationName| {
         let known = BarLaw::find(law.name()).is_some();
-        (!known).then(|| format!("the reference FEM has no `{}`", law.name()))
+        (!known).then(|| format!("the built-in FEM does not support the law `{}`", law.name()))
     };
     let reference = spec.reference.as_ref().and_then(|reference| reference.equation);
     if let Some(message) = reference.and_then(foreign) {
@@ -82,8 +85,8 @@ pub(crate) fn refuse_law_unknown_to_fem(
             return Err(evaluator.diagnostic(&path, &message));
         }
         if law.is_none() && law_of_bar(&scene.material).is_none() {
-            let diagnostic =
-                evaluator.diagnostic(&path, &format!("the reference FEM has no `{name}`"));
+            let diagnostic = evaluator
+                .diagnostic(&path, &format!("the built-in FEM does not support the law `{name}`"));
             return Err(diagnostic.with_help("name the `law` of an elastic bar to compare with"));
         }
     }
@@ -115,7 +118,7 @@ fn refuse_fem_without(
     spec: &ConvergenceSpec,
     effect: &str,
 ) -> Result<(), Diagnostic> {
-    let message = format!("the reference FEM has no {effect}, and the scene has");
+    let message = format!("the built-in FEM does not support {effect}");
     if spec.has_fem_reference() {
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
     }
@@ -137,12 +140,13 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     let name = plan.of.words();
     let help = "judge the displacement or the velocity";
     if plan.reference.is_some() || plan.same_method.is_some() {
-        let message = format!("a reference has no {name} to compare with, which this suite judges");
+        let message = format!("a reference does not provide the {name} that this suite judges");
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
     }
     match spec.fem_method() {
         Some(i) => {
-            let message = format!("the reference FEM gives no {name}, which this suite judges");
+            let message =
+                format!("the built-in FEM does not provide the {name} that this suite judges");
             let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), &message);
             Err(diagnostic.with_help(help))
         }
@@ -173,8 +177,8 @@ pub(crate) fn check_drift(
     let message = match method {
         Method::QuasiStatic { .. } => "load steps have no motion whose sums could drift",
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
-        _ => "the reference FEM does not give the sums whose drift is bound here",
+        _ => "the built-in FEM does not compute the sums whose drift is bounded here",
     };
     let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
-    Err(diagnostic.with_help("let this expectation speak of MPM cases only"))
+    Err(diagnostic.with_help("restrict this expectation to MPM cases"))
 }

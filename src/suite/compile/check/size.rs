@@ -68,7 +68,7 @@ pub(crate) fn fine_grid(
     if particles * instants as f64 <= MOST {
         return Ok(());
     }
-    let message = format!("{particles:.1e} particles at {instants} instants are too many to keep");
+    let message = format!("{particles:.1e} particles at {instants} instants are too many to store");
     let label = format!("expected at most {MOST:e} particles times instants");
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
@@ -87,7 +87,7 @@ fn vacant(
     let cells = level.cells;
     let message =
         format!("with {cells} cells along the first axis the body is smaller than a particle");
-    let label = "expected cells small enough for the body to hold one";
+    let label = "expected cells small enough that the body contains a particle";
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
@@ -130,8 +130,8 @@ pub(crate) fn held_faces(
         if (end - body).abs() > ROUNDING * h {
             let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
             let message = format!(
-                "with {cells} cells along the first axis the {name} face, which {verb}, is at \
-                 {}, and the nodes next to it at {end}",
+                "with {cells} cells along the first axis the {name} face, which {verb}, is at {}, \
+                 but the nearest nodes are at {end}",
                 shown(body)
             );
             let label = format!("expected a cell size that divides the length, not {h} m");
@@ -168,7 +168,7 @@ fn sets(
         if !is_held {
             let name = &set.name;
             let message = format!(
-                "with {cells} cells along the first axis the set `{name}` holds no particle"
+                "with {cells} cells along the first axis the set `{name}` contains no particle"
             );
             return Err(evaluator.diagnostic(path, &message).with_label("expected more cells"));
         }
@@ -184,7 +184,7 @@ fn reference(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Di
         return Ok(());
     }
     let message =
-        format!("{} elements at {} instants are too many to keep", fine.cells, plan.instants);
+        format!("{} elements at {} instants are too many to store", fine.cells, plan.instants);
     let path = Path::top("reference").then("fem").then("cells");
     let label = format!("expected at most {MOST:e} elements times instants");
     Err(evaluator.diagnostic(&path, &message).with_label(&label))

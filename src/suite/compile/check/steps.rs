@@ -105,13 +105,16 @@ fn as_wanted(
         return Ok(());
     }
     let (dt, instants) = (shown(clock.dt()), clock.instants);
-    let message = format!("dt = {} becomes {dt} s, to end at {instants} instants", shown(wanted));
+    let message = format!(
+        "dt = {} is changed to {dt} s, so that steps end at {instants} instants",
+        shown(wanted)
+    );
     let label = "expected a step that divides the time between instants to 1 %";
     let fewer = (1..instants).rev().find(|instants| {
         Clock::with_common_instants(case.until, wanted, *instants).is_some_and(|c| is_near(&c))
     });
     let help = fewer.map_or_else(
-        || format!("a run until {} s has no such step of this length", shown(case.until)),
+        || format!("no step near this length divides a run until {} s", shown(case.until)),
         |fewer| format!("`instants: {fewer}` keeps this step"),
     );
     Err(evaluator.diagnostic(path, &message).with_label(label).with_help(&help))

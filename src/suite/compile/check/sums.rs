@@ -32,23 +32,33 @@ pub(crate) fn judged(
     }
     let name = plan.of.words();
     if plan.norm.is_over_instants() {
-        let message = format!("the {name} is one number at a time, and `rms` is over the instants");
+        let message = format!(
+            "the {name} is one number for the whole body, so a norm over particles does not apply"
+        );
         let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
-        return Err(diagnostic.with_help("take `rms`, or `linf` for the largest over the instants"));
+        return Err(
+            diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
+        );
     }
     if plan.norm.is_by_mass() {
         let norm = plan.norm.name();
-        let message = format!("the {name} is one number at a time, and `{norm}` weights particles");
+        let message = format!(
+            "the {name} is one number for the whole body, so `{norm}`, a norm over particles, does \
+             not apply"
+        );
         let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
-        return Err(diagnostic.with_help("take `rms`, or `linf` for the largest over the instants"));
+        return Err(
+            diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
+        );
     }
     let path = path.then("of");
     if plan.scene.plane == PlaneState::Axisymmetric {
-        let message = format!("the {name} of a body of revolution is not known to the truth");
+        let message =
+            format!("the exact solution does not provide the {name} of a body of revolution");
         return Err(evaluator.diagnostic(&path, &message));
     }
     let Some(problem) = &plan.exact else {
-        let message = format!("no truth tells the {name} of the body");
+        let message = format!("the {name} of the body needs an exact solution");
         let diagnostic = evaluator.diagnostic(&path, &message);
         return Err(diagnostic.with_help("state an `exact` or a `manufactured` motion"));
     };
@@ -72,9 +82,9 @@ pub(crate) fn judged(
 }
 
 fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
-    let message = format!("the {} is not that of a face", plan.of.words());
+    let message = format!("the {} is not a quantity of a face", plan.of.words());
     let diagnostic = evaluator.diagnostic_at_key(&Path::top("judge").then("face"), &message);
-    diagnostic.with_help("remove it, or judge the `reaction`")
+    diagnostic.with_help("remove `face`, or judge the `reaction`")
 }
 
 /// Refuses an energy that the law of the solver or of the exact solution does not define.
@@ -86,15 +96,19 @@ fn stored_energy(
 ) -> Result<(), Diagnostic> {
     refuse_law_without_energy(evaluator, path, plan)?;
     if problem.heat.is_some() {
-        let message = "the energy of a body in which heat flows is more than that of its strain";
+        let message = "the stored energy is not supported with `heat`: the body also stores heat";
         return Err(evaluator.diagnostic(path, message));
     }
     if plan.scene.each().iter().any(|body| !body.initial_stress.is_none()) {
-        let message = "the truth knows no stored energy beside an initial stress";
+        let message = "the exact solution does not provide the stored energy of a body with an \
+                       initial stress";
         return Err(evaluator.diagnostic(path, message));
     }
     if problem.equation.energy(&[[0.0; 3]; 3]).is_none() {
-        let message = format!("the truth knows no stored energy of `{}`", problem.equation.name());
+        let message = format!(
+            "the exact solution does not provide the stored energy of `{}`",
+            problem.equation.name()
+        );
         let diagnostic = evaluator.diagnostic(path, &message);
         return Err(diagnostic.with_help("judge the `kinetic_energy`"));
     }
@@ -112,7 +126,7 @@ fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     let Some(i) = spec.methods.iter().position(is_averaged) else { return Ok(()) };
     let message = "the force of `volume: averaged` does not derive from a stored energy";
     let path = Path::top("methods").then(i).then("mpm").then("volume");
-    Err(evaluator.diagnostic(&path, message).with_help("take `particle` to judge an energy"))
+    Err(evaluator.diagnostic(&path, message).with_help("use `particle` to judge an energy"))
 }
 
 /// Refuses an angular momentum in 1-D, and for a periodic body.
@@ -125,7 +139,7 @@ fn rotation(
         return Err(evaluator.diagnostic(path, "there is no angular momentum in 1-D"));
     }
     if plan.scene.faces.iter().any(|face| face.hold.is_periodic()) {
-        let message = "a periodic body has no place about which it could turn";
+        let message = "the angular momentum of a periodic body is not defined";
         return Err(evaluator.diagnostic(path, message));
     }
     Ok(())
@@ -140,14 +154,15 @@ fn walls(
     let (path, faces) = (Path::top("judge"), &plan.scene.faces);
     let of = path.then("of");
     if !plan.scene.bodies.is_empty() {
-        let message = "several bodies share the walls, which tell no reaction then";
+        let message = "the reaction is not supported for several bodies: they share the walls";
         return Err(evaluator.diagnostic(&of, message));
     }
     consistent_mass(evaluator, spec)?;
     let Some(name) = &spec.judge.face else {
         let held: Vec<usize> = (0..faces.len()).filter(|i| faces[*i].hold.is_held()).collect();
         if held.is_empty() {
-            let diagnostic = evaluator.diagnostic(&of, "nothing is held, and so nothing reacts");
+            let diagnostic =
+                evaluator.diagnostic(&of, "there is no reaction, because no face is held");
             return Err(diagnostic.with_help("hold a face: `fixed` or `roller`"));
         }
         return match held.iter().find(|i| !faces[**i].hold.stays()) {
@@ -167,7 +182,8 @@ fn walls(
     };
     if let Some(other) = faces.iter().find(is_shared) {
         let message = format!(
-            "nodes on the edge between `{name}` and `{}` are held by both, and tell one force",
+            "the reactions of `{name}` and `{}` cannot be separated: both hold the nodes on the \
+             common edge",
             other.name
         );
         let diagnostic = evaluator.diagnostic(&path, &message);
@@ -178,8 +194,7 @@ fn walls(
 
 fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diagnostic {
     let (name, verb) = (face.name, face.hold.verb());
-    let message =
-        format!("the {name} face {verb}: a reaction is told of a fixed face or a roller only");
+    let message = format!("the {name} face {verb}: only a fixed face or a roller has a reaction");
     evaluator.diagnostic(path, &message)
 }
 
@@ -190,9 +205,9 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
         _ => false,
     };
     let Some(i) = spec.methods.iter().position(is_consistent) else { return Ok(()) };
-    let message = "with a consistent mass matrix the inertia of other nodes is part of a reaction";
+    let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
     let path = Path::top("methods").then(i).then("mpm").then("mass");
-    Err(evaluator.diagnostic(&path, message).with_help("take `lumped` to judge a reaction"))
+    Err(evaluator.diagnostic(&path, message).with_help("use `lumped` to judge a reaction"))
 }
 
 /// Refuses an energy bound for a body whose law has no energy; `path` is the path of the bound.
@@ -205,10 +220,10 @@ pub(crate) fn refuse_law_without_energy(
     let mut energy = material.properties().has_energy(plan.scene.dimension());
     let is_prestressed = plan.scene.each().iter().any(|body| !body.initial_stress.is_none());
     if is_prestressed && material.properties().depends_on_deformation_alone().is_err() {
-        energy = Err("is integrated in rate form, and has no energy beside an initial stress");
+        energy = Err("is integrated in rate form and has no stored energy with an initial stress");
     }
     let Err(reason) = energy else { return Ok(()) };
     let message = format!("the law `{}` {reason}", material.name());
     let diagnostic = evaluator.diagnostic_at_key(path, &message);
-    Err(diagnostic.with_help("take `neo_hookean` or `hencky`"))
+    Err(diagnostic.with_help("use `neo_hookean` or `hencky`"))
 }

@@ -88,8 +88,8 @@ pub(crate) fn methods(
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
             let Some(transfer) = transfer else {
                 let path = Path::top("methods").then(entry).then("mpm");
-                let diagnostic =
-                    evaluator.diagnostic_at_key(&path, "a scheme in time needs a `transfer`");
+                let diagnostic = evaluator
+                    .diagnostic_at_key(&path, "a scheme with time steps needs a `transfer`");
                 return Err(diagnostic.with_help("add `transfer: flip` in `mpm`"));
             };
             let scheme: Vec<SchemeName> =
@@ -177,9 +177,10 @@ fn refuse_keys_of_dynamics(
         return Ok(());
     };
     let path = Path::top("methods").then(entry).then("mpm");
-    let own = "give the other schemes an entry of `methods` of their own";
+    let own = "list the other schemes in a separate entry of `methods`";
     if scheme.as_slice().len() > 1 {
-        let message = "`quasi_static` has no keys in common with schemes in time but `basis`";
+        let message = "`quasi_static` cannot be listed with time-stepping schemes: only `basis` \
+                       applies to both";
         return Err(evaluator.diagnostic_at_key(&path.then("scheme"), message).with_help(own));
     }
     let refused = [
@@ -188,11 +189,11 @@ fn refuse_keys_of_dynamics(
         ("mass", mass.is_some(), "there is no inertia"),
         ("frame", frame.is_some(), "load steps are updated-Lagrangian"),
         ("volume", volume.is_some(), "the tangent of an averaged volume is not implemented"),
-        ("precision", precision.is_some(), "load steps have double precision"),
+        ("precision", precision.is_some(), "load steps are computed in double precision"),
     ];
     match refused.into_iter().find(|(_, is_stated, _)| *is_stated) {
         Some((key, _, reason)) => {
-            let message = format!("`quasi_static` has no `{key}`: {reason}");
+            let message = format!("`quasi_static` does not support `{key}`: {reason}");
             Err(evaluator.diagnostic_at_key(&path.then(key), &message).with_help("remove it"))
         }
         None => Ok(()),
@@ -232,7 +233,7 @@ pub(crate) fn named(
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     let path = Path::top("methods");
     if drafts.is_empty() {
-        return Err(evaluator.diagnostic(&path, "a suite without methods has no case"));
+        return Err(evaluator.diagnostic(&path, "the suite has no cases: `methods` is empty"));
     }
     tell_apart(&mut drafts);
     let mut named: Vec<NamedMethod> = Vec::new();

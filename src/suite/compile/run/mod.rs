@@ -35,7 +35,7 @@ pub(crate) fn ends(
         (None, Some(spec)) => load_steps(evaluator, spec),
         (Some(_), Some(_)) => {
             let path = Path::top("run").then("until");
-            let message = "load steps have no time: a run has an end or `load_steps`";
+            let message = "`until` is not supported with `load_steps`: load steps have no time";
             Err(evaluator.diagnostic_at_key(&path, message).with_help("keep one of them"))
         }
         (None, None) => {
@@ -201,7 +201,7 @@ fn combined(
         known = known.and_then(|()| combine_volume(volume, frame, material, dimension, plane));
     }
     known.map_err(|reason| {
-        let help = "give what goes together an entry of `methods` of its own";
+        let help = "list compatible settings in separate entries of `methods`";
         evaluator.diagnostic(path, &reason.to_string()).with_help(help)
     })
 }
@@ -218,7 +218,7 @@ fn few(
     if already.saturating_add(more) <= MOST_CASES {
         return Ok(());
     }
-    let message = format!("these lists unfold into {more} cases");
+    let message = format!("these lists give {more} cases");
     let label = format!("expected at most {MOST_CASES} in a suite");
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
@@ -239,34 +239,39 @@ fn possible(
     match spec {
         MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
-            Err(evaluator.diagnostic(path, &format!("the reference FEM is 1-D, the scene {d}-D")))
+            Err(evaluator
+                .diagnostic(path, &format!("the built-in FEM is 1-D, but the scene is {d}-D")))
         }
         MethodSpec::Fem { .. } if plan.scene.density.uniform().is_none() => Err(evaluator
-            .diagnostic(path, "the density varies over the body, and the reference FEM has one")),
-        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => {
-            Err(evaluator
-                .diagnostic(path, "the reference FEM is one bar, and the scene lists bodies"))
-        }
+            .diagnostic(
+                path,
+                "the built-in FEM does not support a density that varies over the body",
+            )),
+        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => Err(evaluator.diagnostic(
+            path,
+            "the built-in FEM supports a single body only, but the scene lists `bodies`",
+        )),
         MethodSpec::Mpm { frame: Some(frame), .. }
             if frame.as_slice().contains(&FrameName::Total) && stretched(plan) =>
         {
-            let message = "a total-Lagrangian body stays in its reference place, and the periodic \
-                           grid is not as long";
+            let message = "`total_lagrangian` needs a periodic grid as long as the body, which \
+                           stays at its reference position";
             Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
         }
         MethodSpec::External { .. } if plan.same_method.is_some() => {
-            let message = "an external solver is not run on a finer grid for its own truth";
+            let message = "`same_method` does not support external solvers";
             Err(evaluator.diagnostic(path, message).with_help("state `exact` or a `reference`"))
         }
         MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
-            Err(evaluator.diagnostic(path, "particles per cell are refined, and an FEM has none"))
+            Err(evaluator
+                .diagnostic(path, "the suite refines particles per cell, but an FEM has none"))
         }
         MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } | MethodSpec::External { .. }
             if !plan.refine.has_particles() =>
         {
             let solver =
                 if matches!(spec, MethodSpec::External { .. }) { "a solver" } else { "MPM" };
-            let message = format!("{solver} needs particles, and `refine` says no `ppc`");
+            let message = format!("{solver} needs particles, but `refine` has no `ppc`");
             Err(evaluator.diagnostic(path, &message).with_help("add `ppc: 4` to `refine`"))
         }
         _ => Ok(()),

@@ -28,7 +28,8 @@ pub(crate) fn scatter(
     };
     let path = Path::top("particles");
     if scene.each().iter().any(|body| body.outline.is_some()) {
-        let message = "particles are moved off the lattice of a box, and this body is none";
+        let message = "`particles` is supported for boxes only: it moves particles off a regular \
+                       lattice";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
     let numbers =
@@ -40,7 +41,7 @@ pub(crate) fn scatter(
     let at = path.then("seed");
     let count = |text: &NumberText| evaluator.count(&at, text, "the seed");
     if seed.is_some() && perturb == 0.0 {
-        let diagnostic = evaluator.diagnostic_at_key(&at, "nothing here is random");
+        let diagnostic = evaluator.diagnostic_at_key(&at, "`seed` has no effect without `perturb`");
         return Err(diagnostic.with_help("add `perturb: 0.2`, or remove the seed"));
     }
     let seed = seed.as_ref().map(count).transpose()?.unwrap_or(SEED);
@@ -59,7 +60,7 @@ pub(crate) fn scatter(
     }
     let scatter = LatticeOffsets { shift, perturb, seed };
     if scatter.is_none() {
-        let diagnostic = evaluator.diagnostic_at_key(&path, "this moves no particle");
+        let diagnostic = evaluator.diagnostic_at_key(&path, "`particles` moves no particle");
         return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
     }
     Ok(scatter)
@@ -83,8 +84,8 @@ pub(crate) fn observed(
     }
     let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
     if let Some(kind) = outside.map(|outline| outline.kind()) {
-        let diagnostic = evaluator.diagnostic(&path, "this place is outside the body");
-        return Err(diagnostic.with_label(&format!("expected a place in the {kind}")));
+        let diagnostic = evaluator.diagnostic(&path, "this point is outside the body");
+        return Err(diagnostic.with_label(&format!("expected a point in the {kind}")));
     }
     Ok(place)
 }

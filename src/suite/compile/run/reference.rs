@@ -25,13 +25,12 @@ pub(crate) fn reference(
         (Some(equation), Some(fem)) => (equation, fem),
         (None, None) if spec.same_method.is_some() => return Ok(None),
         _ => {
-            let message =
-                "a reference is a `fem` computation of an `equation`, or the `same_method`";
+            let message = "a reference needs `equation` and `fem`, or `same_method`";
             return Err(evaluator.diagnostic_at_key(&path, message));
         }
     };
     if dimension != 1 {
-        let message = format!("the reference FEM is 1-D, the scene {dimension}-D");
+        let message = format!("the built-in FEM is 1-D, but the scene is {dimension}-D");
         let diagnostic = evaluator.diagnostic_at_key(&path, &message);
         return Err(diagnostic.with_help("give this scene an `exact` solution"));
     }
@@ -66,12 +65,12 @@ pub(crate) fn same_method(
     match (&same.dt, &same.cells) {
         (Some(_), None) if refine.axis != Axis::Time => {
             let message =
-                "the same method with shorter steps knows the error of the time step only";
-            refused(message, "list time steps under `dt` in `refine`, or give a fine grid `cells`")
+                "`same_method` with shorter steps measures only the error of the time step";
+            refused(message, "list time steps under `dt` in `refine`, or use a fine grid (`cells`)")
         }
         (None, Some(_)) if refine.axis != Axis::Space => {
-            let message = "the same method on a fine grid knows the error of a grid";
-            refused(message, "list `cells` in `refine`, or give shorter steps `dt`")
+            let message = "`same_method` on a fine grid measures only the error of the cell size";
+            refused(message, "list `cells` in `refine`, or use shorter steps (`dt`)")
         }
         (Some(dt), None) => {
             let dt = shorter(evaluator, &path.then("dt"), dt, *finest, until, instants)?;
@@ -89,7 +88,7 @@ pub(crate) fn same_method(
         }
         _ => {
             let message =
-                "the same method differs by shorter steps (`dt`) or by a fine grid (`cells`)";
+                "`same_method` needs either shorter steps (`dt`) or a fine grid (`cells`)";
             refused(message, "state one of them")
         }
     }
@@ -111,8 +110,11 @@ fn shorter(
                 .map_or(0.0, |clock| clock.steps as f64)
         };
         if !(clock(dt) >= SHORTER * clock(finest.dt)) {
-            let message =
-                format!("the time step is {}, the finest level's {}", shown(dt), shown(finest.dt));
+            let message = format!(
+                "the time step is {}, but the finest level already has {}",
+                shown(dt),
+                shown(finest.dt)
+            );
             let label = format!("expected at most 1/{SHORTER} of that, and at most 1e9 steps");
             return Err(evaluator.diagnostic(path, &message).with_label(&label));
         }
@@ -131,8 +133,10 @@ fn finer(
     if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
         return Ok(());
     }
-    let message =
-        format!("the fine grid has {} cells, the finest level {}", fine.cells, finest.cells);
+    let message = format!(
+        "the fine grid has {} cells, but the finest level already has {}",
+        fine.cells, finest.cells
+    );
     let label = format!("expected at least {FINE_GRID} times as many");
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
@@ -146,7 +150,7 @@ fn with_step(
     level: LevelPlan,
 ) -> Result<LevelPlan, Diagnostic> {
     let Some(stated) = &spec.run.dt else {
-        let message = "`refine` lists a time step for each level, and none for the fine grid";
+        let message = "`refine` lists a time step for each level, but none for the fine grid";
         return Err(evaluator.diagnostic(path, message).with_help(STEP_OF_EACH_H));
     };
     let at_run = Path::top("run").then("dt");
@@ -165,12 +169,14 @@ fn one_lattice(
 ) -> Result<(), Diagnostic> {
     let body = match &scene.outline {
         _ if !scene.bodies.is_empty() => "several bodies",
-        Some(outline) => &format!("one of kind `{}`", outline.kind()),
-        None if spec.particles.is_some() => "one whose `particles` are moved",
+        Some(outline) => &format!("a body of kind `{}`", outline.kind()),
+        None if spec.particles.is_some() => "moved `particles`",
         None => return Ok(()),
     };
-    let message =
-        format!("a fine grid is interpolated between the particles of a box, and this is {body}");
+    let message = format!(
+        "a fine grid is interpolated between regular particles of a single box, but the scene has \
+         {body}"
+    );
     let diagnostic = evaluator.diagnostic_at_key(path, &message);
     Err(diagnostic.with_help("give this scene an `exact` solution"))
 }

@@ -68,8 +68,9 @@ fn no_idle_expectation(
     let idle = spec.expect.iter().position(|entry| entry.full.is_some());
     let (Some(i), None) = (idle, &spec.refine.full) else { return Ok(()) };
     let path = Path::top("expect").then(i).then("full");
-    let diagnostic = evaluator.diagnostic_at_key(&path, "there is no full run to expect this of");
-    Err(diagnostic.with_help("list its levels under `full` in `refine`"))
+    let diagnostic = evaluator
+        .diagnostic_at_key(&path, "this expectation needs a full run, but `refine` has no `full`");
+    Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"))
 }
 
 /// Returns the entry for level `k`: its own, or the single entry shared by all levels.
@@ -86,8 +87,9 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
     if ppc && (cells || dt) {
-        let diagnostic = evaluator.diagnostic(&path.then("ppc"), "two things are refined at once");
-        let help = "particles per cell are refined alone: give one number of cells and one `dt`";
+        let diagnostic = evaluator
+            .diagnostic(&path.then("ppc"), "`ppc` is refined together with `cells` or `dt`");
+        let help = "to refine `ppc`, state one number of cells and one `dt`";
         return Err(diagnostic.with_help(help));
     }
     let lengths = [Some(&spec.cells), spec.dt.as_ref()]
@@ -98,7 +100,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
         return Err(diagnostic.with_label("expected one for each").with_help(STEP_OF_EACH_H));
     }
     if let (true, Some(_)) = (cells && dt, &spec.full) {
-        let message = "one list of further levels cannot refine both cells and time steps";
+        let message = "`full` is one list, so it cannot refine both cells and time steps";
         return Err(evaluator
             .diagnostic_at_key(&path.then("full"), message)
             .with_help(STEP_OF_EACH_H));
@@ -183,7 +185,7 @@ fn steps(
     let texts = match (stated, &spec.refine.dt) {
         (Some(_), Some(_)) => {
             let diagnostic =
-                evaluator.diagnostic_at_key(&at_refine, "`run` states the time step already");
+                evaluator.diagnostic_at_key(&at_refine, "the time step is already stated in `run`");
             return Err(diagnostic.with_help("keep one of them"));
         }
         (None, None) => {
@@ -193,7 +195,7 @@ fn steps(
         }
         (None, Some(list)) if list.as_slice().len() == 1 => {
             let diagnostic =
-                evaluator.diagnostic_at_key(&at_refine, "one time step refines nothing");
+                evaluator.diagnostic_at_key(&at_refine, "a single time step refines nothing");
             return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
         (Some(value), None) => vec![Located { value, at: at_run }],
@@ -240,7 +242,7 @@ pub(crate) fn step_formula(
         let [share, speed] = [share, speed].map(NumberText::Number);
         return Ok(NumberText::Formula(format!("{share}*h/{speed}")));
     }
-    let message = "a time step is chosen by the speed of waves, and this body has none";
+    let message = "an automatic time step needs a wave speed, but this body has none";
     Err(evaluator.diagnostic(path, message).with_label("expected a number"))
 }
 
@@ -255,8 +257,9 @@ fn refuse_methods_without_rule(
     };
     let other = methods.iter().position(|method| !steps(method));
     let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
-    let message = "the time step is chosen by a rule, which is one for the steps of MPM in motion";
+    let message = "an automatic time step is available for MPM only";
     let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
-    Err(diagnostic
-        .with_help("state `dt` as a number or a formula of h, or put this into a suite of its own"))
+    Err(diagnostic.with_help(
+        "state `dt` as a number or a formula of h, or move this method to a separate suite",
+    ))
 }

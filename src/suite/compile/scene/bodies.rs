@@ -33,7 +33,7 @@ pub(crate) fn listed<'w>(
         let at = path.then("bodies");
         if bodies.is_empty() || bodies.len() > MOST {
             let diagnostic =
-                evaluator.diagnostic(&at, &format!("a scene of {} bodies", bodies.len()));
+                evaluator.diagnostic(&at, &format!("the scene has {} bodies", bodies.len()));
             return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
         }
         let one = |(i, one): (usize, &'w OneBodySpec)| {
@@ -50,7 +50,7 @@ pub(crate) fn listed<'w>(
         return Ok(bodies.iter().enumerate().map(one).collect());
     }
     let missing = |key: &str| {
-        let diagnostic = evaluator.diagnostic_at_key(path, &format!("a scene without `{key}`"));
+        let diagnostic = evaluator.diagnostic_at_key(path, &format!("the scene has no `{key}`"));
         diagnostic.with_help("add `body` and `material`, or a list of `bodies` with one of each")
     };
     Ok(vec![Listed {
@@ -78,17 +78,17 @@ fn refuse_beside(
         ("sets", !spec.sets.as_slice().is_empty()),
     ];
     if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
-        let message = format!("`{key}` speaks of one body, and the scene has several");
+        let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
         return Err(evaluator.diagnostic_at_key(&path.then(*key), &message));
     }
     for (i, load) in spec.loads.iter().enumerate() {
         let name = load.effect().name();
         let acts = match load.keys().face() {
-            Some(_) => "acts on a face of",
-            None if load.keys().is_of_one_body() => "is that of",
+            Some(_) => "acts on a face of a single body",
+            None if load.keys().is_of_one_body() => "is supported for a single body only",
             None => continue,
         };
-        let message = format!("`{name}` {acts} one body, and the scene has several");
+        let message = format!("`{name}` {acts}, but the scene lists `bodies`");
         return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
     }
     Ok(())

@@ -145,7 +145,7 @@ fn both_ends(
         let (name, other) = (FACES[i], FACES[i ^ 1]);
         if hold.is_periodic() && !holds[i ^ 1].is_periodic() {
             let verb = holds[i ^ 1].verb();
-            let message = format!("the {name} face is periodic, and the {other} face {verb}");
+            let message = format!("the {name} face is periodic, but the {other} face {verb}");
             let diagnostic = evaluator.diagnostic(&path.then(name), &message);
             return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
         }
@@ -163,16 +163,18 @@ fn settle(
 ) -> Result<(), Diagnostic> {
     let idle = |at: &Path, message: &str| {
         let diagnostic = evaluator.diagnostic_at_key(at, message);
-        Err(diagnostic.with_help("a `rigid` body is at rest: remove this, or choose a material"))
+        Err(diagnostic
+            .with_help("a `rigid` body does not move: remove this, or choose another material"))
     };
     if spec.bodies.is_some() {
-        return idle(&path.then("material"), "a body that does not move in a list of bodies");
+        return idle(&path.then("material"), "a `rigid` body cannot be in a list of bodies");
     }
     for face in faces {
         if face.hold.is_free() {
             face.hold = Arc::new(FaceAtRest);
         } else if !face.hold.is_periodic() {
-            let message = format!("the {} face {}", face.name, face.hold.verb());
+            let (name, verb) = (face.name, face.hold.verb());
+            let message = format!("the {name} face {verb}, but a `rigid` body does not move");
             return idle(&path.then("boundary").then(face.name), &message);
         }
     }
@@ -183,12 +185,14 @@ fn settle(
         ("sets", !spec.sets.as_slice().is_empty()),
     ] {
         if stated {
-            return idle(&path.then(key), &format!("`{key}` of a body that does not move"));
+            return idle(&path.then(key), &format!("`{key}` is not supported for a `rigid` body"));
         }
     }
     let moves = |load: &LoadSpec| !load.keys().acts_at_rest();
     match spec.loads.iter().position(moves) {
-        Some(i) => idle(&path.then("loads").then(i), "a load on a body that does not move"),
+        Some(i) => {
+            idle(&path.then("loads").then(i), "this load is not supported for a `rigid` body")
+        }
         None => Ok(()),
     }
 }
@@ -202,18 +206,19 @@ fn plane(
 ) -> Result<PlaneState, Diagnostic> {
     let Some(plane) = spec.plane else { return Ok(PlaneState::Strain) };
     if dimension != 2 {
-        let message = format!("a plane, and the scene is {dimension}-D");
+        let message = format!("`plane` needs a 2-D scene, but this scene is {dimension}-D");
         return Err(evaluator
             .diagnostic(&path.then("plane"), &message)
             .with_label("expected in a scene of `dimension: 2`"));
     }
     if plane == PlaneState::Axisymmetric && spec.bodies.is_some() {
-        let message = "`plane: axisymmetric`, and several bodies are not known to be of revolution";
+        let message = "`plane: axisymmetric` is not supported for several bodies";
         return Err(evaluator.diagnostic_at_key(&path.then("bodies"), message));
     }
     for (i, load) in spec.loads.iter().enumerate() {
         if let Some(reason) = load.keys().against_plane(plane) {
-            let message = format!("`plane: {}`, and {reason}", plane.name());
+            let (plane, name) = (plane.name(), load.effect().name());
+            let message = format!("`plane: {plane}` is not supported with `{name}`: {reason}");
             return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
         }
     }
@@ -231,9 +236,9 @@ fn knows(
         return Ok(());
     }
     let name = material.name();
-    let message = format!("the law `{name}` is not known in plane stress, where sigma_33 = 0");
+    let message = format!("the law `{name}` is not supported in plane stress, where sigma_33 = 0");
     let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
-    Err(diagnostic.with_help("take `linear_elastic`, `neo_hookean` or `hencky`"))
+    Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
 /// Refuses a body that cannot be revolved about the axis where the first coordinate is zero.
@@ -244,33 +249,35 @@ fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(),
     let help = "the first coordinate of the meridian plane is the radius";
     let body = path.then("body");
     if scene.mapped.is_some() {
-        let message = "`plane: axisymmetric`, and quadrilaterals are not known to be of revolution";
+        let message = "`plane: axisymmetric` is not supported for a quadrilateral";
         return Err(evaluator.diagnostic_at_key(&body, message));
     }
     if !scene.initial_stress.is_none() {
-        let message = "`plane: axisymmetric`, and an initial stress has no word for its hoops";
+        let message = "`plane: axisymmetric` is not supported with an initial stress, which has no \
+                       key for the hoop stress";
         return Err(evaluator.diagnostic_at_key(&path.then("initial_stress"), message));
     }
     if scene.from[0] < 0.0 {
-        let message = format!("the body begins at a radius of {}", shown(scene.from[0]));
+        let message = format!("the body starts at the negative radius {}", shown(scene.from[0]));
         return Err(evaluator.diagnostic_at_key(&body, &message).with_help(help));
     }
     if scene.outline.is_some() && scene.from[0] == 0.0 {
-        let message = "the rim of the body is free, and reaches the axis, which nothing leaves";
+        let message = "the free rim of the body touches the axis, where a roller is needed";
         let diagnostic = evaluator.diagnostic_at_key(&body, message);
-        return Err(diagnostic.with_help("move it to larger radii, or take a `box`"));
+        return Err(diagnostic.with_help("move it to larger radii, or use a `box`"));
     }
     let mut faces = scene.faces.iter().filter(|face| face.axis == 0);
     if let Some(face) = faces.clone().find(|face| face.hold.is_periodic()) {
-        let message = format!("a radius has no period, and the face `{}` is periodic", face.name);
+        let message =
+            format!("the face `{}` cannot be periodic, because a radius has no period", face.name);
         let at = path.then("boundary").then(face.name);
         return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
     }
     let is_axis = |face: &SceneFace| !face.high && scene.from[0] == 0.0;
     if let Some(face) = faces.find(|face| is_axis(face) && face.hold.name() != "roller") {
-        let message = format!("the {} face is the axis, and {}", face.name, face.hold.verb());
+        let message = format!("the {} face lies on the axis, but {}", face.name, face.hold.verb());
         let diagnostic = evaluator.diagnostic_at_key(&path.then("boundary"), &message);
-        return Err(diagnostic.with_help("state `left: roller`: nothing leaves the axis"));
+        return Err(diagnostic.with_help("state `left: roller`: nothing crosses the axis"));
     }
     Ok(())
 }

@@ -48,7 +48,8 @@ pub(crate) fn varying(
     let (path, text) = (path(own), own.material.density());
     let formula = evaluator.formula(&path, text, &COORDINATES[..scene.dimension()])?;
     if let Some(reason) = unsupported(scene) {
-        let message = format!("the density varies over the body, and {reason}");
+        let message =
+            format!("a density that varies over the body is not supported here: {reason}");
         return Err(evaluator.diagnostic(&path, &message));
     }
     let density = Density::of_place(formula, &scene.from, &scene.to, scene.outline.as_deref())
@@ -56,11 +57,11 @@ pub(crate) fn varying(
     let properties = scene.material.properties();
     if density.smallest() == 0.0 && !properties.wave_speed(0.0).is_finite() {
         let message = format!(
-            "the density is zero on the rim, where waves in `{}` have no bounded speed",
+            "the density is zero on the rim, where the wave speed of `{}` is unbounded",
             scene.material.name()
         );
         let diagnostic = evaluator.unusable(&path, text, &message, "expected a positive density");
-        return Err(diagnostic.with_help("take a `polytropic` gas, or add a constant"));
+        return Err(diagnostic.with_help("use a `polytropic` gas, or add a constant"));
     }
     Ok(density)
 }
@@ -101,14 +102,15 @@ pub(crate) fn refuse_loads(
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let loads = [
-        (EffectName::Heat, "`heat` needs one heat capacity per volume"),
-        (EffectName::SetForce, "a `force` on a set is distributed by a uniform density"),
+        (EffectName::Heat, "`heat` needs a uniform heat capacity per volume"),
+        (EffectName::SetForce, "a `force` on a set needs a uniform density"),
     ];
     let listed = loads.iter().find(|(effect, _)| scene.lists(*effect));
     match listed.filter(|_| scene.density.uniform().is_none()) {
         None => Ok(()),
         Some((_, reason)) => {
-            let message = format!("the density varies over the body, and {reason}");
+            let message =
+                format!("a density that varies over the body is not supported here: {reason}");
             Err(evaluator.diagnostic(&path(own), &message))
         }
     }

@@ -39,8 +39,8 @@ fn uniform(diagnostic: Diagnostic) -> Diagnostic {
         return diagnostic;
     }
     diagnostic.with_help(
-        "except for its density, a material is the same all over its body: where it changes, state \
-         several `bodies` in `scene`, each with its own",
+        "only the density of a material can vary over a body: for several materials, list several \
+         `bodies` in `scene`",
     )
 }
 
@@ -54,7 +54,7 @@ fn not_negative(
     if value >= 0.0 {
         return Ok(value);
     }
-    let message = format!("{what} is {}, and must not be below zero", shown(value));
+    let message = format!("{what} is {}, but must not be below zero", shown(value));
     Err(evaluator.unusable(path, text, &message, "expected zero or a positive number"))
 }
 
@@ -68,7 +68,7 @@ fn above_one(
     if value > 1.0 {
         return Ok(value);
     }
-    let message = format!("{what} is {}, and must be above one", shown(value));
+    let message = format!("{what} is {}, but must be above one", shown(value));
     Err(evaluator.unusable(path, text, &message, "expected a number above 1"))
 }
 
@@ -149,20 +149,20 @@ pub(crate) fn stress(
     let path = own.at.then("initial_stress");
     let Some(spec) = own.initial_stress else { return Ok(InitialStress::default()) };
     let admitted = material.properties().starts_stressed();
-    admit(evaluator, &path, material, admitted, "has no initial stress")?;
+    admit(evaluator, &path, material, admitted, "does not support an initial stress")?;
     let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
     let mut components = Vec::new();
     for ((name, i, j), text) in COMPONENTS.into_iter().zip(texts) {
         let Some(text) = text else { continue };
         let at = path.then(name);
         if i.max(j) >= dimension {
-            let message = format!("`{name}` is no component in a scene of dimension {dimension}");
+            let message = format!("`{name}` is not a stress component in {dimension}-D");
             return Err(evaluator.diagnostic_at_key(&at, &message).with_help(&known(dimension)));
         }
         components.push((i, j, evaluator.formula(&at, text, &COORDINATES[..dimension])?));
     }
     if components.is_empty() {
-        let diagnostic = evaluator.diagnostic(&path, "an initial stress without a component");
+        let diagnostic = evaluator.diagnostic(&path, "`initial_stress` states no component");
         return Err(diagnostic.with_help(&known(dimension)));
     }
     Ok(InitialStress::new(components))

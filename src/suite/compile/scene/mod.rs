@@ -76,7 +76,7 @@ fn together(
     contact: Option<f64>,
 ) -> Result<Scene, Diagnostic> {
     let Some(first) = bodies.first() else {
-        return Err(evaluator.diagnostic(path, "a scene without a body"));
+        return Err(evaluator.diagnostic(path, "the scene has no body"));
     };
     let mut scene = Scene { contact, ..first.clone() };
     if !several {
@@ -124,7 +124,7 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
 fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
-            let message = format!("body {} and body {} have places in common", k + 1, i + 1);
+            let message = format!("body {} and body {} overlap", k + 1, i + 1);
             let at = path.then("bodies").then(i).then("body");
             return Err(evaluator.diagnostic_at_key(&at, &message));
         }

@@ -79,7 +79,7 @@ fn refuse_beside(
     if outline.volume_within(&from, &to) > SLIVER * size {
         return Ok(());
     }
-    let message = format!("the set `{}` has no part of the {}", set.name, outline.kind());
+    let message = format!("the set `{}` contains no part of the {}", set.name, outline.kind());
     let label = format!("the body is a {}", outline.row());
     Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
 }

@@ -84,22 +84,22 @@ fn refuse_idle(
     spec: &StabilityExpectSpec,
     seeks: bool,
 ) -> Result<(), Diagnostic> {
-    let help = "a suite with `critical` has a limit for each row, one without it a run";
+    let help = "with `critical` the result of each row is a limit, without it that of a single run";
     if seeks && spec.verdict.is_some() {
-        let message = "a limit is sought, and no row has a single run";
+        let message = "`verdict` is not supported with `critical`: no row is a single run";
         return Err(evaluator.diagnostic_at_key(&path.then("verdict"), message).with_help(help));
     }
     if seeks && !spec.figures.as_slice().is_empty() {
-        let message = "a limit is sought, and no row has the figures of a single run";
+        let message = "`figures` is not supported with `critical`: no row is a single run";
         return Err(evaluator.diagnostic_at_key(&path.then("figures"), message).with_help(help));
     }
     if !seeks && spec.critical.is_some() {
-        let message = "no limit is sought";
+        let message = "a limit is expected, but the suite has no `critical`";
         return Err(evaluator.diagnostic_at_key(&path.then("critical"), message).with_help(help));
     }
     let nothing = spec.verdict.is_none() && spec.figures.as_slice().is_empty();
     if !seeks && nothing {
-        let message = "nothing is expected of the runs of this case";
+        let message = "this expectation is empty";
         return Err(evaluator
             .diagnostic(path, message)
             .with_label("expected `verdict` or `figures`"));
@@ -120,12 +120,12 @@ fn wanted(
         (Some(value), Some(within)) if within >= 0.0 => Some((value, within)),
         (None, None) => None,
         _ => {
-            let message = "a closed form is given by `is` and held `within` a share of it";
+            let message = "a closed form needs its value, `is`, and a relative tolerance, `within`";
             return Err(evaluator.diagnostic(path, message).with_label("expected both"));
         }
     };
     if is.is_none() && above.is_none() && below.is_none() {
-        let diagnostic = evaluator.diagnostic(path, "nothing is said of this figure");
+        let diagnostic = evaluator.diagnostic(path, "this figure has no bound");
         return Err(diagnostic.with_label("expected `is` and `within`, `above` or `below`"));
     }
     Ok(FigureBounds { is, above, below })

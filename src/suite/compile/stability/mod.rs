@@ -67,8 +67,8 @@ fn sweep(
 ) -> Result<(String, Vec<f64>), Diagnostic> {
     let path = Path::top("sweep");
     let [(name, list)] = spec.sweep.as_slice() else {
-        let diagnostic = evaluator.diagnostic(&path, "one parameter is swept at a time");
-        return Err(diagnostic.with_label("expected a parameter and its values"));
+        let diagnostic = evaluator.diagnostic(&path, "`sweep` must vary exactly one parameter");
+        return Err(diagnostic.with_label("expected one parameter with its values"));
     };
     let path = path.then(name.as_str());
     declared(evaluator, &path, spec, name)?;
@@ -113,7 +113,7 @@ fn sought(
     let path = Path::top("critical");
     declared(evaluator, &path.then("parameter"), spec, &critical.parameter)?;
     if critical.parameter == swept {
-        let message = format!("`{swept}` is swept, and its limit sought");
+        let message = format!("`{swept}` cannot be the parameter of both `sweep` and `critical`");
         return Err(evaluator.diagnostic(&path.then("parameter"), &message));
     }
     let from = evaluator.positive(&path.then("from"), &critical.from, "the start of the range")?;
@@ -150,15 +150,15 @@ fn drafts(
     for (i, spec) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
-            return Err(evaluator.diagnostic(&path, "stability is studied of MPM only"));
+            return Err(evaluator.diagnostic(&path, "a stability study supports MPM only"));
         }
         if spec.is_quasi_static() {
-            let message = "stability is studied of steps in time, and `quasi_static` has none";
+            let message = "a stability study needs time steps, but `quasi_static` has none";
             return Err(evaluator.diagnostic(&path.then("mpm").then("scheme"), message));
         }
         for draft in methods(evaluator, i, spec, own)? {
             if draft.method.is_single_precision() {
-                let message = "stability is studied in double precision: small perturbations \
+                let message = "a stability study needs double precision: small perturbations \
                                vanish in single precision";
                 return Err(evaluator.diagnostic(&path.then("mpm").then("precision"), message));
             }
@@ -172,7 +172,7 @@ fn drafts(
                 };
                 let known = combine(basis, transfer, mass, frame).and_then(across);
                 known.and_then(averaged).map_err(|reason| {
-                    let help = "give what goes together an entry of `methods` of its own";
+                    let help = "list compatible settings in separate entries of `methods`";
                     evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
                 })?;
             }
@@ -204,7 +204,7 @@ fn cases(
             let path = Path::top("expect").then(i);
             Ok((
                 expect::rows(evaluator, template, spec, i, &rows, seeks)?,
-                evaluator.because(&path, "an expectation", &spec.because)?,
+                evaluator.because(&path, "this expectation", &spec.because)?,
             ))
         })
         .collect::<Result<Vec<_>, Diagnostic>>()?;

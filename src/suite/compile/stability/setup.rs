@@ -73,7 +73,8 @@ pub(crate) fn setup(
     let ppc = evaluator.count(&ppc_at, &spec.particles.ppc, "the number of particles per cell")?;
     if per_axis(ppc, d).is_none() {
         let message = format!("{ppc} particles per cell are not equally spaced in {d}-D");
-        return Err(evaluator.diagnostic(&ppc_at, &message).with_label("expected a whole power"));
+        let label = format!("expected n^{d} in {d}-D");
+        return Err(evaluator.diagnostic(&ppc_at, &message).with_label(&label));
     }
     let h = cell_size(&scene, cells);
     let run = Path::top("run");
@@ -91,7 +92,7 @@ pub(crate) fn setup(
     let dt = length("dt", &step_formula(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
     let every = turns(evaluator, spec)?;
     if let (Some(_), Some(_)) = (rule, &spec.run.alternate) {
-        let message = "steps of a length chosen by a rule take no turns with others";
+        let message = "`alternate` is not supported with an automatic time step";
         return Err(evaluator.diagnostic_at_key(&run.then("alternate"), message));
     }
     let mut steps_of = vec![dt; every];
@@ -132,12 +133,12 @@ fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagn
     let Some(text) = &spec.run.every else { return Ok(1) };
     let path = Path::top("run").then("every");
     if spec.run.alternate.is_none() {
-        let diagnostic = evaluator.diagnostic_at_key(&path, "steps of one length take no turns");
-        return Err(diagnostic.with_help("say what the other length is: `alternate`"));
+        let diagnostic = evaluator.diagnostic_at_key(&path, "`every` needs a second step length");
+        return Err(diagnostic.with_help("add the other length: `alternate`"));
     }
-    let every = evaluator.count(&path, text, "the number of steps in turn")?;
+    let every = evaluator.count(&path, text, "the number of consecutive steps")?;
     if every > MOST {
-        let diagnostic = evaluator.diagnostic(&path, &format!("{every} steps in turn"));
+        let diagnostic = evaluator.diagnostic(&path, &format!("{every} consecutive steps"));
         return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
     }
     Ok(every as usize)
@@ -151,7 +152,7 @@ fn lattice(
 ) -> Result<LatticeEdits, Diagnostic> {
     let (path, d) = (Path::top("particles"), scene.dimension());
     if !(scene.bodies.is_empty() || spec.particles.extra.is_empty()) {
-        let message = "a further particle is of one body, and the scene has several";
+        let message = "`extra` is supported for a single body only, but the scene lists `bodies`";
         return Err(evaluator.diagnostic_at_key(&path.then("extra"), message));
     }
     let shift = spec.particles.shift.as_ref();
@@ -165,7 +166,7 @@ fn lattice(
             if !(origin..=origin + cells * h).contains(x) {
                 let message = format!("a particle at {} is outside the grid", shown(*x));
                 let (low, high) = (shown(origin), shown(origin + cells * h));
-                let label = format!("expected a place from {low} to {high}");
+                let label = format!("expected a position from {low} to {high}");
                 return Err(evaluator.diagnostic(&at, &message).with_label(&label));
             }
         }
@@ -192,16 +193,18 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
         moves || !body.initial_stress.is_none()
     });
     if scene.contact.is_some() {
-        let message = "bodies that touch and part have no linear step";
+        let message = "`frozen` is not supported with contact, because a step with contact is not \
+                       linear";
         return Err(evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message));
     }
     if !(loaded || driven || moves) {
         return Ok(());
     }
-    let message =
-        "a frozen body rests without stress, and this one is loaded, driven or starts otherwise";
+    let message = "a frozen run must start at rest, without loads and without initial stress";
     let diagnostic = evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message);
-    Err(diagnostic.with_help("remove what the scene states of it; `perturb` starts the run"))
+    Err(diagnostic.with_help(
+        "remove loads, velocities and initial values from the scene; `perturb` starts the run",
+    ))
 }
 
 /// Maximum energy of a stable run, relative to the initial energy. This limit allows for the energy
@@ -228,7 +231,7 @@ fn scales(
     let unstable_above = bound("unstable_above", &spec.run.unstable_above, UNSTABLE_ABOVE)?;
     if !(stable_below <= unstable_above) {
         let message = format!(
-            "a run is stable below {} and unstable above {}",
+            "`stable_below` is {}, which is above `unstable_above`, {}",
             shown(stable_below),
             shown(unstable_above)
         );
@@ -261,6 +264,7 @@ fn of_null_space(
         return Ok(true);
     }
     let name = figure.name();
-    let message = format!("`{name}` is a figure of one body, and the scene has several");
+    let message =
+        format!("`{name}` is supported for a single body only, but the scene lists `bodies`");
     Err(evaluator.diagnostic(&path, &message))
 }

@@ -32,7 +32,8 @@ pub(crate) fn conduction(
         (None, Some(made)) => ("manufactured", made.temperature.as_ref(), None, true),
         _ => {
             let at = Path::top("scene").then("material");
-            let message = "a body at rest has one truth: a temperature, `exact` or `manufactured`";
+            let message = "a `rigid` body needs one exact solution: a temperature under `exact` or \
+                           `manufactured`";
             return Err(evaluator.diagnostic(&at, message));
         }
     };
@@ -42,8 +43,8 @@ pub(crate) fn conduction(
     let found = problem(evaluator, &path, temperature, scene, inputs)?;
     let Some(found) = found else {
         let at = Path::top("scene").then("material");
-        let diagnostic = evaluator.diagnostic(&at, "nothing happens to a body at rest");
-        return Err(diagnostic.with_help("add `heat` to `loads`, or choose a material"));
+        let diagnostic = evaluator.diagnostic(&at, "a `rigid` body needs `heat`");
+        return Err(diagnostic.with_help("add `heat` to `loads`, or choose another material"));
     };
     Ok(Some(found))
 }
@@ -59,9 +60,15 @@ fn refuse_methods_of_other_bodies(
     let Some(i) = spec.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
     let name = scene.material.name();
     let (message, help) = if at_rest {
-        (format!("a `{name}` body does not move"), "its method is `heat: {basis: linear}`")
+        (
+            format!("this method is for bodies that move, but a `{name}` body does not move"),
+            "use `heat: {basis: linear}`",
+        )
     } else {
-        (format!("a `{name}` body moves"), "`heat` is the method of a `rigid` one; this is `mpm`")
+        (
+            format!("the method `heat` is for bodies that do not move, but a `{name}` body moves"),
+            "use `mpm`, or the material `rigid`",
+        )
     };
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
@@ -69,7 +76,7 @@ fn refuse_methods_of_other_bodies(
 /// Refuses keys that judge, observe, expect or state quantities of a motion.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
-        let message = "nothing moves, and what is judged belongs to a motion";
+        let message = "the judged quantity needs a motion, but the body is `rigid`";
         let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
     }
@@ -92,8 +99,8 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
         ]);
     match stated.into_iter().find(|(_, stated)| *stated) {
         Some((at, _)) => {
-            let diagnostic =
-                evaluator.diagnostic_at_key(&at, "this speaks of a motion, and nothing moves");
+            let diagnostic = evaluator
+                .diagnostic_at_key(&at, "this key needs a motion, but the body is `rigid`");
             Err(diagnostic.with_help("remove it, or choose another material than `rigid`"))
         }
         None => Ok(()),
@@ -114,14 +121,14 @@ pub(crate) fn problem(
         (Some(heat), Some(text)) => (heat, text),
         (None, None) => return Ok(None),
         (None, Some(_)) => {
-            let diagnostic =
-                evaluator.diagnostic_at_key(&path, "a temperature, and the scene has no heat");
+            let diagnostic = evaluator
+                .diagnostic_at_key(&path, "a temperature is stated, but the scene has no `heat`");
             return Err(diagnostic.with_help("add `heat` to `loads`"));
         }
         (Some(_), None) => {
             let at = Path::top("scene").then("loads");
-            let diagnostic =
-                evaluator.diagnostic_at_key(&at, "heat flows, and no temperature is stated");
+            let diagnostic = evaluator
+                .diagnostic_at_key(&at, "the scene has `heat`, but no temperature is stated");
             return Err(diagnostic.with_help("state `temperature` under `exact` or `manufactured`"));
         }
     };
@@ -129,8 +136,8 @@ pub(crate) fn problem(
     let formula = evaluator.formula(&path, text, &coordinates_and_time(dimension))?;
     let ConductionInputs { motion, manufactured, until, tolerance } = rest;
     if manufactured && heat.source.is_some() {
-        let message = "the source follows from the temperature, and the scene states one besides";
-        let help = "remove the `source`, or state the temperature under `exact` to have it checked";
+        let message = "the manufactured temperature defines the source: remove `source`";
+        let help = "to have a stated source checked, state the temperature under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
     }
     Ok(Some(Conduction {
@@ -161,7 +168,7 @@ fn refuse_methods_without_heat(
         return Ok(());
     }
     if spec.reference.is_some() {
-        let message = "a reference knows nothing of heat, which flows in the scene";
+        let message = "`reference` does not support heat";
         return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
     }
     for (i, method) in spec.methods.iter().enumerate() {
@@ -169,20 +176,20 @@ fn refuse_methods_without_heat(
         match method {
             MethodSpec::Heat { .. } | MethodSpec::External { .. } => {}
             MethodSpec::Fem { .. } => {
-                let message = "the reference FEM knows nothing of heat, which flows in the scene";
+                let message = "the built-in FEM does not support heat";
                 return Err(evaluator.diagnostic(&path, message));
             }
             MethodSpec::Mpm { transfer, frame, .. } => {
                 let frames = frame.as_ref().map_or(&[][..], OneOrMany::as_slice);
                 if frames.contains(&FrameName::Total) {
-                    let message = "heat flows in the body as it is now, which a total-Lagrangian \
-                                   grid does not see";
+                    let message = "`total_lagrangian` does not support heat, which flows in the \
+                                   deformed body";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
                 }
                 let transfers = transfer.as_ref().map_or(&[][..], OneOrMany::as_slice);
                 if transfers.iter().any(|transfer| transfer.kind() == TransferKind::Cells) {
-                    let message = "heat is summed over particles, and a transfer that integrates \
-                                   over cells has other nodal masses";
+                    let message = "a transfer that integrates over cells does not support heat, \
+                                   which is summed over particles";
                     return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));
                 }
             }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// Help for two bodies without contact whose exact motions separate or slide.
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
-                       they may part or slide, add `contact: {friction: 0}` to `scene`";
+                       they can separate or slide, add `contact: {friction: 0}` to `scene`";
 
 /// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
 ///
@@ -26,9 +26,10 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
         ("reference", spec.has_fem_reference()),
     ];
     let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
-    let message = format!("`{key}` speaks of one body, and the scene has several");
+    let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
     let diagnostic = evaluator.diagnostic_at_key(&Path::top(key), &message);
-    Err(diagnostic.with_help("state a solution under `exact`, or bound what the run keeps"))
+    Err(diagnostic
+        .with_help("state a solution under `exact`, or bound the drift of conserved sums"))
 }
 
 /// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.
@@ -45,15 +46,15 @@ pub(crate) fn refuse_violated_conditions(
 ) -> Result<(), Diagnostic> {
     let at = Path::top("scene").then("bodies");
     if let Some(i) = problems.iter().position(|problem| problem.outline.is_some()) {
-        let message = "a solution is known of boxes that meet face to face";
+        let message = "an exact solution of several bodies can be checked only for boxes";
         return Err(evaluator.diagnostic_at_key(&at.then(i).then("body"), message));
     }
     let pairs = pairs(&problems);
     for &(i, k, axis) in &pairs {
         let apart = problems[i].to[axis] != problems[k].from[axis];
         if apart && scene.contact.is_none() {
-            let message = "bodies that share one velocity field and do not touch have no solution \
-                           without h in it";
+            let message = "the exact solution of bodies with a gap and one velocity field depends \
+                           on the cell size";
             let diagnostic = evaluator.diagnostic_at_key(&at.then(k).then("body"), message);
             return Err(diagnostic.with_help(CONTACT));
         }
@@ -112,7 +113,8 @@ fn refuse_other_touch(
             let touch = (0..one.dimension())
                 .all(|axis| one.from[axis] <= other.to[axis] && other.from[axis] <= one.to[axis]);
             if i < k && touch && !known {
-                let message = "a solution is known of boxes that meet with whole faces";
+                let message = "an exact solution can be checked only for boxes that share a whole \
+                               face";
                 return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
             }
         }

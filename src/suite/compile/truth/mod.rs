@@ -49,7 +49,7 @@ pub(crate) fn exact(
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
     let path = Path::top("exact");
     if spec.manufactured.is_some() {
-        let message = "a solution is either exact or manufactured";
+        let message = "the suite states both `exact` and `manufactured`: keep one";
         return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
     }
     let problem = solution(evaluator, &path, exact, scene, false, until)?;
@@ -130,8 +130,9 @@ fn equation(
     let (name, material) = (name.name(), scene.material.name());
     let (message, help) = if Equation::NAMES.contains(&name) {
         (
-            format!("`{name}` is not the problem of a `{material}` material"),
-            "a linear elastic material has `small_strain`, others have the equation of their name",
+            format!("equation `{name}` does not belong to the material `{material}`"),
+            "use `small_strain` for `linear_elastic`, and for other materials the equation with \
+             their name",
         )
     } else {
         let message = "a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only";
@@ -151,7 +152,7 @@ fn manufactured(
     let path = Path::top("manufactured");
     let equation = manufactured_law(&scene.material).map_err(|reason| {
         let message =
-            "a force is manufactured for a `neo_hookean`, `hencky` or `corotated` material";
+            "a force can be manufactured for `neo_hookean`, `hencky` and `corotated` only";
         evaluator.diagnostic_at_key(&path, message).with_help(reason)
     })?;
     for (key, what, stated) in [
@@ -159,15 +160,14 @@ fn manufactured(
         ("initial_velocity", "velocity", &scene.initial_velocity),
     ] {
         if !stated.is_empty() {
-            let message = format!("the initial {what} follows from the motion");
+            let message = format!("the manufactured motion defines the initial {what}");
             let at = Path::top("scene").then(key);
             return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
         }
     }
     if scene.lists(EffectName::BodyForce) {
-        let message = "the body force follows from the motion, and the scene states one besides";
-        let help = "remove the `body_force` from `loads`, or state the motion under `exact` to \
-                    have the force checked";
+        let message = "the manufactured motion defines the body force: remove `body_force`";
+        let help = "to have a stated force checked, state the motion under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
     }
     let Some(texts) = &made.displacement else {
@@ -269,8 +269,8 @@ fn refuse_truth_of_mapped(
     ];
     match stated.iter().find(|(_, stated)| *stated) {
         Some((key, _)) => {
-            let message = "a solution is checked in a box or a body with a free rim, not in a \
-                           quadrilateral";
+            let message = "a solution can be checked in a box or a body with a free rim, but not \
+                           in a quadrilateral";
             Err(evaluator.diagnostic_at_key(&Path::top(key), message))
         }
         None => Ok(()),
@@ -309,7 +309,7 @@ fn refuse_equilibrium_with(
         ("reference", spec.reference.is_some()),
     ];
     if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
-        let message = format!("`{other}` is a motion, and the suite states an equilibrium besides");
+        let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
     // Binding the formula without t makes a formula with t an error.
@@ -318,23 +318,24 @@ fn refuse_equilibrium_with(
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
     }
     if scene.heat().is_some() {
-        let message = "a body in which heat flows is not at rest: state a motion under `exact`";
+        let message = "`equilibrium` is not supported with `heat`: state a motion under `exact`";
         return Err(evaluator.diagnostic_at_key(&path, message));
     }
     if let Some(until) = spec.run.until.as_ref().filter(|until| until.as_slice().len() > 1) {
         let at = Path::top("run").then("until").alternative(until, 1);
-        let message = "a body comes to rest once, under the loads at the end of its run";
+        let message = "a suite with `equilibrium` has a single end time";
         return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
     }
     if spec.judge.norm.is_over_instants() {
-        let message = "on its way a body is not in equilibrium";
+        let message = "a `max_` norm needs a motion: with `equilibrium` the error exists only at \
+                       the end";
         let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
         return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
     }
     refuse_driven(evaluator, scene)?;
     match spec.fem_method() {
         Some(i) => {
-            let message = "the reference FEM has no damping and does not come to rest";
+            let message = "the built-in FEM has no damping, so it does not reach an equilibrium";
             Err(evaluator.diagnostic(&Path::top("methods").then(i), message))
         }
         None => Ok(()),
@@ -346,13 +347,17 @@ fn refuse_equilibrium_with(
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
-        let message = format!("the face `{}` is driven, and the body comes to rest", face.name);
+        let message = format!(
+            "the face `{}` has a given velocity, but `equilibrium` needs a body at rest",
+            face.name
+        );
         return Err(
             evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
         );
     }
     if let Some(set) = scene.driven_set() {
-        let message = format!("the set `{set}` is driven, and the body comes to rest");
+        let message =
+            format!("the set `{set}` has a given velocity, but `equilibrium` needs a body at rest");
         let at = scene_path.then("sets").then(set);
         return Err(evaluator.diagnostic_at_key(&at, &message));
     }
@@ -400,14 +405,15 @@ pub(crate) fn refuse_need_of_truth(
     };
     let full = |spec: &ExpectSpec| spec.full.as_deref().is_some_and(asked);
     if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {
-        let message = "no truth: a convergence study needs `exact`, `manufactured`, `equilibrium` or \
+        let message = "a convergence study needs `exact`, `manufactured`, `equilibrium` or \
                        `reference`";
         let diagnostic = evaluator.diagnostic_at_key(&Path::top("suite"), message);
-        return Err(diagnostic
-            .with_help("without one, expectations may bound a `drift` or an `energy_rate` only"));
+        return Err(diagnostic.with_help(
+            "without one of them, expectations can only bound a `drift` or an `energy_rate`",
+        ));
     }
     if spec.observe.is_some() {
-        let message = "a place is observed against a truth, and the suite has none";
+        let message = "`observe` needs an exact solution or a reference, and the suite has neither";
         return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
     }
     Ok(())

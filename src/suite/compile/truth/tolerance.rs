@@ -36,7 +36,7 @@ pub(crate) fn linearised(
     let Some(spec) = spec else { return Ok(None) };
     let path = path.then("linearised");
     let tolerance = tolerance(evaluator, &path, Some(&spec.tolerance))?;
-    let because = evaluator.because(&path, "a linearised solution", &spec.because)?;
+    let because = evaluator.because(&path, "this linearised solution", &spec.because)?;
     Ok(Some(Linearised { tolerance, because }))
 }
 
@@ -54,14 +54,15 @@ pub(crate) fn violated(
     match &problem.linearised {
         Some(stated) if left > stated.tolerance => {
             let allowed = stated.tolerance;
-            let found = format!("{left:.2e} of the terms of the equations is left");
-            diagnostic.with_label(&format!("{found}, and {allowed:.2e} is stated as linearised"))
+            let found = format!("the residual is {left:.2e} of the terms of the equations");
+            diagnostic
+                .with_label(&format!("{found}, above the stated `tolerance` of {allowed:.2e}"))
         }
         None if problem.equation.is_finite() && left > problem.tolerance && left <= MOST => {
             let help = format!(
-                "correct the formula, or the scene; if it is a linearised solution, which leaves \
-                 {left:.2e} of the terms of the equations, add \
-                 `linearised: {{tolerance: ..., because: ...}}`"
+                "correct the formula, or the scene; if the solution is linearised (its residual is \
+                 {left:.2e} of the terms of the equations), add `linearised: {{tolerance: ..., \
+                 because: ...}}`"
             );
             diagnostic.with_help(&help)
         }

@@ -63,15 +63,15 @@ impl BoundaryCondition for FrictionFace {
 
     fn against_several_bodies(&self) -> Option<&'static str> {
         Some(
-            "friction is measured by what a wall takes from one body, and what other bodies push \
-             comes after it",
+            "friction on a wall is supported for a single body only: it is computed before the \
+             contact between bodies",
         )
     }
 
     fn against_consistent_mass(&self) -> Option<&'static str> {
         Some(
-            "friction is measured by what a held node would do, of which a consistent mass matrix \
-             has no row",
+            "`friction` needs a lumped mass matrix: it is computed from the force that would hold \
+             each node",
         )
     }
 }

@@ -57,7 +57,10 @@ impl BoundaryCondition for MovingFace {
     }
 
     fn against_consistent_mass(&self) -> Option<&'static str> {
-        Some("the consistent mass matrix is solved for walls at rest, and a face is driven")
+        Some(
+            "a given velocity of a face needs a lumped mass matrix: the consistent one is solved \
+             for walls at rest",
+        )
     }
 }
 

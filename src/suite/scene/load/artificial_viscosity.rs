@@ -46,7 +46,7 @@ impl LoadKeys for ViscositySpec {
     }
 
     fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
-        let reason = "an artificial viscosity is a pressure on all axes";
+        let reason = "it is a pressure on all axes";
         (plane != PlaneState::Strain).then_some(reason)
     }
 

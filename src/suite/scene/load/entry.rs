@@ -146,7 +146,7 @@ impl LoadEntry<'_> {
         let taken = scene.loads_on(LoadTarget::Face(number)).next();
         let has = match taken {
             _ if !hold.is_free() => hold.verb().to_owned(),
-            Some(other) => format!("has a {} already", other.effect.name()),
+            Some(other) => format!("already has a {}", other.effect.name()),
             None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
         };
         Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
@@ -165,7 +165,7 @@ impl LoadEntry<'_> {
         match scene.loads_on(LoadTarget::Rim(circle.number)).next() {
             None => Ok(circle.clone()),
             Some(other) => {
-                let message = format!("the rim `{name}` has a {} already", other.effect.name());
+                let message = format!("the rim `{name}` already has a {}", other.effect.name());
                 Err(evaluator.diagnostic(&path, &message))
             }
         }
@@ -178,7 +178,7 @@ impl LoadEntry<'_> {
         match self.scene.loads_on(LoadTarget::Set(number)).next() {
             None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
             Some(other) => {
-                let message = format!("the set `{name}` has a {} already", other.effect.name());
+                let message = format!("the set `{name}` already has a {}", other.effect.name());
                 Err(self.evaluator.diagnostic(&path, &message))
             }
         }
@@ -253,7 +253,7 @@ fn refuse_surface_load(
     if sets.iter().all(|set| set.name != name) {
         return Ok(());
     }
-    let message = format!("`{name}` is a set, and a {load} acts on a face");
+    let message = format!("`{name}` is a set, but a {load} acts on a face");
     let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }

@@ -51,7 +51,10 @@ impl LoadKeys for HeatSpec {
         let LoadEntry { evaluator, path, scene, .. } = entry;
         if let Some(outline) = &scene.outline {
             let kind = outline.kind();
-            let message = format!("heat flows in a `box`, and the body is of kind `{kind}`");
+            let message = format!(
+                "heat is supported in a `box` only, but the body is of kind \
+                                   `{kind}`"
+            );
             return Err(evaluator.diagnostic_at_key(path, &message));
         }
         if scene.heat().is_some() {
@@ -71,7 +74,7 @@ impl LoadKeys for HeatSpec {
     }
 
     fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
-        (plane != PlaneState::Strain).then_some("heat flows in bodies in plane strain only")
+        (plane != PlaneState::Strain).then_some("it is implemented in plane strain only")
     }
 
     fn is_of_one_body(&self) -> bool {
@@ -207,13 +210,13 @@ fn on_grid(
 ) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.verb());
     if face.hold.is_periodic() {
-        let message = format!("the {name} face {verb}, and has no temperature of its own");
+        let message = format!("the {name} face {verb}, so it cannot have a thermal condition");
         return Err(entry.evaluator.diagnostic_at_key(path, &message));
     }
     if face.hold.stays() || !lets_heat_in {
         return Ok(());
     }
-    let message = format!("the {name} face {verb}, and heat enters at the face of the grid");
+    let message = format!("the {name} face {verb}, but heat can enter only at a face of the grid");
     let diagnostic = entry.evaluator.diagnostic_at_key(path, &message);
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }

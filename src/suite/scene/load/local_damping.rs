@@ -36,7 +36,7 @@ impl LoadKeys for LocalDampingSpec {
         if !study.manufactured {
             return Ok(());
         }
-        let message = "local damping opposes the whole force, and a part of it is manufactured";
+        let message = "`local_damping` needs the whole force, but a part of it is manufactured";
         let diagnostic = entry.evaluator.diagnostic_at_key(&Path::top("manufactured"), message);
         Err(diagnostic.with_help("state the motion under `exact`, or use `damping`"))
     }

@@ -41,7 +41,7 @@ impl LoadKeys for SetForceSpec {
     }
 
     fn against_plane(&self, plane: PlaneState) -> Option<&'static str> {
-        let reason = "a total force on a set is not one of a body of revolution";
+        let reason = "it is not defined for a body of revolution";
         (plane == PlaneState::Axisymmetric).then_some(reason)
     }
 }

@@ -29,8 +29,8 @@ impl LoadKeys for ExpansionSpec {
             return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
         }
         if !entry.scene.initial_stress.is_none() {
-            let message = "a body has an initial stress or expands by heat, not both: whether that \
-                           stress is one before or after the expansion is not known";
+            let message = "`thermal_expansion` is not supported with an initial stress, which \
+                           could be that before or after the expansion";
             return Err(evaluator.diagnostic_at_key(path, message));
         }
         let rate_form = rate_form(entry)?;
@@ -55,7 +55,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let (name, d) = (scene.material.name(), scene.dimension());
     let law = scene.material.properties();
     if !law.is_elastic() {
-        let message = format!("the stress of a heated `{name}` body is not known");
+        let message = format!("`thermal_expansion` does not support the law `{name}`");
         let diagnostic = evaluator.diagnostic_at_key(path, &message);
         return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
     }
@@ -66,8 +66,8 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let poisson = elasticity.map_or(0.0, |(_, poisson)| poisson);
     if d < 3 && poisson != 0.0 {
         let message = format!(
-            "in {d}-D a heated `{name}` body would be held along the axes that are left out, and its \
-             Poisson's ratio is {poisson}"
+            "in {d}-D `thermal_expansion` of a `{name}` body needs a Poisson's ratio of 0, not \
+             {poisson}: the body cannot expand along the other axes"
         );
         let diagnostic = evaluator.diagnostic_at_key(path, &message);
         return Err(diagnostic.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));

@@ -52,8 +52,8 @@ fn check(diagnostic: &Diagnostic, place: (usize, usize, usize), message: &str, h
 #[case::no_name("{box: {from: [0], to: [L]}}", "{}", (5, 9, 1), "one name with its settings is expected here, found none or several", "write `{NAME: {...}}`; a list holds several")]
 #[case::twice("ppc: 4", "ppc: 4, cells: [1]", (9, 38, 5), "the key `cells` is given twice", "keep one of the two")]
 #[case::parameter_twice("rho: 1,", "rho: 1, L: 3,", (2, 37, 1), "the key `L` is given twice", "keep one of the two")]
-#[case::not_a_number("poisson: 0", "poisson: .nan", (6, 50, 4), "expected a finite number, found one that is not a number", "")]
-#[case::infinite("[1.9, 2.1]", "[1.9, .inf]", (13, 19, 4), "expected a finite number, found one that is infinite", "")]
+#[case::not_a_number("poisson: 0", "poisson: .nan", (6, 50, 4), "expected a finite number, found NaN", "")]
+#[case::infinite("[1.9, 2.1]", "[1.9, .inf]", (13, 19, 4), "expected a finite number, found infinity", "")]
 #[case::empty_list("[musl, usl]", "[]", (11, 50, 1), "an empty list selects nothing", "")]
 #[case::key_of_a_list("L: 25", "[L]: 25", (2, 14, 1), "expected a name as key, found a list", "")]
 #[case::tab("  dimension", "\tdimension", (4, 1, 1), "tab used for indentation; YAML needs spaces", "")]
@@ -147,7 +147,7 @@ error: unknown key `cels`
  --> bar.yaml:9:10
   |
 9 | refine: {cels: [5, 10, 20], ppc: 4}
-  |          ^^^^ no key that is known here
+  |          ^^^^ not a known key
   |
   = help: did you mean `cells`?";
     assert_eq!(diagnostic.to_string(), want);

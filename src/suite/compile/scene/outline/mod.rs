@@ -37,7 +37,7 @@ pub(crate) fn shape<'a>(
         if dimension == flat {
             return Ok(at);
         }
-        let message = format!("the scene is {dimension}-D, and `{kind}` a body in {flat}-D");
+        let message = format!("the scene is {dimension}-D, but `{kind}` is a body in {flat}-D");
         let flat = "`box`, `annulus`, `disk`, `polygon` or `quadrilateral`";
         let help = format!(
             "in {dimension}-D a body is a {}",
@@ -79,7 +79,8 @@ pub(crate) fn rims_are_free(
 ) -> Result<(), Diagnostic> {
     let kind = outline.kind();
     let held = spec.boundary.as_slice().first().map(|(face, _)| {
-        let message = format!("the rims of a body of kind `{kind}` are free, not `{face}`");
+        let message =
+            format!("`{face}` cannot be held: a body of kind `{kind}` has free rims only");
         evaluator.diagnostic_at_key(&path.then("boundary").then(face.as_str()), &message)
     });
     let loaded = spec.loads.iter().enumerate().find_map(|(i, load)| {
@@ -87,13 +88,14 @@ pub(crate) fn rims_are_free(
         if load.keys().acts_on_rims() && !outline.circles().is_empty() {
             return None;
         }
-        let message = format!("the rims of a body of kind `{kind}` are free, `{on}` has no load");
+        let message =
+            format!("`{on}` cannot be loaded: a body of kind `{kind}` has free rims only");
         Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
     });
     match held.or(loaded) {
         Some(diagnostic) => Err(diagnostic.with_help(
-            "only the faces of a `box` can be held or loaded, and a `pressure` acts on the \
-                 `inner` or `outer` rim of an annulus or a disk",
+            "only the faces of a `box` can be held or loaded, and a `pressure` acts on the `inner` \
+             or `outer` rim of an annulus or a disk",
         )),
         None => Ok(()),
     }
@@ -118,7 +120,7 @@ pub(crate) fn fits(
         ] {
             if inside {
                 let (kind, reach, end) = (outline.kind(), shown(body), shown(end));
-                let message = format!("the {kind} reaches to {reach}, and the grid ends at {end}");
+                let message = format!("the {kind} extends to {reach}, but the grid ends at {end}");
                 let diagnostic =
                     evaluator.diagnostic(&path.then("grid").then(key).then(axis), &message);
                 return Err(diagnostic.with_label(&format!("expected at {word} {reach}")));

@@ -64,7 +64,7 @@ pub(crate) fn faces_are_sides(
         let at = path.then("boundary").then(face.as_str());
         if hold.named().1.is_periodic() {
             return Err(
-                evaluator.diagnostic_at_key(&at, "a quadrilateral does not go on periodically")
+                evaluator.diagnostic_at_key(&at, "a quadrilateral cannot have periodic faces")
             );
         }
         if !is_side(face) {

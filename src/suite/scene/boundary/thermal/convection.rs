@@ -44,7 +44,7 @@ impl ThermalCondition for Convection {
         let ambient = point.value(&self.ambient);
         let given = self.coefficient * (ambient - point.temperature());
         let size = self.coefficient * point.largest_temperature().max(ambient.abs());
-        point.lets_in("is cooled by convection, heat that enters", given, size)
+        point.lets_in("is cooled by convection", given, size)
     }
 }
 

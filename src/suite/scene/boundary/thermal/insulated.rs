@@ -23,7 +23,7 @@ impl ThermalKeys for Insulated {
 
 impl ThermalCondition for Insulated {
     fn check(&self, point: &dyn HeatFacePoint) -> Result<(), Violation> {
-        point.lets_in("is insulated, heat that enters", 0.0, 0.0)
+        point.lets_in("is insulated", 0.0, 0.0)
     }
 }
 
