@@ -9,11 +9,13 @@
 
 mod checkpoint;
 mod column;
+mod energy_balance;
 mod functional;
 
 use crate::named::named;
 pub use checkpoint::{Checkpoint, Memory};
 pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
+pub use energy_balance::{EnergyBalance, LedgerStage};
 pub use functional::{Functional, FunctionalValue, GradientParameter};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -67,6 +69,12 @@ pub trait Subject {
     /// for particles, the part in the null space of the map to the grid. It may cost as much as
     /// some tens of steps, and is computed only if a figure needs it; `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
+        None
+    }
+
+    /// Changes of the energy by each stage of the steps so far; `None` by default, and before the
+    /// first step.
+    fn energy_balance(&self) -> Option<EnergyBalance> {
         None
     }
 }

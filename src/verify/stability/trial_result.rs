@@ -1,6 +1,7 @@
 //! Results of a trial: verdict, figures, and the scales of the measurements.
 
 use crate::named::named;
+use crate::subject::EnergyBalance;
 use serde::{Deserialize, Serialize};
 
 named! {
@@ -82,4 +83,7 @@ pub struct Trial {
     pub stress: f64,
     /// The largest displacement (m), at the end.
     pub displacement: f64,
+    /// Changes of the energy by each stage of a step, summed over the run; `None` if no ledger is
+    /// kept.
+    pub ledger: Option<EnergyBalance>,
 }
