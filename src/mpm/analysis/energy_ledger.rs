@@ -227,11 +227,7 @@ impl<const D: usize> Recorder<D> {
 
     /// Entries of the step, except that of the stored energy; `moved_kinetic` is the kinetic
     /// energy (J) at its end.
-    fn entries(
-        &self,
-        masses: &[f64],
-        moved_kinetic: f64,
-    ) -> [f64; LedgerStage::ALL.len()] {
+    fn entries(&self, masses: &[f64], moved_kinetic: f64) -> [f64; LedgerStage::ALL.len()] {
         let before = self.before.as_deref().unwrap_or_default();
         let nodes = || before.iter().zip(&self.after).zip(masses);
         let half = |(w, after): (&Vector<D>, &Vector<D>)| (w + after) * 0.5;

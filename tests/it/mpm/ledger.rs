@@ -3,8 +3,8 @@
 
 use crate::common::{DT, free_body, pairs};
 use mpm_verify::mpm::{
-    BasisName, EnergyLedger, NeoHookean, ParticleField, Particles, SchemeName, Setup,
-    Solver, TransferName, Vector, kernel, kinetic_energy,
+    BasisName, EnergyLedger, NeoHookean, ParticleField, Particles, SchemeName, Setup, Solver,
+    TransferName, Vector, kernel, kinetic_energy,
 };
 use mpm_verify::subject::{EnergyBalance, LedgerStage, Subject};
 use rstest::rstest;
