@@ -3,10 +3,10 @@
 
 use crate::common::{DT, free_body, pairs};
 use mpm_verify::mpm::{
-    BasisName, EnergyLedger, NeoHookean, ParticleField, Particles, SchemeName, Setup, Solver,
-    TransferName, Vector, kernel, kinetic_energy,
+    BasisName, EnergyLedger, FrameName, LedgerSolver, NeoHookean, ParticleField, Particles,
+    SchemeName, Setup, Solver, TransferName, Vector, kernel, kinetic_energy,
 };
-use mpm_verify::subject::{EnergyBalance, LedgerStage, Subject};
+use mpm_verify::subject::{EnergyBalance, LedgerStage, Perturbable, Subject};
 use rstest::rstest;
 
 /// Largest difference, as a share of the sum of the magnitudes of all entries.
@@ -29,8 +29,13 @@ fn scattered<const D: usize>(method: (BasisName, TransferName), scheme: SchemeNa
     setup
 }
 
-fn balanced<const D: usize>(method: (BasisName, TransferName), scheme: SchemeName) {
-    let mut solver = Solver::new(scattered::<D>(method, scheme)).expect("a solver");
+fn balanced<const D: usize>(
+    method: (BasisName, TransferName),
+    scheme: SchemeName,
+    frame: FrameName,
+) {
+    let setup = Setup { frame, ..scattered::<D>(method, scheme) };
+    let mut solver = Solver::new(setup).expect("a solver");
     let stored = |solver: &Solver<D>| solver.totals().and_then(|totals| totals.strain_energy);
     let start = kinetic_energy(method.0, &solver) + stored(&solver).expect("an energy");
     let mut ledger = EnergyLedger::new(method.0);
@@ -55,8 +60,17 @@ fn entries_add_up_to_the_change_of_the_energy(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     for method in pairs().filter(|(_, transfer)| *transfer != TransferName::Tls) {
-        balanced::<1>(method, scheme);
-        balanced::<2>(method, scheme);
+        balanced::<1>(method, scheme, FrameName::Updated);
+        balanced::<2>(method, scheme, FrameName::Updated);
+    }
+}
+
+#[rstest]
+fn entries_add_up_on_a_grid_of_the_reference(
+    #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
+) {
+    for basis in [BasisName::Linear, BasisName::QuadraticBSpline] {
+        balanced::<2>((basis, transfer), SchemeName::Musl, FrameName::Total);
     }
 }
 
@@ -161,6 +175,31 @@ fn a_step_with_a_ledger_has_the_bits_of_a_step() {
         assert_eq!(with.particles().x, without.particles().x);
         assert_eq!(with.particles().v, without.particles().v);
     }
+}
+
+/// A stability study perturbs and freezes a solver with a ledger like one without.
+#[test]
+fn a_solver_with_a_ledger_has_the_state_of_the_solver() {
+    let method = (BasisName::CubicBSpline, TransferName::Apic);
+    let solver = || Solver::new(scattered::<2>(method, SchemeName::Usl)).expect("a solver");
+    let state = |subject: &dyn Perturbable| {
+        let mut state = Vec::new();
+        subject.state(&mut state);
+        state
+    };
+    let (mut with, mut without) = (LedgerSolver::new(method.0, solver()), solver());
+    assert_eq!(with.energy_balance(), None);
+    for subject in [&mut with as &mut dyn Perturbable, &mut without] {
+        subject.fix_configuration();
+        let start: Vec<f64> = state(subject).iter().map(|number| number * 1.01).collect();
+        subject.set_state(&start);
+        (0..3).for_each(|_| subject.step(DT).unwrap());
+    }
+    assert_eq!(state(&with), state(&without));
+    let balance = with.energy_balance().expect("a balance");
+    let energy = with.totals().and_then(|totals| totals.energy()).expect("an energy");
+    assert!(balance.size() > 1e-6 * energy && balance.gap() * balance.size() <= TOLERANCE * energy);
+    assert_eq!(balance.entry(LedgerStage::Motion), 0.0);
 }
 
 /// FLIP under MUSL conserves the energy of a smooth motion: the error of the stress work falls with
