@@ -1,4 +1,5 @@
-//! Symbols of stiffness, mass, APIC, MLS-MPM and TPIC: one Fourier mode of the maps between particles and grid.
+//! Symbols of stiffness, mass, APIC, MLS-MPM and TPIC: one Fourier mode of the maps between
+//! particles and grid.
 //!
 //! A periodic row of cells with the same particles in each cell is invariant under translation by
 //! a cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid
