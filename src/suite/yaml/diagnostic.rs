@@ -6,7 +6,7 @@ use std::fmt;
 use std::ops::Range;
 
 /// Maximum length of a text in a diagnostic: a file may contain a key of 60 000 characters.
-const MAX_WORDS: usize = 300;
+const MAX_WORDS: usize = 500;
 
 /// Severity of the diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

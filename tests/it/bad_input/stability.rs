@@ -143,6 +143,7 @@ const PLATE: [(&str, &str); 5] = [
             "  bodies:\n    - body: {box: {from: [0], to: [2]}}\n      material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n    - body: {box: {from: [2], to: [4]}}\n      material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n",
         ),
         ("  material: {neo_hookean: {young: 100, poisson: 0, density: \"m/4\"}}\n  boundary", "  boundary"),
+        ("  initial_velocity: [\"v\"]\n", ""),
         ("show: [ledger_gap]", "show: [▸ledger_gap]"),
     ],
     &["`ledger_gap` is a figure of one body, and the scene has several"]
