@@ -9,11 +9,13 @@
 
 mod checkpoint;
 mod column;
+mod energy_balance;
 mod functional;
 
 use crate::named::named;
 pub use checkpoint::{Checkpoint, Memory};
 pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
+pub use energy_balance::{EnergyBalance, LedgerStage};
 pub use functional::{Functional, FunctionalValue, GradientParameter};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -70,6 +72,12 @@ pub trait Subject {
     /// computation may cost as much as tens of steps, so callers request this energy only for
     /// reports. `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
+        None
+    }
+
+    /// Changes of the energy by each stage of the steps so far; `None` by default, and before the
+    /// first step.
+    fn energy_balance(&self) -> Option<EnergyBalance> {
         None
     }
 }

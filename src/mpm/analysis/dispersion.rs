@@ -50,6 +50,11 @@ pub enum WaveTransfer {
     Pic,
     /// APIC.
     Apic,
+    /// MLS-MPM: APIC with gradients from the fit of its affine field.
+    Mls,
+    /// TPIC: PIC with the gradient of the basis as affine field. The particles must be symmetric in
+    /// their cell, so that the step has real coefficients.
+    Tpic,
     /// A blend of FLIP and PIC with this fraction of FLIP, from 0 to 1.
     Blend(f64),
     /// XPIC with this number of terms.
@@ -79,12 +84,14 @@ impl WaveTransfer {
             TransferName::Flip95 => Some(Self::Blend(0.95)),
             TransferName::Pic => Some(Self::Pic),
             TransferName::Apic => Some(Self::Apic),
+            TransferName::Mls => Some(Self::Mls),
+            TransferName::Tpic => Some(Self::Tpic),
             TransferName::Xpic2 => Some(Self::Xpic(2)),
             TransferName::Xpic5 => Some(Self::Xpic(5)),
             TransferName::Fmpm2 => Some(Self::Fmpm(2)),
             TransferName::Fmpm4 => Some(Self::Fmpm(4)),
-            // Particles of these transfers have additional variables, or gradients from a fit.
-            TransferName::Mls | TransferName::Tpic | TransferName::Tls => None,
+            // The maps go through quadrature points, which are not the particles.
+            TransferName::Tls => None,
         }
     }
 }
@@ -104,7 +111,7 @@ pub struct WaveStep {
 impl WaveStep {
     /// Creates the step of a wave with these symbols.
     pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
-        let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a } = *symbols;
+        let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a, .. } = *symbols;
         let uses_grid_velocity = scheme == SchemeName::Usl;
         // Creates the step of a transfer that adds `dt S f` to velocities and multiplies the grid
         // part of the old velocities by `kept`.
@@ -115,22 +122,26 @@ impl WaveStep {
                 Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
             }
         };
-        // Creates the step of a transfer that replaces velocities by grid velocities times
-        // `series`.
-        let replacing = |kept: f64, series: f64| {
+        // Creates the step of a transfer that replaces velocities by grid velocities.
+        let replacing = |kept: f64, stiffness: f64| {
             let passed = if uses_grid_velocity { 1.0 } else { kept };
-            Self { theta, kept, stiffness: kappa * series * passed, loss: 0.0 }
+            Self { theta, kept, stiffness: stiffness * passed, loss: 0.0 }
         };
         match transfer {
             WaveTransfer::Flip => adding(1.0),
             WaveTransfer::FlipConsistent => {
                 Self { theta, kept: 1.0, stiffness: kappa / s, loss: 0.0 }
             }
-            WaveTransfer::Pic => replacing(s, 1.0),
-            WaveTransfer::Apic => replacing(a, 1.0),
+            WaveTransfer::Pic => replacing(s, kappa),
+            WaveTransfer::Apic => replacing(a, kappa),
+            WaveTransfer::Mls => replacing(a, symbols.fitted_stiffness),
+            WaveTransfer::Tpic => replacing(symbols.taylor[0], kappa),
             WaveTransfer::Blend(flip) => adding(flip + (1.0 - flip) * s),
             WaveTransfer::Xpic(terms) => adding(s * neumann(s, terms)),
-            WaveTransfer::Fmpm(terms) => replacing(s * neumann(s, terms), neumann(s, terms)),
+            WaveTransfer::Fmpm(terms) => {
+                let series = neumann(s, terms);
+                replacing(s * series, kappa * series)
+            }
         }
     }
 

@@ -35,45 +35,17 @@ use crate::mpm::kernel::contract::Affine;
 use crate::mpm::scheme::Stage;
 use crate::mpm::step::schedule::Pass;
 use crate::mpm::step::solver::Solver;
-use crate::named::named;
-use crate::subject::{Failure, Subject};
+use crate::subject::{EnergyBalance, Failure, LedgerStage, Subject};
 
 /// Second moment of weights along an axis, in squared cell sizes, that counts as zero.
 const SMALLEST_MOMENT: f64 = 1e-13;
-
-named! {
-    /// Stages of a step that change the energy.
-    pub enum LedgerStage {
-        /// Particle velocities are mapped to nodes.
-        ParticleToGrid = "particle to grid",
-        /// Nodal velocities differ from momentum over lumped mass.
-        NodalVelocity = "nodal velocity",
-        /// Work of the internal forces on the grid.
-        InternalForce = "internal force",
-        /// Work of the external forces on the grid.
-        ExternalForce = "external force",
-        /// Accelerations differ from force over lumped mass.
-        Constraints = "constraints",
-        /// Nodal velocities are mapped to particles.
-        GridToParticle = "grid to particle",
-        /// Particles keep velocities that differ from the mapped ones.
-        ParticleVelocity = "particle velocity",
-        /// Effects change velocities of particles.
-        Effects = "effects",
-        /// Particles move, and the inertia of their affine fields changes.
-        Motion = "motion",
-        /// Stored energy of the material.
-        Stored = "stored energy",
-    }
-}
 
 /// The changes of the energy of one body, summed over its steps.
 #[derive(Debug, Clone)]
 pub struct EnergyLedger {
     basis: BasisName,
-    entries: Vec<f64>,
-    /// Kinetic energy (J) after the last step; `None` before the first one.
-    kinetic: Option<f64>,
+    /// `None` before the first step.
+    balance: Option<EnergyBalance>,
     /// Stored energy (J) at the time of the velocities.
     stored: f64,
 }
@@ -253,13 +225,9 @@ impl<const D: usize> Recorder<D> {
         }
     }
 
-    /// Entries of the step, except that of the stored energy; `moved` are the weights at its end.
-    fn entries(
-        &self,
-        masses: &[f64],
-        moved: &Weights<D>,
-        moved_fields: &[AffineVelocity<D>],
-    ) -> Vec<f64> {
+    /// Entries of the step, except that of the stored energy; `moved_kinetic` is the kinetic
+    /// energy (J) at its end.
+    fn entries(&self, masses: &[f64], moved_kinetic: f64) -> [f64; LedgerStage::ALL.len()] {
         let before = self.before.as_deref().unwrap_or_default();
         let nodes = || before.iter().zip(&self.after).zip(masses);
         let half = |(w, after): (&Vector<D>, &Vector<D>)| (w + after) * 0.5;
@@ -292,17 +260,17 @@ impl<const D: usize> Recorder<D> {
                 weights.sum(&self.mapped, |_, i, u| u.dot(&(u - self.after[i])))
             }
             LedgerStage::Effects => weights.kinetic(&self.end) - weights.kinetic(&self.mapped),
-            LedgerStage::Motion => moved.kinetic(moved_fields) - weights.kinetic(&self.end),
+            LedgerStage::Motion => moved_kinetic - weights.kinetic(&self.end),
             LedgerStage::Stored => 0.0,
         };
-        LedgerStage::ALL.iter().map(|stage| entry(*stage)).collect()
+        std::array::from_fn(|i| entry(LedgerStage::ALL[i]))
     }
 }
 
 impl EnergyLedger {
     /// An empty ledger of a solver with this basis.
     pub fn new(basis: BasisName) -> Self {
-        Self { basis, entries: vec![0.0; LedgerStage::ALL.len()], kinetic: None, stored: 0.0 }
+        Self { basis, balance: None, stored: 0.0 }
     }
 
     /// Advances `solver` by one step of length `dt` (s) and adds the entries of the step. The step
@@ -313,10 +281,11 @@ impl EnergyLedger {
     pub fn step<const D: usize>(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
         solver.begin(dt, &mut |_, _| {})?;
         let old = stored(solver);
-        if self.kinetic.is_none() {
-            self.stored = old;
-        }
         let mut recorder = Recorder::new(self.basis, solver, dt);
+        let mut balance = self.balance.unwrap_or_else(|| {
+            self.stored = old;
+            EnergyBalance::new(recorder.weights.kinetic(&recorder.start) + old)
+        });
         let mut masses = Vec::new();
         solver.finish(dt, &mut |solver, pass| {
             recorder.record(solver, pass);
@@ -324,51 +293,20 @@ impl EnergyLedger {
                 masses.clone_from(&solver.setup.grid.mass);
             }
         })?;
-        let moved = Weights::new(self.basis, solver);
-        let fields = moved.fields(solver);
-        let mut entries = recorder.entries(&masses, &moved, &fields);
+        let kinetic = kinetic_energy(self.basis, solver);
+        let mut entries = recorder.entries(&masses, kinetic);
         // The stored energy at the time of the velocities, half a step before the end.
         let now = 0.5 * (old + stored(solver));
-        if let Some(entry) = entries.last_mut() {
-            *entry = now - self.stored;
-        }
+        entries[LedgerStage::Stored as usize] = now - self.stored;
         self.stored = now;
-        self.kinetic = Some(moved.kinetic(&fields));
-        for (sum, entry) in self.entries.iter_mut().zip(entries) {
-            *sum += entry;
-        }
+        balance.add(&entries, kinetic + now);
+        self.balance = Some(balance);
         Ok(())
     }
 
-    /// Sum of the entries (J) of one stage.
-    pub fn entry(&self, stage: LedgerStage) -> f64 {
-        LedgerStage::ALL
-            .iter()
-            .zip(&self.entries)
-            .filter(|(of, _)| **of == stage)
-            .map(|(_, sum)| sum)
-            .sum()
-    }
-
-    /// Work of the stress on the particles minus the work of the internal forces on the grid (J):
-    /// the stored energy that comes from nowhere.
-    pub fn stress_work_error(&self) -> f64 {
-        self.entry(LedgerStage::InternalForce) + self.entry(LedgerStage::Stored)
-    }
-
-    /// Sum of all entries (J): the change of kinetic and stored energy since the first step.
-    pub fn change(&self) -> f64 {
-        self.entries.iter().sum()
-    }
-
-    /// Sum of the magnitudes of all entries (J).
-    pub fn size(&self) -> f64 {
-        self.entries.iter().map(|entry| entry.abs()).sum()
-    }
-
-    /// Kinetic and stored energy (J) at the time of the velocities; `None` before the first step.
-    pub fn energy(&self) -> Option<f64> {
-        Some(self.kinetic? + self.stored)
+    /// The entries so far; `None` before the first step.
+    pub fn balance(&self) -> Option<&EnergyBalance> {
+        self.balance.as_ref()
     }
 }
 

@@ -1,4 +1,5 @@
-//! Symbols of stiffness, mass and APIC: one Fourier mode of the maps between particles and grid.
+//! Symbols of stiffness, mass, APIC, MLS-MPM and TPIC: one Fourier mode of the maps between
+//! particles and grid.
 //!
 //! A periodic row of cells with the same particles in each cell is invariant under translation by a
 //! cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid to
@@ -109,6 +110,13 @@ pub struct WaveSymbols {
     /// `D = sum N_i (x_i - xi)^2`: the part of a nodal velocity that remains if particles have an
     /// affine field.
     pub affine: f64,
+    /// Stiffness with gradients from the fit of the affine field, as in MLS-MPM:
+    /// `mean |sum N_i (x_i - xi) exp(i theta x_i)|^2/D^2`.
+    pub fitted_stiffness: f64,
+    /// TPIC, `t = s + mean conj(sum N_i (x_i - xi) exp(i theta x_i)) sum N_i' exp(i theta x_i)`:
+    /// the part that remains if the affine field is the gradient of the basis. Real and imaginary
+    /// part; particles that are symmetric in their cell have no imaginary part.
+    pub taylor: [f64; 2],
 }
 
 impl WaveSymbols {
@@ -116,7 +124,8 @@ impl WaveSymbols {
     /// `positions`, from 0 to 1 in each cell. A particle with D = 0 has no affine part. NaN without
     /// particles.
     pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
-        let [mut stiffness, mut mass, mut affine] = [0.0; 3];
+        let [mut stiffness, mut mass, mut affine, mut fitted_stiffness] = [0.0; 4];
+        let mut taylor = [0.0; 2];
         for xi in positions {
             let mut inertia = 0.0;
             let [mut slopes, mut values, mut moments] = [[0.0; 2]; 3];
@@ -135,11 +144,21 @@ impl WaveSymbols {
             mass += square(values);
             if inertia > SMALLEST_INERTIA {
                 affine += square(moments) / inertia;
+                fitted_stiffness += square(moments) / (inertia * inertia);
             }
+            taylor[0] += moments[0] * slopes[0] + moments[1] * slopes[1];
+            taylor[1] += moments[0] * slopes[1] - moments[1] * slopes[0];
         }
         let count = positions.len() as f64;
         let mass = mass / count;
-        Self { theta, stiffness: stiffness / count, mass, affine: mass + affine / count }
+        Self {
+            theta,
+            stiffness: stiffness / count,
+            mass,
+            affine: mass + affine / count,
+            fitted_stiffness: fitted_stiffness / count,
+            taylor: [mass + taylor[0] / count, taylor[1] / count],
+        }
     }
 
     /// Returns the positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells),

@@ -21,7 +21,11 @@ fn swept(study: &StabilityStudy) -> RowColumn<'_> {
 fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
     TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
         let value = figure.of(trial);
-        let text = if value.is_nan() { "-".to_owned() } else { scientific(value) };
+        let text = match figure {
+            _ if value.is_nan() => "-".to_owned(),
+            RunFigure::LedgerGap if value < ROUNDING => format!("< {ROUNDING:e}"),
+            _ => scientific(value),
+        };
         Cell::new(text, number(value))
     })
 }
@@ -39,7 +43,9 @@ fn steps<'a>() -> TrialColumn<'a> {
 
 /// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
-    let figures = study.figures.iter().map(|one| figure(*one));
+    // The table of the ledger has the figures in joules.
+    let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;
+    let figures = study.figures.iter().filter(is_here).map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
     let columns = columns.map(|column| column.within(|row: &StabilityRow| row.trial.as_ref()));
     std::iter::once(swept(study)).chain(columns).collect()
@@ -105,7 +111,9 @@ pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
 }
 
 fn run(trial: &Trial) -> Value {
-    let figures: Vec<_> = RunFigure::ALL.iter().map(|one| figure(*one)).collect();
+    let is_measured = |one: &&RunFigure| !one.is_of_ledger() || trial.ledger.is_some();
+    let figures: Vec<_> =
+        RunFigure::ALL.iter().filter(is_measured).map(|one| figure(*one)).collect();
     let columns = [
         verdict(),
         TrialColumn::json("why", "why it did not come to its end", |trial| trial.why.clone()),
@@ -126,6 +134,14 @@ fn confirmations(critical: &Critical) -> Value {
 /// Returns the limit of a row, predicted or observed.
 pub(crate) fn limit_of(row: &StabilityRow) -> Option<StabilityLimit> {
     row.critical.as_ref().and_then(Critical::limit)
+}
+
+/// Share of an energy ledger below which a number is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// An energy (J) of a ledger with this sum of magnitudes (J); zero if it is rounding.
+pub(crate) fn ledger_text(energy: f64, size: f64) -> String {
+    if energy.abs() <= ROUNDING * size { "0".to_owned() } else { scientific(energy) }
 }
 
 /// Formats a limit with four decimals. A limit outside the searched range is given as a bound.

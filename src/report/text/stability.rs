@@ -1,10 +1,11 @@
 //! Tables of a stability study.
 
-use super::table::Table;
+use super::table::{Table, merged_blocks};
 use crate::report::columns::TableColumn;
-use crate::report::columns::stability::{self, limit_of, limit_text};
+use crate::report::columns::stability::{self, ledger_text, limit_of, limit_text};
 use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
+use crate::subject::{EnergyBalance, LedgerStage};
 use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Returns the studies of a suite that search for a stability limit, with the names of their cases.
@@ -47,6 +48,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
         studies.iter().partition(|(_, study)| study.sought.is_some());
     limits(lines, &seeking);
     trials(lines, &others);
+    ledgers(lines, &others);
 }
 
 /// Returns remarks about values without a run, and about runs that stopped early.
@@ -73,6 +75,42 @@ fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let tried = rows.filter(|(_, row)| row.trial.is_some());
     lines.push(String::new());
     lines.extend(Table::new(&columns, tried).merged().lines());
+}
+
+/// Energy ledgers: a block of rows for each case, a row for each stage, and a column for each value
+/// of the parameter that is swept. Stages whose entries are rounding have no row.
+fn ledgers(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
+    let Some((_, first)) = studies.first() else { return };
+    let values = first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value));
+    let headings = ["case", "energy (J)"].map(str::to_owned).into_iter().chain(values).collect();
+    let blocks = studies.iter().filter_map(|(name, study)| {
+        let balance = |row: &StabilityRow| row.trial.as_ref().and_then(|trial| trial.ledger);
+        let balances: Option<Vec<EnergyBalance>> = study.rows.iter().map(balance).collect();
+        Some(((*name).to_owned(), ledger(&balances?)))
+    });
+    let rows = merged_blocks(blocks);
+    if !rows.is_empty() {
+        lines.push(String::new());
+        lines.extend(Table::of_cells(headings, rows).flush_left(&["energy (J)"]).lines());
+    }
+}
+
+/// Rows of the ledgers of one case.
+fn ledger(balances: &[EnergyBalance]) -> Vec<Vec<String>> {
+    let row = |head: String, value: &dyn Fn(&EnergyBalance) -> f64| {
+        let cells = balances.iter().map(|balance| ledger_text(value(balance), balance.size()));
+        std::iter::once(head).chain(cells).collect::<Vec<String>>()
+    };
+    let stages = LedgerStage::ALL.iter().map(|stage| {
+        row(stage.name().replace('_', " "), &|balance: &EnergyBalance| balance.entry(*stage))
+    });
+    let stages = stages.filter(|row| row[1..].iter().any(|cell| cell != "0"));
+    let sums = [
+        row("all transfers".to_owned(), &EnergyBalance::transfer_gain),
+        row("stress work error".to_owned(), &EnergyBalance::stress_work_error),
+        row("change".to_owned(), &EnergyBalance::change),
+    ];
+    stages.chain(sums).collect()
 }
 
 fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {

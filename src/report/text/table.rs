@@ -121,24 +121,35 @@ const LONGEST: usize = 44;
 
 /// Merges rows whose cells after the name are equal. The combined row has all names.
 fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
-    let mut kept: Vec<(Vec<String>, Vec<String>)> = Vec::new();
-    for mut row in rows {
+    let block = |mut row: Vec<String>| {
         let cells = row.split_off(1);
-        let name = row.pop().unwrap_or_default();
+        (row.pop().unwrap_or_default(), vec![cells])
+    };
+    merged_blocks(rows.into_iter().map(block))
+}
+
+/// Rows of all blocks, each row after the name of its block. Equal blocks are one, with the names
+/// of all.
+pub(crate) fn merged_blocks(
+    blocks: impl Iterator<Item = (String, Vec<Vec<String>>)>,
+) -> Vec<Vec<String>> {
+    let mut kept: Vec<(Vec<String>, Vec<Vec<String>>)> = Vec::new();
+    for (name, block) in blocks {
         let fits = |names: &[String]| {
             let names: Vec<&str> = names.iter().chain([&name]).map(String::as_str).collect();
             together(&names).chars().count() <= LONGEST
         };
-        match kept.iter_mut().rev().find(|(names, shown)| *shown == cells && fits(names)) {
+        match kept.iter_mut().rev().find(|(names, shown)| *shown == block && fits(names)) {
             Some((names, _)) => names.push(name),
-            None => kept.push((vec![name], cells)),
+            None => kept.push((vec![name], block)),
         }
     }
-    let row = |(names, cells): (Vec<String>, Vec<String>)| {
+    let rows = |(names, block): (Vec<String>, Vec<Vec<String>>)| {
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        std::iter::once(together(&names)).chain(cells).collect()
+        let name = together(&names);
+        block.into_iter().map(move |cells| std::iter::once(name.clone()).chain(cells).collect())
     };
-    kept.into_iter().map(row).collect()
+    kept.into_iter().flat_map(rows).collect()
 }
 
 /// Lists the distinct values, each followed by the names with this value in brackets. The names are

@@ -3,7 +3,7 @@
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
-use crate::mpm::{BasisName, Bodies, Setup, SinglePrecision, Solver, Vector};
+use crate::mpm::{BasisName, Bodies, LedgerSolver, Setup, SinglePrecision, Solver, Vector};
 use crate::subject::{Perturbable, Profile, Subject, SubjectError};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
@@ -148,6 +148,23 @@ pub(crate) fn perturbable(
     }
     let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
     with_dimension!(dimension, D => of::<D>(bodies, method, level))
+}
+
+/// An MPM subject that keeps an energy ledger: the only body of `bodies` on the cells of `level`.
+///
+/// # Errors
+/// One line with the reason why there is no such subject.
+pub(crate) fn with_ledger(
+    bodies: &[Body<'_>],
+    method: Method,
+    level: LevelPlan,
+) -> Result<Box<dyn Perturbable>, SubjectError> {
+    let ([one], Method::Mpm { basis, .. }) = (bodies, method) else {
+        return Err("an energy ledger is that of one body with an MPM method".into());
+    };
+    with_dimension!(one.scene.dimension(), D => {
+        Ok(Box::new(LedgerSolver::new(basis, solver::<D>(one, method, level)?)))
+    })
 }
 
 fn solver<const D: usize>(

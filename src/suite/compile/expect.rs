@@ -173,7 +173,7 @@ fn limits(
         energy_rate: match &spec.energy_rate {
             Some(spec) => {
                 let path = path.then("energy_rate");
-                refuse_law_without_energy(evaluator, &path, plan)?;
+                refuse_law_without_energy(evaluator, &path, &plan.scene)?;
                 Some(evaluator.interval(&path, spec)?)
             }
             None => None,
@@ -249,7 +249,7 @@ fn drifts(
             return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
         }
         if sum == Conserved::Energy {
-            refuse_law_without_energy(evaluator, &path, plan)?;
+            refuse_law_without_energy(evaluator, &path, &plan.scene)?;
         }
         drifts.push((sum, evaluator.positive(&path, text, "a bound")?));
     }

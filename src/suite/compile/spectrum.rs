@@ -28,6 +28,9 @@ const MOST_PPC: u64 = 64;
 /// Minimum mass symbol (see the glossary) of a wave that the grid represents.
 const SMALLEST_MASS: f64 = 1e-9;
 
+/// Largest imaginary part of the symbol of TPIC that counts as rounding.
+const LARGEST_ASYMMETRY: f64 = 1e-12;
+
 /// Deviation of a number of periods from an integer that is treated as rounding error.
 const ROUNDING: f64 = 1e-9;
 
@@ -287,6 +290,12 @@ fn refuse_unfit_waves(
             let label =
                 format!("the symbol s of the mass of `{}` is 0 at {} cells", case.name, wave.cells);
             return Err(needs(evaluator, &at, property).with_label(&label));
+        }
+        if matches!(curve.transfer, WaveTransfer::Tpic)
+            && !(symbols.taylor[1].abs() <= LARGEST_ASYMMETRY)
+        {
+            let property = "particles that are symmetric in their cells for `tpic`";
+            return Err(needs(evaluator, &Path::top("particles").then("shift"), property));
         }
         if !(wave.courant < limit) {
             let at = path.then("courant").alternative(courants, k);

@@ -8,6 +8,9 @@ use std::ops::Range;
 /// Maximum length of a text in a diagnostic: a file may contain a key of 60 000 characters.
 const MAX_WORDS: usize = 300;
 
+/// Maximum length of advice, which may list all names of a family.
+const MAX_HELP: usize = 500;
+
 /// Severity of the diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -81,7 +84,7 @@ impl Diagnostic {
     /// Adds advice for the author.
     #[must_use]
     pub fn with_help(mut self, help: &str) -> Self {
-        self.0.help = Some(printable(help)).filter(|help| !help.is_empty());
+        self.0.help = Some(shortened(help, MAX_HELP)).filter(|help| !help.is_empty());
         self
     }
 
@@ -173,9 +176,14 @@ impl std::error::Error for Diagnostic {}
 
 /// Makes a text safe for a terminal: one line, no invisible characters, limited length.
 fn printable(words: &str) -> String {
+    shortened(words, MAX_WORDS)
+}
+
+/// Printable text of at most `most` characters.
+fn shortened(words: &str, most: usize) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {
-        if count == MAX_WORDS {
+        if count == most {
             safe.push('…');
             break;
         }

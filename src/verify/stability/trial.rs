@@ -158,6 +158,7 @@ impl TrialMonitor {
             checkerboard: checkerboard(&self.samples),
             stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
             displacement: largest(&self.samples.displacement, d),
+            ledger: subject.energy_balance(),
         }
     }
 }

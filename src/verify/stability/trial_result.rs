@@ -1,6 +1,7 @@
 //! Results of a trial: verdict and measured values, and the scales of these values.
 
 use crate::named::named;
+use crate::subject::EnergyBalance;
 use serde::{Deserialize, Serialize};
 
 named! {
@@ -84,4 +85,7 @@ pub struct Trial {
     pub stress: f64,
     /// Largest displacement (m) at the end.
     pub displacement: f64,
+    /// Changes of the energy by each stage of a step, summed over the run; `None` if no ledger is
+    /// kept.
+    pub ledger: Option<EnergyBalance>,
 }

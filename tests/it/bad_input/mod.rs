@@ -46,7 +46,7 @@ use crate::schema;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use rstest::rstest;
-use samples::{BAR, COLUMN, CUBE, FORCE, PLATE, PULLED, SWEPT};
+use samples::{BAR, COLUMN, CUBE, FORCE, LEDGER, PLATE, PULLED, SWEPT};
 
 /// Marks the position at which an error must point.
 const HERE: char = '▸';
@@ -104,6 +104,7 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
 #[case::pulled(PULLED)]
 #[case::force(FORCE)]
 #[case::swept(SWEPT)]
+#[case::ledger(LEDGER)]
 fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
     if let Err(diagnostic) = load(text) {
         panic!("{diagnostic}");

@@ -93,8 +93,15 @@ expect:
     &["a spectrum study needs a body at rest"]
 )]
 #[case::of_a_transfer_without_closed_form(
-    &[("basis: linear, transfer: flip", "basis: quadratic_bspline, transfer: ▸mls")],
-    &["a spectrum study needs a transfer with a closed form", "`mls` with a lumped mass matrix has none"]
+    &[("basis: linear, transfer: flip", "basis: quadratic_bspline, transfer: ▸tls")],
+    &["a spectrum study needs a transfer with a closed form", "`tls` with a lumped mass matrix has none"]
+)]
+#[case::of_tpic_with_shifted_particles(
+    &[
+        ("basis: linear, transfer: flip", "basis: quadratic_bspline, transfer: tpic"),
+        ("ppc: 2", "ppc: 2, shift: ▸[0.01]"),
+    ],
+    &["a spectrum study needs particles that are symmetric in their cells for `tpic`"]
 )]
 #[case::in_single_precision(
     &[("scheme: usl", "scheme: usl, precision: ▸single")], &["a spectrum study needs double precision"]

@@ -5,7 +5,7 @@ use crate::mpm::{MassName, VolumeName};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
-use crate::suite::model::{ConvergencePlan, SceneFace};
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
@@ -94,7 +94,7 @@ fn stored_energy(
     problem: &Problem,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    refuse_law_without_energy(evaluator, path, plan)?;
+    refuse_law_without_energy(evaluator, path, &plan.scene)?;
     if problem.heat.is_some() {
         let message = "the stored energy is not supported with `heat`: the body also stores heat";
         return Err(evaluator.diagnostic(path, message));
@@ -214,11 +214,11 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    plan: &ConvergencePlan,
+    scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let material = &plan.scene.material;
-    let mut energy = material.properties().has_energy(plan.scene.dimension());
-    let is_prestressed = plan.scene.each().iter().any(|body| !body.initial_stress.is_none());
+    let material = &scene.material;
+    let mut energy = material.properties().has_energy(scene.dimension());
+    let is_prestressed = scene.each().iter().any(|body| !body.initial_stress.is_none());
     if is_prestressed && material.properties().depends_on_deformation_alone().is_err() {
         energy = Err("is integrated in rate form and has no stored energy with an initial stress");
     }

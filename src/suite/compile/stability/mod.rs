@@ -3,9 +3,11 @@
 //! ```text
 //! setup    parameter values -> the set-up of a run, its scales and bounds
 //! expect   the expectations
+//! requested   figures that need a measurement of their own
 //! ```
 
 pub(crate) mod expect;
+mod requested;
 pub(crate) mod setup;
 
 use crate::mpm::{MaterialPlan, combine, combine_across, combine_volume};
@@ -14,11 +16,10 @@ use crate::suite::compile::run::methods::{count, methods, named};
 use crate::suite::compile::truth::law_of_bar;
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
-use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
 use crate::suite::yaml::{Diagnostic, Path, Source};
-use setup::setup;
+use setup::{RunSetup, setup};
 
 /// Maximum number of rows, and of cases, in a study.
 const MOST: usize = 500;
@@ -46,7 +47,7 @@ pub(crate) fn plan(
             material = template.setup(&with)?.scene.material;
         }
     }
-    let drafts = drafts(evaluator, spec, &material, &base.scene)?;
+    let drafts = drafts(evaluator, spec, &material, &base)?;
     let cases = cases(evaluator, &template, spec, drafts, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
@@ -143,7 +144,7 @@ fn drafts(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
     material: &MaterialPlan,
-    scene: &Scene,
+    RunSetup { scene, ledger, .. }: &RunSetup,
 ) -> Result<Vec<(String, Method)>, Diagnostic> {
     let (own, plane) = (law_of_bar(material).unwrap_or_default(), scene.plane);
     let mut drafts = Vec::new();
@@ -175,6 +176,9 @@ fn drafts(
                     let help = "list compatible settings in separate entries of `methods`";
                     evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
                 })?;
+            }
+            if *ledger {
+                requested::refuse_unledgered(evaluator, &path, &draft.method)?;
             }
             drafts.push(draft);
         }

@@ -2,6 +2,7 @@
 //!
 //! Any parameter can be swept, so the whole specification is evaluated again for every value.
 
+use super::requested;
 use crate::suite::compile::check::size;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
 use crate::suite::compile::scene;
@@ -12,7 +13,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
 use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
-use crate::verify::{RunFigure, Scales};
+use crate::verify::Scales;
 
 /// Initial perturbation amplitude for a run with frozen particles.
 const PERTURBATION: f64 = 1e-9;
@@ -35,6 +36,8 @@ pub(crate) struct RunSetup {
     /// Number of steps in a full run.
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
+    /// Whether a run keeps an energy ledger.
+    pub(crate) ledger: bool,
     /// Amplitude of the random perturbation at the start.
     pub(crate) perturb: f64,
     pub(crate) scales: Scales,
@@ -117,6 +120,7 @@ pub(crate) fn setup(
         steps,
         full_steps: full_steps?,
         frozen: spec.run.frozen,
+        ledger: requested::ledger(evaluator, spec, &scene)?,
         perturb: perturbation(evaluator, spec)?,
         scales: scales(evaluator, spec, &scene)?,
         scene,
@@ -239,32 +243,6 @@ fn scales(
     }
     let speed = scene.fastest_wave();
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());
-    let null_space = of_null_space(evaluator, spec, scene)?;
+    let null_space = requested::null_space(evaluator, spec, scene)?;
     Ok(Scales { speed, modulus, stable_below, unstable_above, centred, null_space })
-}
-
-/// Whether a requested quantity needs the grid's null space, implemented for one body only.
-fn of_null_space(
-    evaluator: &Evaluator<'_>,
-    spec: &StabilitySpec,
-    scene: &Scene,
-) -> Result<bool, Diagnostic> {
-    let shown = spec.show.iter().enumerate();
-    let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
-    let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
-        let path = Path::top("expect").then(i).then("figures");
-        let named =
-            entry.figures.as_slice().iter().filter_map(|(name, _)| RunFigure::by_name(name));
-        named.map(move |figure| (path.then(figure.name()), figure))
-    });
-    let Some((path, figure)) = shown.chain(expected).find(|(_, f)| f.is_of_null_space()) else {
-        return Ok(false);
-    };
-    if scene.bodies.is_empty() {
-        return Ok(true);
-    }
-    let name = figure.name();
-    let message =
-        format!("`{name}` is supported for a single body only, but the scene lists `bodies`");
-    Err(evaluator.diagnostic(&path, &message))
 }

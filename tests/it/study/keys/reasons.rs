@@ -94,11 +94,23 @@ const REASONS: &[(&str, &str)] = &[
     ("scene.plane: strain", "the default"),
     ("study: convergence", "the default"),
     ("stability.show: angular_momentum", "shown wherever it is expected"),
+    ("stability.show: constraints", "shown wherever it is expected"),
+    ("stability.show: effects", "shown wherever it is expected"),
+    ("stability.show: external_force", "shown wherever it is expected"),
+    ("stability.show: grid_to_particle", "shown wherever it is expected"),
+    ("stability.show: internal_force", "shown wherever it is expected"),
     ("stability.show: kinetic_kept", "shown wherever it is expected"),
     ("stability.show: momentum", "shown wherever it is expected"),
+    ("stability.show: motion", "shown wherever it is expected"),
+    ("stability.show: nodal_velocity", "shown wherever it is expected"),
+    ("stability.show: particle_to_grid", "shown wherever it is expected"),
+    ("stability.show: particle_velocity", "shown wherever it is expected"),
     ("stability.show: speed", "shown wherever it is expected"),
     ("stability.show: steps", "shown wherever it is expected"),
+    ("stability.show: stored_energy", "shown wherever it is expected"),
     ("stability.show: stress", "shown wherever it is expected"),
+    ("stability.show: stress_work_error", "shown wherever it is expected"),
+    ("stability.show: transfer_gain", "shown wherever it is expected"),
 ];
 
 /// Returns the known reason for a key, or for a key with a name.

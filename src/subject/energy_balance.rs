@@ -1,0 +1,137 @@
+//! Energy balance of a run: the changes of the energy by stages of a step.
+
+use crate::named::named;
+use serde::{Deserialize, Serialize};
+
+named! {
+    /// Stages of a step that change the energy.
+    pub enum LedgerStage {
+        /// Particle velocities are mapped to nodes.
+        ParticleToGrid = "particle_to_grid",
+        /// Nodal velocities differ from momentum over lumped mass.
+        NodalVelocity = "nodal_velocity",
+        /// Work of the internal forces on the grid.
+        InternalForce = "internal_force",
+        /// Work of the external forces on the grid.
+        ExternalForce = "external_force",
+        /// Accelerations differ from force over lumped mass.
+        Constraints = "constraints",
+        /// Nodal velocities are mapped to particles.
+        GridToParticle = "grid_to_particle",
+        /// Particles keep velocities that differ from the mapped ones.
+        ParticleVelocity = "particle_velocity",
+        /// Effects change velocities of particles.
+        Effects = "effects",
+        /// Particles move, and the inertia of their affine fields changes.
+        Motion = "motion",
+        /// Stored energy of the material.
+        Stored = "stored_energy",
+    }
+}
+
+impl LedgerStage {
+    /// Stages of the maps between particles and grid and of the mass matrix.
+    pub const TRANSFER: [Self; 5] = [
+        Self::ParticleToGrid,
+        Self::NodalVelocity,
+        Self::Constraints,
+        Self::GridToParticle,
+        Self::ParticleVelocity,
+    ];
+}
+
+/// Changes of the energy of a body by stage, summed over steps, and the energy itself.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EnergyBalance {
+    entries: [f64; LedgerStage::ALL.len()],
+    start: f64,
+    now: f64,
+}
+
+impl EnergyBalance {
+    /// A balance without entries of a body with this energy (J).
+    pub fn new(energy: f64) -> Self {
+        Self { entries: [0.0; LedgerStage::ALL.len()], start: energy, now: energy }
+    }
+
+    /// Adds the entries (J) of a step, one for each stage, after which the body has this energy
+    /// (J).
+    pub fn add(&mut self, entries: &[f64; LedgerStage::ALL.len()], energy: f64) {
+        for (sum, entry) in self.entries.iter_mut().zip(entries) {
+            *sum += entry;
+        }
+        self.now = energy;
+    }
+
+    /// Sum of the entries (J) of one stage.
+    pub fn entry(&self, stage: LedgerStage) -> f64 {
+        self.entries[stage as usize]
+    }
+
+    /// Energy (J) now.
+    pub fn energy(&self) -> f64 {
+        self.now
+    }
+
+    /// Sum of all entries (J).
+    pub fn change(&self) -> f64 {
+        self.entries.iter().sum()
+    }
+
+    /// Sum of the magnitudes of all entries (J).
+    pub fn size(&self) -> f64 {
+        self.entries.iter().map(|entry| entry.abs()).sum()
+    }
+
+    /// Difference between the sum of the entries and the change of the energy, over the sum of the
+    /// magnitudes of the entries.
+    pub fn gap(&self) -> f64 {
+        let difference = (self.change() - (self.now - self.start)).abs();
+        if difference == 0.0 { 0.0 } else { difference / self.size() }
+    }
+
+    /// Energy (J) gained by the maps between particles and grid, the mass matrix and walls.
+    pub fn transfer_gain(&self) -> f64 {
+        LedgerStage::TRANSFER.iter().map(|stage| self.entry(*stage)).sum()
+    }
+
+    /// Work of the stress on the particles minus the work of the internal forces on the grid (J):
+    /// the stored energy that comes from nowhere.
+    pub fn stress_work_error(&self) -> f64 {
+        self.entry(LedgerStage::InternalForce) + self.entry(LedgerStage::Stored)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Entries 1, 2, 4, ... J, so that each sum has one set of terms.
+    fn balance() -> EnergyBalance {
+        let mut balance = EnergyBalance::new(7.0);
+        let entries = std::array::from_fn(|i| f64::from(1_u16 << i));
+        balance.add(&entries, 7.0 + 1023.0);
+        balance
+    }
+
+    #[test]
+    fn sums_have_their_stages() {
+        let balance = balance();
+        assert_eq!(balance.change(), 1023.0);
+        assert_eq!(balance.transfer_gain(), f64::from(1 + 2 + 16 + 32 + 64));
+        assert_eq!(balance.stress_work_error(), f64::from(4 + 512));
+    }
+
+    #[test]
+    fn a_gap_is_a_share_of_the_magnitudes() {
+        let mut balance = balance();
+        assert_eq!(balance.gap(), 0.0);
+        let mut entries = [0.0; LedgerStage::ALL.len()];
+        entries[0] = -1.0;
+        balance.add(&entries, 7.0 + 1023.0);
+        assert_eq!(balance.gap(), 1.0 / 1022.0);
+        assert_eq!(EnergyBalance::new(3.0).gap(), 0.0);
+        balance.add(&entries, f64::NAN);
+        assert!(balance.gap().is_nan());
+    }
+}

@@ -1,0 +1,105 @@
+//! Figures that need a measurement of their own, which a run makes only on request.
+
+use crate::mpm::{TransferChoice, TransferKind};
+use crate::subject::PlaneState;
+use crate::suite::compile::check::sums::refuse_law_without_energy;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::StabilitySpec;
+use crate::suite::model::Scene;
+use crate::suite::model::method::Method;
+use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::RunFigure;
+
+/// The first figure under `show` or `expect` with the property `is_meant`, and its place.
+fn first(
+    spec: &StabilitySpec,
+    is_meant: impl Fn(RunFigure) -> bool,
+) -> Option<(Path, &'static str)> {
+    let shown = spec.show.iter().enumerate();
+    let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
+    let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
+        let path = Path::top("expect").then(i).then("figures");
+        let named =
+            entry.figures.as_slice().iter().filter_map(|(name, _)| RunFigure::by_name(name));
+        named.map(move |figure| (path.then(figure.name()), figure))
+    });
+    let (path, figure) = shown.chain(expected).find(|(_, figure)| is_meant(*figure))?;
+    Some((path, figure.name()))
+}
+
+fn refuse_several_bodies(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    name: &str,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    if scene.bodies.is_empty() {
+        return Ok(());
+    }
+    let message =
+        format!("`{name}` is supported for a single body only, but the scene lists `bodies`");
+    Err(evaluator.diagnostic(path, &message))
+}
+
+/// Whether a requested figure needs the null space of the grid, which is known of one body only.
+pub(crate) fn null_space(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    scene: &Scene,
+) -> Result<bool, Diagnostic> {
+    let Some((path, name)) = first(spec, RunFigure::is_of_null_space) else { return Ok(false) };
+    refuse_several_bodies(evaluator, &path, name, scene)?;
+    Ok(true)
+}
+
+/// Whether a requested figure needs the energy ledger, which assigns the energy of one body to the
+/// stages of a step.
+pub(crate) fn ledger(
+    evaluator: &Evaluator<'_>,
+    spec: &StabilitySpec,
+    scene: &Scene,
+) -> Result<bool, Diagnostic> {
+    let Some((path, name)) = first(spec, RunFigure::is_of_ledger) else { return Ok(false) };
+    refuse_several_bodies(evaluator, &path, name, scene)?;
+    if spec.critical.is_some() {
+        let message = format!(
+            "`{name}` is not supported with `critical`: the search for a limit has many runs"
+        );
+        return Err(evaluator.diagnostic(&path, &message));
+    }
+    if scene.plane == PlaneState::Axisymmetric {
+        let message = "the energy ledger is not supported in `plane: axisymmetric`: it has no entry \
+                       for the hoop stress";
+        return Err(evaluator.diagnostic(&path, message));
+    }
+    refuse_law_without_energy(evaluator, &path, scene)?;
+    Ok(true)
+}
+
+/// Refuses a method whose steps the energy ledger does not describe; `path` is the entry of
+/// `methods`.
+pub(crate) fn refuse_unledgered(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    method: &Method,
+) -> Result<(), Diagnostic> {
+    let Method::Mpm { transfer, .. } = method else { return Ok(()) };
+    let path = path.then("mpm");
+    if is_integrated_over_cells(*transfer) {
+        let message = format!(
+            "the energy ledger is not supported with the transfer `{}`, which integrates over cells",
+            transfer.name()
+        );
+        return Err(evaluator.diagnostic(&path.then("transfer"), &message));
+    }
+    if method.averages_volume() {
+        let message = "the force of `volume: averaged` does not derive from a stored energy";
+        let diagnostic = evaluator.diagnostic(&path.then("volume"), message);
+        return Err(diagnostic.with_help("use `particle` for a study of the energy"));
+    }
+    Ok(())
+}
+
+fn is_integrated_over_cells(transfer: TransferChoice) -> bool {
+    transfer.kind() == TransferKind::Cells
+}
