@@ -94,9 +94,16 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Quantity and norm of the judged errors, and their scale.
+/// Quantity and norm of the judged errors, their scale and the box that they are restricted to.
 fn judge(study: &Convergence) -> Value {
-    json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
+    let corner = |corner: &[f64]| corner.iter().map(|x| number(*x)).collect::<Vec<_>>();
+    let within = study.within.as_ref();
+    json!({
+        "of": study.of.name(),
+        "norm": study.norm.name(),
+        "scale": study.scale.map(number),
+        "within": within.map(|of| json!({"from": corner(&of.from), "to": corner(&of.to)})),
+    })
 }
 
 fn floor(floor: &Floor) -> Value {

@@ -2,6 +2,7 @@
 
 use super::conservation::Conserved;
 use super::error::clock::StepKind;
+use super::error::judged_box::JudgedBox;
 use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::observer::History;
@@ -29,6 +30,8 @@ pub struct Convergence {
     pub norm: NormName,
     /// The judged quantity.
     pub of: Quantity,
+    /// Box to which errors are restricted, if any.
+    pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
     /// Scale that makes errors and work comparable with those of other cases.
@@ -213,6 +216,7 @@ pub(in crate::verify) mod tests {
             formal_order: 2.0,
             norm: NormName::Rms,
             of: Quantity::Displacement,
+            within: None,
             scale: None,
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,

@@ -43,6 +43,12 @@ impl Problem {
         weak::momentum(self, survey)
     }
 
+    /// The violation of the condition on face number `face`; `None` if the motion satisfies it.
+    pub fn violation_on_face(&self, face: usize, survey: &Survey) -> Option<Violation> {
+        let faces = self.faces.get(face).into_iter().cloned().collect();
+        boundary::boundary(&Self { faces, ..self.clone() }, survey).err()
+    }
+
     /// Residual of the conditions with the law, relative to their terms: the equation of motion,
     /// tractions on faces and rims. NaN if another condition is violated, or if the residual is not
     /// finite.

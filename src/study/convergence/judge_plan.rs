@@ -24,6 +24,7 @@ pub(super) fn judge_plan<'a>(
         formal_order: formal_order(plan, case),
         norm: plan.norm,
         of: plan.of,
+        within: plan.within.as_ref(),
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,

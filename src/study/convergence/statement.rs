@@ -45,6 +45,10 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     if !is_truthless(plan) {
         push(&mut rows, "judged", &judged(plan));
     }
+    if let Some(within) = &plan.within {
+        let text = format!("the particles with X in {}", within.words());
+        push(&mut rows, "errors over", &text);
+    }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
 }

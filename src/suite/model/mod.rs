@@ -21,7 +21,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity, StepKind};
+use crate::verify::{Clock, Expectation, Gating, JudgedBox, JudgedSum, Quantity, StepKind};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -77,6 +77,8 @@ pub struct ConvergencePlan {
     pub of: Quantity,
     /// The judged sum with its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
+    /// Box to which errors are restricted; `None`: errors over the whole body.
+    pub within: Option<JudgedBox>,
     /// Scale by which the error is divided, if any.
     pub scale: Option<f64>,
     /// Whether levels with crossings may count.
