@@ -6,7 +6,7 @@ use crate::study::exact_motion::{self, amplitude};
 use crate::subject::SubjectError;
 use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
-use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{self, Axis, CaseOutcome, Expectation, Gating, StepKind};
@@ -39,7 +39,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "reference", &text);
     }
     if let Some(same) = plan.same_method {
-        push(&mut rows, "reference", &same_method(same, &plan.refine));
+        push(&mut rows, "reference", &same_method(same, plan));
     }
     refinement(plan, &mut rows);
     if !is_truthless(plan) {
@@ -66,7 +66,8 @@ fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     rows.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
 }
 
-fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
+fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
+    let refine = &plan.refine;
     let text = "the same method, started half a step back,";
     match same {
         SameMethod::ShorterSteps(dt) => format!("{text} with dt = {} s", shown(dt)),
@@ -77,9 +78,12 @@ fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
                 Some(_) => "dt by the same rule".to_owned(),
                 None => format!("dt = {} s", shown(dt)),
             };
+            let method = match plan.steps {
+                StepKind::Time => format!("{text} on {cells} cells with {step}"),
+                StepKind::Load => format!("the same method on {cells} cells"),
+            };
             format!(
-                "{text} on {cells} cells with {step}: an error of order 2 on the finest level is \
-                 known to about 1/{:.0}",
+                "{method}: an error of order 2 on the finest level is known to about 1/{:.0}",
                 ratio * ratio
             )
         }

@@ -171,7 +171,7 @@ impl ConvergencePlan {
     /// The steps of a run until `until` (s) that is compared with `against`, for a requested step
     /// `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
-        if against.is_computed() {
+        if against.is_computed() && self.steps == StepKind::Time {
             return Clock::with_common_instants(until, dt, self.instants);
         }
         Clock::new(until, dt, self.instants)

@@ -30,7 +30,8 @@ const LOAD: &str = "    - gravity: [\"-g\"]";
     &[("equilibrium:\n  equation: hencky\n", "▸manufactured:\n")], &["a manufactured force belongs to a motion"]
 )]
 #[case::with_a_reference(
-    &[("run: {", "▸reference: {same_method: {cells: 320}}\nrun: {")], &["a reference is computed in time"]
+    &[("run: {", "reference: {equation: hencky, ▸fem: {element: linear, mass: lumped, cells: 320, dt: 1e-3}}\nrun: {")],
+    &["the reference FEM is computed in time"]
 )]
 #[case::with_a_motion_in_the_equilibrium(&[("K(lambert_w(q(X)))) - X", "K(lambert_w(q(X)))) - X + 0*▸t")], &["t"])]
 #[case::of_an_explicit_method(

@@ -49,16 +49,16 @@ pub(crate) fn refuse_time(
             "a manufactured force belongs to a motion in time, and load steps have no time",
         ),
         (
-            spec.reference.is_some(),
-            Path::top("reference"),
-            "a reference is computed in time, and load steps have no time",
+            spec.has_fem_reference(),
+            Path::top("reference").then("fem"),
+            "the reference FEM is computed in time, and load steps have no time",
         ),
     ];
     if let Some((_, path, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         let diagnostic = evaluator.diagnostic_at_key(&path, message);
         return Err(diagnostic.with_help("state the `equilibrium` under the whole load"));
     }
-    if spec.equilibrium.is_none() {
+    if spec.equilibrium.is_none() && spec.reference.is_none() {
         let message = "load steps end in an equilibrium, and the suite states none";
         let diagnostic = evaluator.diagnostic_at_key(&run.then("load_steps"), message);
         return Err(diagnostic.with_help("add `equilibrium: {equation: ..., displacement: [...]}`"));
