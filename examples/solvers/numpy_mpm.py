@@ -424,8 +424,7 @@ class Mpm:
         inverse = np.linalg.inv(f)
         elastic = np.einsum("pai,pi,pbi->pab", axes, np.exp(2 * log), axes)
         self.plastic = inverse @ elastic @ inverse.transpose(0, 2, 1)
-        stress = np.einsum("pai,pi,pbi->pab", axes, tau, axes)
-        self.kirchhoff(stress[:, :self.d, :self.d])
+        self.kirchhoff(np.einsum("pai,pi,pbi->pab", axes, tau, axes)[:, :self.d, :self.d])
 
     def drucker_prager(self, tau: Array) -> Array:
         """Return to the cone sqrt(J2) + friction p = strength, or to its apex."""

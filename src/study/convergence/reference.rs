@@ -3,9 +3,9 @@
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` serves studies in
 //! space, in any dimension: the method itself on a grid much finer than any level. The reference
 //! configuration of its particles is a lattice, or the bilinear map of one, on which the motion is
-//! interpolated wherever the particles have moved. `FineSteps` serves studies in time: the method itself on the same grid,
-//! with steps so short that the result is the limit dt -> 0 of the equations that are discrete in
-//! space.
+//! interpolated wherever the particles have moved. `FineSteps` serves studies in time: the method
+//! itself on the same grid, with steps so short that the result is the limit dt -> 0 of the
+//! equations that are discrete in space.
 //!
 //! `FineSteps` separates the error of the time step from that of the grid. At the Courant limit of
 //! a body the error of the grid is larger and would hide the error of the step. Methods that filter

@@ -52,6 +52,8 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
+    /// Strength or cohesion (Pa) of a soil.
+    pub(super) strength: f64,
     /// Dilation of a soil, as a share of its friction.
     pub(super) dilation: f64,
     /// Density (kg/m3).
@@ -89,6 +91,7 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
+            strength: 1e-4,
             dilation: 1.0 / 3.0,
             // Not a power, product or ratio of the other figures: see `fall::factors`.
             density: 1.7,
@@ -146,6 +149,7 @@ impl BoxScene {
             body: (by(&self.body.0), by(&self.body.1)),
             grid: (by(&self.grid.0), by(&self.grid.1)),
             young: self.young * mass * length * length / (time * time * volume),
+            strength: self.strength * mass * length * length / (time * time * volume),
             density: self.density * mass / volume,
             velocity: self.velocity.scaled(length / time, length),
             displacement: self.displacement.scaled(length, length),
@@ -153,11 +157,6 @@ impl BoxScene {
             dt: self.dt * time,
             ..self.clone()
         }
-    }
-
-    /// Strength or cohesion (Pa) of a soil: it yields at strains of about 1e-3.
-    pub(super) fn strength(&self) -> f64 {
-        self.young / 1500.0
     }
 
     /// The material, in the notation of suites.
@@ -172,13 +171,13 @@ impl BoxScene {
                 "young: {young:e}, poisson: {poisson}, friction: {FRICTION}, dilation: {}, \
                  strength: {:e}",
                 FRICTION * self.dilation,
-                self.strength()
+                self.strength
             ),
             "mohr_coulomb" => format!(
                 "young: {young:e}, poisson: {poisson}, friction_angle: {FRICTION_ANGLE}, \
                  dilation_angle: {}, cohesion: {:e}",
                 FRICTION_ANGLE * self.dilation,
-                self.strength()
+                self.strength
             ),
             _ => format!("young: {young:e}, poisson: {poisson}"),
         };

@@ -4,7 +4,8 @@ use super::samples::{BAR, PLATE};
 use super::{Edits, load, refused};
 use rstest::rstest;
 
-const EXACT: &str = "exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n";
+const EXACT: &str =
+    "exact:\n  equation: small_strain\n  displacement: [\"v0/omega*mode(X)*sin(omega*t)\"]\n";
 const OBSERVE: (&str, &str) = ("observe: {at: [12.5]}\n", "");
 const FREE: (&str, &str) = ("  boundary: {left: fixed}\n", "");
 

@@ -17,8 +17,8 @@ const MOTION: &str = "state a motion under `exact`, or remove `within`";
 /// The box of `judge.within`, if the suite has one; `exact` is the problem of a stated solution.
 ///
 /// # Errors
-/// A diagnostic of a box that is empty or not in the body, of a judged quantity that is not a field,
-/// or of a suite whose solution is not a stated motion of one box-shaped body.
+/// A diagnostic of a box that is empty or not in the body, of a judged quantity that is not a
+/// field, or of a suite whose solution is not a stated motion of one box-shaped body.
 pub(crate) fn judged_box(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -50,7 +50,10 @@ pub(crate) fn judged_box(
         return refuse("errors are restricted to a box for a stated motion only", MOTION);
     }
     let Some(exact) = exact.filter(|exact| exact.heat.is_none()) else {
-        return refuse("heat spreads at no finite speed, so that every face affects the box", MOTION);
+        return refuse(
+            "heat spreads at no finite speed, so that every face affects the box",
+            MOTION,
+        );
     };
     if scene.outline.is_some() || !exact.bodies.is_empty() {
         let message = "errors are restricted to a box in one box-shaped body only";
