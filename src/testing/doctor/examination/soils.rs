@@ -19,7 +19,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "soils",
     expected: "along paths of compression, extension, shear and rotation the column `stress` is that of the soil law, \
                in one step and in many",
-    after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
     examine,
 };
 
@@ -29,9 +29,12 @@ const LAWS: [&str; 2] = ["drucker_prager", "mohr_coulomb"];
 /// of the strain, which is 0.003.
 const NEAR: f64 = 0.015;
 
-/// Largest error with a rotation, whose strain is ten times as large, so that errors of the motion
-/// are small compared with it.
-const NEAR_WITH_ROTATION: f64 = 0.05;
+/// Largest error with a rotation, which affine transfers change in their first step. The strain is
+/// ten times as large, so that errors of the motion are small compared with it.
+const NEAR_WITH_ROTATION: f64 = 0.1;
+
+/// Ratio of the errors with few and with many steps below which the stress depends on the steps.
+const STEP_RATIO: f64 = 0.3;
 
 /// Share of Young's modulus that is the strength of a soil: it yields at a tenth of the strain of a
 /// path.
@@ -223,7 +226,10 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     let Legs { compression, one_step, extension, shear, rotation } = legs;
     let face_is_right = shear.as_ref().is_some_and(|leg| !leg.is_wrong());
     let on_edge = compression.scene.law == "mohr_coulomb" && face_is_right;
-    if !(compression.distance_from(one_step) <= NEAR) {
+    let [least, most] = sorted(compression.off(), one_step.off());
+    let depends_on_steps =
+        !(compression.distance_from(one_step) <= NEAR) && (on_edge || least <= STEP_RATIO * most);
+    if depends_on_steps {
         let (leg, steps) =
             if one_step.is_wrong() { (one_step, "one step") } else { (compression, "20 steps") };
         let name = format!("compression in {steps}");
@@ -262,6 +268,10 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
          the body",
         "b_e = F Cp^-1 F^T, with Cp^-1 in the reference axes; in rate form, an objective rate of the stress",
     )))
+}
+
+fn sorted(a: f64, b: f64) -> [f64; 2] {
+    if a <= b { [a, b] } else { [b, a] }
 }
 
 /// The finding on a wrong stress on a path; `on_edge`: of a Mohr-Coulomb soil on an edge, whose
