@@ -31,7 +31,7 @@ pub(crate) fn judged_box(
     for (key, corner) in [("from", &from), ("to", &to)] {
         for (axis, x) in corner.iter().enumerate() {
             let (low, high) = (scene.from[axis], scene.to[axis]);
-            if !(low..=high).contains(&x) {
+            if !(low..=high).contains(x) {
                 let message = format!("{} is outside the body", shown(*x));
                 let label = format!("expected a number from {} to {}", shown(low), shown(high));
                 let at = path.then(key).then(axis);

@@ -341,16 +341,13 @@ fn is_on_surface(leg: &Leg) -> Option<bool> {
     }
     let j = 1.0 + leg.scene.velocity.gradient[0][0];
     let (axial, lateral) = (j * leg.stress[0], j * leg.stress[d + 1]);
-    let (one, other) = match leg.scene.law {
-        "drucker_prager" => {
-            let shear = (axial - lateral).abs() / 3.0_f64.sqrt();
-            (shear, FRICTION * (axial + 2.0 * lateral) / 3.0 - leg.scene.strength)
-        }
-        _ => {
-            let (sin, cos) = libm::sincos(FRICTION_ANGLE.to_radians());
-            let strength = 2.0 * leg.scene.strength * cos;
-            (lateral - axial, (lateral + axial) * sin - strength)
-        }
+    let (one, other) = if leg.scene.law == "drucker_prager" {
+        let shear = (axial - lateral).abs() / 3.0_f64.sqrt();
+        (shear, FRICTION * (axial + 2.0 * lateral) / 3.0 - leg.scene.strength)
+    } else {
+        let (sin, cos) = libm::sincos(FRICTION_ANGLE.to_radians());
+        let strength = 2.0 * leg.scene.strength * cos;
+        (lateral - axial, (lateral + axial) * sin - strength)
     };
     Some((one + other).abs() <= NEAR * (one.abs() + other.abs()))
 }
