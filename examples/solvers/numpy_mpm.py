@@ -134,7 +134,8 @@ class Mpm:
     formal_order = 2
     capabilities = {
         "dimensions": [1, 2, 3],
-        "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated"],
+        "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated", "drucker_prager",
+                 "mohr_coulomb"],
         "conditions": ["free", "fixed", "roller", "periodic", "velocity"],
         "loads": ["gravity", "body_force", "damping", "traction", "force"],
         "columns": ["stress", "deformation_gradient"],
@@ -163,12 +164,18 @@ class Mpm:
         self.hardening = parameters.get("hardening", 0.0)
         self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
                               "hencky": self.hencky, "corotated": self.corotated,
-                              "j2": self.j2}[law]
+                              "j2": self.j2, "drucker_prager": self.plasticity,
+                              "mohr_coulomb": self.plasticity}[law]
         self.x, self.v = problem.position.copy(), problem.velocity.copy()
         self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()
         self.m, self.vol = problem.mass, problem.volume.copy()
         self.vol0 = self.vol / np.linalg.det(self.f)
         self.plastic = self.hardened = np.zeros_like(self.vol)
+        if law in ("drucker_prager", "mohr_coulomb"):
+            if not np.allclose(self.f, np.eye(self.d), rtol=0, atol=1e-12) or self.sigma.any():
+                raise Cannot("soils that start undeformed and without stress only")
+            self.soil, self.parameters = getattr(self, law), parameters
+            self.plastic = np.broadcast_to(np.eye(3), (len(self.x), 3, 3))  # Cp^-1
         # With knots repeated at walls, the first and the last function alone do not vanish there.
         self.counts = [n if periodic else n + self.degree
                        for n, periodic in zip(problem.cells, problem.periodic)]
@@ -403,6 +410,67 @@ class Mpm:
         self.hardened = self.hardened + flow
         tau = self.lam * log + 2 * self.mu * (log - self.plastic)
         self.kirchhoff(tau[:, None, None])
+
+    def plasticity(self, _: Array) -> None:
+        """sigma = tau/J, tau = lambda tr(eps) I + 2 mu eps, with the elastic strain eps = ln(be)/2,
+        be = F Cp^-1 F^T. The principal values of tau are returned to the yield surface."""
+        f = np.broadcast_to(np.eye(3), (len(self.x), 3, 3)).copy()
+        f[:, :self.d, :self.d] = self.f
+        squares, axes = np.linalg.eigh(f @ self.plastic @ f.transpose(0, 2, 1))
+        log = 0.5 * np.log(squares)  # in ascending order
+        tau = self.soil(self.lam * log.sum(axis=1, keepdims=True) + 2 * self.mu * log)
+        mean = tau.sum(axis=1, keepdims=True) / 3
+        log = (tau - mean) / (2 * self.mu) + mean / (3 * self.lam + 2 * self.mu)
+        inverse = np.linalg.inv(f)
+        elastic = np.einsum("pai,pi,pbi->pab", axes, np.exp(2 * log), axes)
+        self.plastic = inverse @ elastic @ inverse.transpose(0, 2, 1)
+        self.kirchhoff(np.einsum("pai,pi,pbi->pab", axes, tau, axes)[:, :self.d, :self.d])
+
+    def drucker_prager(self, tau: Array) -> Array:
+        """Return to the cone sqrt(J2) + friction p = strength, or to its apex."""
+        friction, dilation = self.parameters["friction"], self.parameters["dilation"]
+        strength, bulk = self.parameters["strength"], self.lam + 2 * self.mu / 3
+        mean = tau.mean(axis=1, keepdims=True)
+        shear = np.sqrt(0.5 * ((tau - mean) ** 2).sum(axis=1, keepdims=True))
+        excess = np.maximum(shear + friction * mean - strength, 0)
+        flow = excess / (self.mu + bulk * friction * dilation)
+        is_apex = self.mu * flow > shear
+        left = 1 - np.divide(self.mu * flow, shear, out=np.ones_like(flow), where=shear > 0)
+        cone = mean - bulk * dilation * flow + np.where(excess > 0, left, 1) * (tau - mean)
+        return np.where(is_apex, strength / max(friction, 1e-300), cone)
+
+    def mohr_coulomb(self, tau: Array) -> Array:
+        """Return to a face, an edge or the apex of (t1 - t3) + (t1 + t3) sin(phi) = 2 c cos(phi)."""
+        phi, psi = (math.radians(self.parameters[key])
+                    for key in ("friction_angle", "dilation_angle"))
+        strength = 2 * self.parameters["cohesion"] * math.cos(phi)
+        found = self.returned(tau, [(2, 0)], phi, psi, strength)
+        # On an edge the largest or the smallest two stresses are equal.
+        for planes, [low, high] in (([(2, 0), (1, 0)], [1, 2]), ([(2, 0), (2, 1)], [0, 1])):
+            is_wrong = found[:, low] > found[:, high]
+            edge = self.returned(tau, planes, phi, psi, strength)
+            found = np.where(is_wrong[:, None], edge, found)
+        if phi > 0:
+            apex = strength / (2 * math.sin(phi))
+            found = np.where(found.mean(axis=1, keepdims=True) > apex, apex, found)
+        return found
+
+    def returned(self, tau: Array, planes: list[tuple[int, int]], phi: float, psi: float,
+                 strength: float) -> Array:
+        """Return to the planes between these pairs of a larger and a smaller principal stress."""
+        def normal(plane: tuple[int, int], angle: float) -> Array:
+            gradient = np.zeros(3)
+            gradient[plane[0]], gradient[plane[1]] = 1 + math.sin(angle), math.sin(angle) - 1
+            return gradient
+
+        normals = np.array([normal(plane, phi) for plane in planes])
+        flows = np.array([normal(plane, psi) for plane in planes])
+        change = self.lam * flows.sum(axis=1, keepdims=True) + 2 * self.mu * flows
+        excess = tau @ normals.T - strength
+        share = np.linalg.solve(normals @ change.T, excess.T).T
+        flows_now = (excess[:, :1] > 0) | (excess[:, -1:] > 0)
+        returned: Array = np.where(flows_now, tau - share @ change, tau)
+        return returned
 
     def corotated(self, _: Array) -> None:
         """sigma = (2 mu/J) (F - R) F^T + lambda (J - 1) I, with the rotation R of F."""

@@ -94,9 +94,16 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Returns quantity, norm and scale of the judged errors as JSON.
+/// Returns quantity, norm, scale and box of the judged errors as JSON.
 fn judge(study: &Convergence) -> Value {
-    json!({"of": study.of.name(), "norm": study.norm.name(), "scale": study.scale.map(number)})
+    let corner = |corner: &[f64]| corner.iter().map(|x| number(*x)).collect::<Vec<_>>();
+    let within = study.within.as_ref();
+    json!({
+        "of": study.of.name(),
+        "norm": study.norm.name(),
+        "scale": study.scale.map(number),
+        "within": within.map(|of| json!({"from": corner(&of.from), "to": corner(&of.to)})),
+    })
 }
 
 fn floor(floor: &Floor) -> Value {

@@ -116,6 +116,7 @@ impl JudgePlan<'_> {
             formal_order: self.formal_order,
             norm: self.norm,
             of: self.of,
+            within: self.within.cloned(),
             scale: self.scale,
             error_scale: self.error_scale.clone(),
             compared: self.is_compared,

@@ -2,6 +2,7 @@
 
 use super::conservation::Conserved;
 use super::error::clock::StepKind;
+use super::error::judged_box::JudgedBox;
 use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::observer::History;
@@ -29,6 +30,8 @@ pub struct Convergence {
     pub norm: NormName,
     /// Quantity whose error is judged.
     pub of: Quantity,
+    /// Box to which errors are restricted, if any.
+    pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
     /// Scale for comparing errors and work between cases.
@@ -212,6 +215,7 @@ pub(in crate::verify) mod tests {
             formal_order: 2.0,
             norm: NormName::Rms,
             of: Quantity::Displacement,
+            within: None,
             scale: None,
             error_scale: ErrorScale { problem: String::new(), size: 1.0, growth: 2.0 },
             compared: true,

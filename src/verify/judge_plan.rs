@@ -3,6 +3,7 @@
 use super::conservation::Conserved;
 use super::convergence::LevelOutcome;
 use super::error::clock::StepKind;
+use super::error::judged_box::JudgedBox;
 use super::error::norm::ErrorScale;
 use super::error::norm::NormName;
 use super::error::quantity::Quantity;
@@ -25,6 +26,8 @@ pub struct JudgePlan<'a> {
     pub norm: NormName,
     /// Quantity whose error is judged.
     pub of: Quantity,
+    /// Box to which errors are restricted, if any.
+    pub within: Option<&'a JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
     /// Scale for comparing errors and work between cases.

@@ -17,6 +17,8 @@ from faults import FAULTS
 
 MESSAGES = [3, 1, 4, 2]  # steps of each message
 ROUNDING = 1e-9  # of the largest value of a column
+SOILS = {"drucker_prager": {"friction": 0.3, "dilation": 0.1, "strength": 1.0},
+         "mohr_coulomb": {"friction_angle": 30.0, "dilation_angle": 10.0, "cohesion": 1.0}}
 ROOM = {"free": 1.0, "fixed": 0.0, "roller": 0.0, "periodic": 0.0}  # cells of the grid beyond a face
 
 
@@ -61,7 +63,8 @@ def problem(law, faces, cells, per_axis, force="none", speed=0.0, strain=0.0, tu
                  "periodic": [pair[0] == "periodic" for pair in conditions]},
         "faces": [{"name": f"{axis}{high}", "axis": axis, "high": bool(high), "condition": conditions[axis][high],
                    "at": float(start[axis] + high * h * count[axis])} for axis in range(d) for high in (0, 1)],
-        "materials": [{"law": law, "parameters": {"young": 700.0, "poisson": 0.3}, "density": density}],
+        "materials": [{"law": law, "parameters": {"young": 700.0, "poisson": 0.3, **SOILS.get(law, {})},
+                       "density": density}],
         "bodies": [], "plane": "strain", "contact": None, "loads": [], "body_force": force, "body_force_value": [40.0, -70.0, 20.0][:d],
         "particles_per_cell": per_axis**d, "steps": sum(MESSAGES), "dt": dt, "until": sum(MESSAGES) * dt,
         "instants": np.cumsum(MESSAGES).tolist(),
@@ -83,6 +86,8 @@ PROBLEMS = {
     "rotating and strained": problem("neo_hookean", FREE[:4], (4, 5), 3, "none", 0.5, -0.05, 12.0),
     "rotating and stressed": problem("linear_elastic", FREE[:4], (3, 4), 2, "none", 0.5, -0.1, 15.0),
     "periodic": problem("neo_hookean", PERIODIC[:4], (5, 4), 2, "asked", 18.0),
+    "rotating cone of soil": problem("drucker_prager", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
+    "rotating pyramid of soil": problem("mohr_coulomb", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
     "falling": problem("linear_elastic", FREE[:4], (4, 3), 2, "constant", 1.0),
     "bar": problem("linear_elastic", ["fixed", "free"], (6,), 2, "asked", -5.0),
     "block": problem("linear_elastic", FREE, (2, 3, 2), 2, "none", 0.5, -0.05, 5.0),

@@ -42,6 +42,12 @@ impl Problem {
         weak::momentum(self, survey)
     }
 
+    /// The violation of the condition on face number `face`; `None` if the motion satisfies it.
+    pub fn violation_on_face(&self, face: usize, survey: &Survey) -> Option<Violation> {
+        let faces = self.faces.get(face).into_iter().cloned().collect();
+        boundary::boundary(&Self { faces, ..self.clone() }, survey).err()
+    }
+
     /// Returns the largest relative residual of the conditions that involve the law: the equation
     /// of motion, and tractions on faces and rims. NaN if another condition is violated, or if the
     /// residual is not finite.

@@ -82,6 +82,24 @@ impl Quadrilateral {
         (place, Matrix::from_columns(&[along, across]))
     }
 
+    /// The point of the unit square whose place is `place` (m), by Newton's method from the middle.
+    /// The map of a convex panel has one such point for each place in the panel.
+    pub fn inverse(&self, place: &Vector<2>) -> [f64; 2] {
+        const MOST_ITERATIONS: usize = 50;
+        let mut point = Vector::<2>::from_element(0.5);
+        for _ in 0..MOST_ITERATIONS {
+            let (here, slope) = self.at(point[0], point[1]);
+            let Some(change) = slope.try_inverse().map(|inverse| inverse * (place - here)) else {
+                break;
+            };
+            point += change;
+            if change.norm() <= 4.0 * f64::EPSILON {
+                break;
+            }
+        }
+        [point[0], point[1]]
+    }
+
     /// Fills the panel with particles of density `density` (kg/m^2).
     pub fn fill<const D: usize>(&self, density: f64, h: f64, per_axis: usize) -> Particles<D> {
         let counts = self.counts(h, per_axis);
@@ -152,6 +170,16 @@ mod tests {
                     prop_assert!(is_inside(&panel, &(x - towards)));
                 }
             }
+        }
+
+        #[test]
+        fn inverse_returns_the_point_of_a_place(
+            panel in any(),
+            s in -0.1..1.1_f64,
+            t in -0.1..1.1_f64,
+        ) {
+            let [a, b] = panel.inverse(&panel.at(s, t).0);
+            prop_assert!((a - s).abs() < 1e-12 && (b - t).abs() < 1e-12, "({}, {})", a, b);
         }
 
         #[test]

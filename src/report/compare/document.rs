@@ -72,12 +72,19 @@ pub(super) struct CaseDocument {
     pub(super) stability: Option<StabilityDocument>,
 }
 
-/// Judged quantity and norm. Errors are compared only if these are equal in both runs.
+/// Judged quantity, norm and box. Errors are compared only if these are equal in both runs.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(super) struct JudgeDocument {
     pub(super) of: String,
     pub(super) norm: String,
     pub(super) scale: Option<JsonNumber>,
+    pub(super) within: Option<WithinDocument>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(super) struct WithinDocument {
+    pub(super) from: Vec<JsonNumber>,
+    pub(super) to: Vec<JsonNumber>,
 }
 
 #[derive(Debug, Clone, Copy, Deserialize)]

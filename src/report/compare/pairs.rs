@@ -8,6 +8,7 @@ use super::shared_words::shared_words;
 use super::stability::StabilityMove;
 use super::{accuracy, equal_error, stability};
 use crate::report::columns::distinct;
+use crate::verify::JudgedBox;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Implements [`compare`](super::compare()).
@@ -142,7 +143,13 @@ fn otherwise(
         let of = |case: &CaseDocument| {
             case.judge.as_ref().map_or_else(String::new, |judge| {
                 let scale = judge.scale.map(|scale| format!(" over {}", scale.0));
-                format!("{} of {}{}", judge.norm, judge.of, scale.unwrap_or_default())
+                let within = judge.within.as_ref().map(|within| {
+                    let corner = |corner: &[JsonNumber]| corner.iter().map(|x| x.0).collect();
+                    let (from, to) = (corner(&within.from), corner(&within.to));
+                    format!(" within {}", JudgedBox { from, to }.words())
+                });
+                let (scale, within) = (scale.unwrap_or_default(), within.unwrap_or_default());
+                format!("{} of {}{scale}{within}", judge.norm, judge.of)
             })
         };
         notes.push(format!("judged: {} -> {}", of(old), of(new)));

@@ -129,6 +129,7 @@ fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
 #[case::less_work("/levels/3/transfers", json!(3000), Some(Rank::Better))]
 #[case::another_norm("/judge/norm", json!("linf"), Some(Rank::Otherwise))]
 #[case::another_scale("/judge/scale", json!(2.0), Some(Rank::Otherwise))]
+#[case::another_box("/judge/within", json!({"from": [0.0], "to": [1.0]}), Some(Rank::Otherwise))]
 #[case::no_judge("/judge", json!(null), None)]
 #[case::another_grid("/levels/3/cells", json!(90), Some(Rank::Otherwise))]
 fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option<Rank>) {

@@ -77,10 +77,15 @@ fn case() -> Value {
 
 fn judge() -> Value {
     let quantities: Vec<&str> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
+    let within = object([
+        ("from", list(number()), "lowest corner"),
+        ("to", list(number()), "highest corner"),
+    ]);
     object([
         ("of", json!({"enum": quantities}), "the judged quantity"),
         ("norm", text(), "norm of the error"),
         ("scale", or_null(number()), "divisor of the error"),
+        ("within", or_null(within), "box of reference positions that errors are restricted to"),
     ])
 }
 

@@ -5,7 +5,7 @@
 //! ```json
 //! {"suites": [{"suite": "...", "passed": true, "cases": [{
 //!     "case": "...", "subject": "mpm", "axis": "space", "formal_order": 2.0,
-//!     "judge": {"of": "displacement", "norm": "rms", "scale": null},
+//!     "judge": {"of": "displacement", "norm": "rms", "scale": null, "within": null},
 //!     "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
 //!     "verdict": "converging", "expected": "...", "result": "pass", "passed": true,
 //!     "reason": "...", "unmet": [], "lacks": [],

@@ -24,6 +24,7 @@ pub(super) fn judge_plan<'a>(
         formal_order: formal_order(plan, case),
         norm: plan.norm,
         of: plan.of,
+        within: plan.within.as_ref(),
         scale: plan.scale,
         error_scale: error_scale(plan, case, truth),
         is_compared: case.against != Against::Nothing,
@@ -205,7 +206,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
         };
         (0..scene.dimension()).map(along).collect()
     };
-    let inside = |place: &Vec<f64>| plan.exact.as_ref().is_none_or(|exact| exact.holds(place));
+    let outline = scene.outline.as_ref();
+    let inside = |place: &Vec<f64>| outline.is_none_or(|outline| outline.holds(place));
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 

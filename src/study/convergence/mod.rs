@@ -293,7 +293,8 @@ impl CaseRuns<'_, '_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
         let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
-        Comparison { of: plan.of, sum, observe, at_rest, steps: plan.steps, keeps_field }
+        let (of, within, steps) = (plan.of, plan.within.as_ref(), plan.steps);
+        Comparison { of, sum, within, observe, at_rest, steps, keeps_field }
     }
 
     /// Creates the outcome of a level that ran with time steps of `dt` (s).

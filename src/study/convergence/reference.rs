@@ -2,7 +2,7 @@
 //!
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` is for studies in
 //! space, in any dimension: it runs the method itself on a grid much finer than any level. The
-//! reference configuration of its particles is a lattice, so the motion can be interpolated even
+//! reference configuration of its particles is a lattice, or its bilinear map, so the motion can be interpolated even
 //! after particles have moved. `FineSteps` is for studies in time: it runs the method itself on the
 //! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
 //! equations.
@@ -14,6 +14,7 @@
 
 use crate::exact::Truth;
 use crate::fem::Bar;
+use crate::mpm::{Quadrilateral, Vector};
 use crate::study::setup::bar::{bar, reference_method};
 use crate::study::setup::dispatch::subject;
 use crate::subject::{Precision, Samples, Start, Subject, SubjectError};
@@ -22,6 +23,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
 use crate::suite::scene::grid_size::cell_size;
 use crate::verify::error::observer::lagrange_weights;
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 /// Displacement and velocity of a finely meshed bar at every instant of the study. They are
@@ -99,6 +101,8 @@ const NEAR: usize = 6;
 /// Displacement and velocity of a particle lattice at the start and at every instant.
 pub(crate) struct FineGrid {
     until: f64,
+    /// The map of the body from the unit square, in which the particles form the lattice.
+    panel: Option<Quadrilateral>,
     lattice: Lattice,
     states: Vec<(Vec<f64>, Vec<f64>)>,
 }
@@ -117,9 +121,21 @@ impl FineGrid {
         let end = run(plan, case, level, |now| {
             states.push((now.displacement.clone(), now.velocity.clone()));
         })?;
-        let lattice = Lattice::of(&end.label, end.dimension);
+        let panel = plan.scene.mapped.clone();
+        let lattice = match &panel {
+            None => Lattice::of(&end.label, end.dimension),
+            Some(panel) => Lattice::of(&middles(panel, level, &end), end.dimension),
+        };
         let lattice = lattice.ok_or("reference: its particles are not on a lattice")?;
-        Ok(Self { until: case.until, lattice, states })
+        Ok(Self { until: case.until, panel, lattice, states })
+    }
+
+    /// The coordinates of the lattice at `label` (m): those of the unit square of a mapped body.
+    fn coordinates<'l>(&self, label: &'l [f64]) -> Cow<'l, [f64]> {
+        match (&self.panel, label) {
+            (Some(panel), [x, y]) => Cow::Owned(panel.inverse(&Vector::from([*x, *y])).to_vec()),
+            _ => Cow::Borrowed(label),
+        }
     }
 
     fn state(&self, t: f64) -> &(Vec<f64>, Vec<f64>) {
@@ -129,12 +145,27 @@ impl FineGrid {
 
 impl Truth for FineGrid {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        self.lattice.interpolate(&self.state(t).0, label, into);
+        self.lattice.interpolate(&self.state(t).0, &self.coordinates(label), into);
     }
 
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        self.lattice.interpolate(&self.state(t).1, label, into);
+        self.lattice.interpolate(&self.state(t).1, &self.coordinates(label), into);
     }
+}
+
+/// Coordinates of the particles of a mapped body in the unit square, without rounding errors: each
+/// particle fills one part of the square, and lies in its middle.
+fn middles(panel: &Quadrilateral, level: LevelPlan, samples: &Samples) -> Vec<f64> {
+    let per_axis = libm::round(level.ppc.map_or(1.0, |ppc| (ppc as f64).sqrt())) as usize;
+    let counts = panel.counts(level.h, per_axis);
+    let points = samples.label.chunks_exact(2).map(|x| panel.inverse(&Vector::from([x[0], x[1]])));
+    let middle = |point: [f64; 2]| {
+        [0, 1].map(|axis| {
+            let count = counts[axis] as f64;
+            (libm::floor(point[axis] * count) + 0.5) / count
+        })
+    };
+    points.flat_map(middle).collect()
 }
 
 /// Particles that form a lattice: points at all combinations of the coordinates of the axes.
@@ -339,6 +370,31 @@ mod tests {
         Lattice::of(&labels, d).unwrap().interpolate(&values, &at[..d], &mut found);
         for (found, expected) in found.iter().zip(field(&at[..d])) {
             assert_relative_eq!(*found, expected, max_relative = 1e-12, epsilon = 1e-12);
+        }
+    }
+
+    #[test]
+    fn particles_of_a_panel_form_a_lattice_in_the_unit_square() {
+        let corners = [[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]];
+        let panel = Quadrilateral::new(corners.map(Vector::from)).unwrap();
+        let level = LevelPlan { cells: 4, h: 12.0, dt: 1.0, ppc: Some(4) };
+        let mut samples = Samples::default();
+        let particles = panel.fill::<2>(1.0, level.h, 2);
+        for x in particles.x0.iter().rev() {
+            samples.push(&[x[0], x[1]], &[x[0] - 3.0 * x[1], x[1]], &[0.0; 2], 1.0);
+        }
+        let lattice = Lattice::of(&middles(&panel, level, &samples), 2);
+        let grid = FineGrid {
+            until: 1.0,
+            panel: Some(panel),
+            lattice: lattice.expect("a lattice"),
+            states: vec![(samples.displacement, samples.velocity)],
+        };
+        let mut found = [f64::NAN; 2];
+        for label in [[3.0, 20.0], [30.0, 40.0], [48.0, 60.0], [0.0, 0.0]] {
+            grid.displacement(&label, 1.0, &mut found);
+            let expected = [label[0] - 3.0 * label[1], label[1]];
+            assert_relative_eq!(found[..], expected[..], max_relative = 1e-11, epsilon = 1e-10);
         }
     }
 

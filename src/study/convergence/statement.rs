@@ -5,7 +5,7 @@ use crate::study::describe::statement::{Rows, push, scene, stated, step_profile}
 use crate::study::exact_motion::{self, amplitude};
 use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
-use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
+use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
@@ -38,11 +38,15 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "reference", &text);
     }
     if let Some(same) = plan.same_method {
-        push(&mut rows, "reference", &same_method(same, &plan.refine));
+        push(&mut rows, "reference", &same_method(same, plan));
     }
     refinement(plan, &mut rows);
     if !is_truthless(plan) {
         push(&mut rows, "judged", &judged(plan));
+    }
+    if let Some(within) = &plan.within {
+        let text = format!("the particles with X in {}", within.words());
+        push(&mut rows, "errors over", &text);
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
@@ -61,7 +65,8 @@ fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     rows.into_iter().map(|(key, text)| (key.to_owned(), text)).collect()
 }
 
-fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
+fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
+    let refine = &plan.refine;
     let text = "the same method, started half a step back,";
     match same {
         SameMethod::ShorterSteps(dt) => format!("{text} with dt = {} s", shown(dt)),
@@ -72,9 +77,12 @@ fn same_method(same: SameMethod, refine: &RefinePlan) -> String {
                 Some(_) => "dt by the same rule".to_owned(),
                 None => format!("dt = {} s", shown(dt)),
             };
+            let method = match plan.steps {
+                StepKind::Time => format!("{text} on {cells} cells with {step}"),
+                StepKind::Load => format!("the same method on {cells} cells"),
+            };
             format!(
-                "{text} on {cells} cells with {step}: an error of order 2 on the finest level is \
-                 known to about 1/{:.0}",
+                "{method}: an error of order 2 on the finest level is known to about 1/{:.0}",
                 ratio * ratio
             )
         }

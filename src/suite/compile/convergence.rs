@@ -5,7 +5,7 @@ use super::check::{self, load_steps, size, steps, sums};
 use super::expect::any_method;
 use super::run::{self, places, reference, refine};
 use super::scene;
-use super::truth::{self, conduction, refuse_need_of_truth};
+use super::truth::{self, conduction, judged_box, refuse_need_of_truth};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
@@ -62,6 +62,13 @@ pub(crate) fn convergence_plan(
         Some(_) => None,
         None => truth::exact(evaluator, spec, &scene, latest)?,
     };
+    let within = judged_box::judged_box(evaluator, spec, &scene, exact.as_ref())?;
+    let exact = match (&within, exact) {
+        (Some(within), Some(exact)) => {
+            Some(judged_box::without_distant_faces(evaluator, within, exact)?)
+        }
+        (_, exact) => exact,
+    };
     let dimension = scene.dimension();
     let reference =
         spec.reference.as_ref().map(|spec| reference::reference(evaluator, spec, dimension));
@@ -86,6 +93,7 @@ pub(crate) fn convergence_plan(
         norm: spec.judge.norm,
         of: spec.judge.of,
         sum: None,
+        within,
         scale: scale.transpose()?,
         crossing_levels: spec.judge.crossing_levels,
         any_method: AnyMethod::default(),

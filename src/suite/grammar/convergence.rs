@@ -1,7 +1,7 @@
 //! Keys of a convergence study.
 
 use super::{
-    AcknowledgeSpec, AnyMethodSpec, EquationName, ExactSpec, ExpectSpec, ManufacturedSpec,
+    AcknowledgeSpec, AnyMethodSpec, BoxSpec, EquationName, ExactSpec, ExpectSpec, ManufacturedSpec,
     MethodSpec, SceneSpec, StepSpec, StudyName,
 };
 use crate::fem::{Element, Mass};
@@ -111,6 +111,8 @@ pub(crate) struct JudgeSpec {
     pub(crate) norm: NormName,
     /// Face whose reaction is judged; default: all walls together.
     pub(crate) face: Option<String>,
+    /// Box of reference positions to which the judged error is restricted; default: the body.
+    pub(crate) within: Option<BoxSpec>,
     /// Divisor of the judged error.
     pub(crate) scale: Option<NumberText>,
     /// Whether levels on which particles change their cell count.

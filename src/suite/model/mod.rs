@@ -21,7 +21,7 @@ use crate::exact::Problem;
 use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
-use crate::verify::{Clock, Expectation, Gating, JudgedSum, Quantity, StepKind};
+use crate::verify::{Clock, Expectation, Gating, JudgedBox, JudgedSum, Quantity, StepKind};
 use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -77,6 +77,8 @@ pub struct ConvergencePlan {
     pub of: Quantity,
     /// The judged sum and its exact value, if the judged quantity is a sum over the body.
     pub sum: Option<Arc<JudgedSum>>,
+    /// Box to which errors are restricted; `None`: errors over the whole body.
+    pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
     /// Whether levels with cell crossings may count.
@@ -169,7 +171,7 @@ impl ConvergencePlan {
     /// Returns the steps of a run that ends at `until` (s) and is compared with `against`, for a
     /// requested step `dt` (s).
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
-        if against.is_computed() {
+        if against.is_computed() && self.steps == StepKind::Time {
             return Clock::with_common_instants(until, dt, self.instants);
         }
         Clock::new(until, dt, self.instants)

@@ -30,6 +30,12 @@ pub(super) const SOFT: f64 = 1e-24;
 /// Names of the faces of a box, lower and higher face of each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
+/// Coefficient of friction of a Drucker-Prager soil.
+pub(super) const FRICTION: f64 = 0.3;
+
+/// Friction angle (degrees) of a Mohr-Coulomb soil.
+pub(super) const FRICTION_ANGLE: f64 = 30.0;
+
 /// A box of particles on a grid. Vectors have one number per dimension.
 #[derive(Debug, Clone)]
 pub(super) struct BoxScene {
@@ -46,6 +52,10 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
+    /// Strength or cohesion (Pa) of a soil.
+    pub(super) strength: f64,
+    /// Dilation of a soil, as a share of its friction.
+    pub(super) dilation: f64,
     /// Density (kg/m3).
     pub(super) density: f64,
     /// Initial velocity (m/s).
@@ -81,6 +91,8 @@ impl BoxScene {
             grid: (grid_low, grid_high),
             young: 0.1,
             poisson: 0.3,
+            strength: 1e-4,
+            dilation: 1.0 / 3.0,
             // Must not be a power, product or ratio of the other numbers, see `fall::factors`.
             density: 1.7,
             velocity: AffineField::default(),
@@ -137,6 +149,7 @@ impl BoxScene {
             body: (by(&self.body.0), by(&self.body.1)),
             grid: (by(&self.grid.0), by(&self.grid.1)),
             young: self.young * mass * length * length / (time * time * volume),
+            strength: self.strength * mass * length * length / (time * time * volume),
             density: self.density * mass / volume,
             velocity: self.velocity.scaled(length / time, length),
             displacement: self.displacement.scaled(length, length),
@@ -154,6 +167,18 @@ impl BoxScene {
             "newtonian" => format!("bulk: {bulk:e}, viscosity: 0"),
             "linear_fluid" => format!("bulk: {bulk:e}"),
             "j2" => format!("young: {young:e}, poisson: {poisson}, yield: {:e}", 10.0 * young),
+            "drucker_prager" => format!(
+                "young: {young:e}, poisson: {poisson}, friction: {FRICTION}, dilation: {}, \
+                 strength: {:e}",
+                FRICTION * self.dilation,
+                self.strength
+            ),
+            "mohr_coulomb" => format!(
+                "young: {young:e}, poisson: {poisson}, friction_angle: {FRICTION_ANGLE}, \
+                 dilation_angle: {}, cohesion: {:e}",
+                FRICTION_ANGLE * self.dilation,
+                self.strength
+            ),
             _ => format!("young: {young:e}, poisson: {poisson}"),
         };
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
@@ -219,7 +244,15 @@ impl BoxScene {
     /// # Errors
     /// One line with the reason why this run is not possible.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
-        let suite = self.suite(&format!("basis: {basis}, transfer: pic, scheme: usl"))?;
+        self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
+    }
+
+    /// A run of the built-in MPM with `method`, in the notation of suites.
+    ///
+    /// # Errors
+    /// One line with the reason why there is none.
+    pub(super) fn built_in(&self, method: &str) -> Result<Course, SubjectError> {
+        let suite = self.suite(method)?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;

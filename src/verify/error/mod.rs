@@ -3,6 +3,7 @@
 pub(crate) mod clock;
 pub(crate) mod declaration;
 pub(crate) mod error_field;
+pub(crate) mod judged_box;
 pub(crate) mod judged_sum;
 /// The quantity that readers of `docs/exercises/quantity.md` add.
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::clock::StepKind;
 use super::error_field::ErrorField;
+use super::judged_box::JudgedBox;
 use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
 use super::observer::{History, displacement_at};
@@ -14,6 +15,7 @@ use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
 use crate::verify::order::fit::Interval;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Settings of the comparison between a run and the exact solution.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,6 +24,8 @@ pub struct Comparison<'a> {
     pub of: Quantity,
     /// Exact value of the judged quantity, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
+    /// Box to which errors are restricted; `None`: errors over the whole body.
+    pub within: Option<&'a JudgedBox>,
     /// Reference position (m) of the observed point, if any.
     pub observe: Option<&'a [f64]>,
     /// Speed (m/s) by which residual speeds are divided. Set if the exact solution is a state of
@@ -151,17 +155,18 @@ impl<'a> RunMonitor<'a> {
                 return;
             }
         }
+        let judged = judged_samples(self.comparison, &self.samples);
         if let Some(displacement) = &mut self.displacement_errors {
-            displacement.add(errors(&self.samples, self.truth, t));
+            displacement.add(errors(&judged, self.truth, t));
         }
         if let Some(sum) = self.comparison.sum {
             self.sum_errors.push(sum.error(subject, t));
             return;
         }
         let of = self.comparison.of;
-        self.errors.add(of.errors(&self.samples, self.truth, t));
+        self.errors.add(of.errors(&judged, self.truth, t));
         if let Some(record) = &mut self.record {
-            record.add(of, &self.samples, self.truth, t);
+            record.add(of, &judged, self.truth, t);
         }
     }
 
@@ -200,11 +205,12 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Returns the errors over the body at time `t` (s); `None` for quantities without values at
+    /// Returns the errors over the judged part of the body at time `t` (s); `None` for quantities without values at
     /// labels.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
-        keeps_field.then(|| ErrorField::of(of.at_labels(), &self.samples, self.truth, t))?
+        let judged = || judged_samples(self.comparison, &self.samples);
+        keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
     }
 
     /// Creates the result of a failed run: a reason without errors.
@@ -231,6 +237,14 @@ impl<'a> RunMonitor<'a> {
             observed_exact: None,
             residual_speed: self.residual_speed.map(|_| f64::NAN),
         }
+    }
+}
+
+/// The samples whose errors are judged: those in the box of the comparison, if it has one.
+fn judged_samples<'s>(comparison: &Comparison<'_>, samples: &'s Samples) -> Cow<'s, Samples> {
+    match comparison.within {
+        Some(within) => Cow::Owned(within.restrict(samples)),
+        None => Cow::Borrowed(samples),
     }
 }
 

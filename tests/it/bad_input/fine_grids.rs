@@ -94,19 +94,6 @@ const NO_PARAMETERS: (&str, &str) = ("parameters:\n  omega: \"5*pi\"\n", "");
     ],
     &["regular particles of a single box, but the scene has a body of kind `disk`"]
 )]
-#[case::of_a_panel(
-    PLATE,
-    &[
-        ("run:", "reference: {▸same_method: {cells: 32}}\nrun:"),
-        (
-            "{box: {from: [0, 0], to: [1, 0.5]}}",
-            "{quadrilateral: {corners: [[0, 0], [1, 0], [1, 0.5], [0, 0.6]]}}",
-        ),
-        EXACT,
-        NO_PARAMETERS,
-    ],
-    &["regular particles of a single box, but the scene has a body of kind `quadrilateral`"]
-)]
 #[case::of_moved_particles(
     BAR,
     &[("run:", "reference: {▸same_method: {cells: 48}}\nparticles: {perturb: 0.2}\nrun:")],

@@ -31,7 +31,8 @@ const LOAD: &str = "    - gravity: [\"-g\"]";
     &[("equilibrium:\n  equation: hencky\n", "▸manufactured:\n")], &["`manufactured` is not supported with load steps"]
 )]
 #[case::with_a_reference(
-    &[("run: {", "▸reference: {same_method: {cells: 320}}\nrun: {")], &["`reference` is not supported with load steps"]
+    &[("run: {", "reference: {equation: hencky, ▸fem: {element: linear, mass: lumped, cells: 320, dt: 1e-3}}\nrun: {")],
+    &["`reference.fem` is not supported with load steps"]
 )]
 #[case::with_a_motion_in_the_equilibrium(&[("K(lambert_w(q(X)))) - X", "K(lambert_w(q(X)))) - X + 0*▸t")], &["t"])]
 #[case::of_an_explicit_method(

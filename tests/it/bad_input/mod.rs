@@ -16,6 +16,7 @@ mod foundation;
 mod grammar;
 mod heat;
 mod initial_stress;
+mod judged_boxes;
 mod laws;
 mod linearised;
 mod load_steps;

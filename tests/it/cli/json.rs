@@ -144,7 +144,7 @@ fn a_case_that_converges_has_its_figures() {
     assert_eq!((&case["formal_order"], &case["forces"]), (&2.0.into(), &Value::Null));
     let order = |key: &str| case["observed_order"][key].as_f64().expect("a number");
     has(&case["observed_order"], &["value", "low", "high"]);
-    let judge = json!({"of": "displacement", "norm": "rms", "scale": null});
+    let judge = json!({"of": "displacement", "norm": "rms", "scale": null, "within": null});
     assert_eq!(case["judge"], judge);
     assert!(order("low") <= order("value") && order("value") <= order("high"));
     let levels = list(&case["levels"]);

@@ -54,17 +54,17 @@ pub(crate) fn refuse_time(
             "`manufactured` is not supported with load steps: it is a motion in time",
         ),
         (
-            spec.reference.is_some(),
-            Path::top("reference"),
-            "`reference` is not supported with load steps: it is computed in time",
+            spec.has_fem_reference(),
+            Path::top("reference").then("fem"),
+            "`reference.fem` is not supported with load steps: it is computed in time",
         ),
     ];
     if let Some((_, path, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         let diagnostic = evaluator.diagnostic_at_key(&path, message);
         return Err(diagnostic.with_help("state the `equilibrium` under the full load"));
     }
-    if spec.equilibrium.is_none() {
-        let message = "load steps need an `equilibrium`: they end in one";
+    if spec.equilibrium.is_none() && spec.reference.is_none() {
+        let message = "load steps need an `equilibrium` or a `reference`: they end in equilibrium";
         let diagnostic = evaluator.diagnostic_at_key(&run.then("load_steps"), message);
         return Err(diagnostic.with_help("add `equilibrium: {equation: ..., displacement: [...]}`"));
     }

@@ -149,6 +149,9 @@ fn with_step(
     scene: &Scene,
     level: LevelPlan,
 ) -> Result<LevelPlan, Diagnostic> {
+    if spec.run.load_steps.is_some() {
+        return Ok(LevelPlan { h: cell_size(scene, level.cells), ..level });
+    }
     let Some(stated) = &spec.run.dt else {
         let message = "`refine` lists a time step for each level, but none for the fine grid";
         return Err(evaluator.diagnostic(path, message).with_help(STEP_OF_EACH_H));
@@ -169,6 +172,7 @@ fn one_lattice(
 ) -> Result<(), Diagnostic> {
     let body = match &scene.outline {
         _ if !scene.bodies.is_empty() => "several bodies",
+        Some(_) if scene.mapped.is_some() => return Ok(()),
         Some(outline) => &format!("a body of kind `{}`", outline.kind()),
         None if spec.particles.is_some() => "moved `particles`",
         None => return Ok(()),

@@ -4,6 +4,7 @@
 
 pub(crate) mod conduction;
 mod interface;
+pub(crate) mod judged_box;
 pub(crate) mod tolerance;
 
 use crate::exact::{Equation, Face, Motion, Problem, Survey, Truth};

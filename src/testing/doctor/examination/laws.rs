@@ -171,7 +171,7 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
 }
 
 /// Fits F in the middle of the body at the end, row by row, to displacements (least squares).
-fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
+pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
         |label: &[f64; 3]| (0..d).all(|i| (label[i] - centre[i]).abs() <= scene.h * (1.0 + 1e-9));

@@ -7,6 +7,7 @@ mod force;
 mod laws;
 mod periodic;
 mod rest;
+mod soils;
 mod start;
 mod stress;
 mod transfer;
@@ -30,6 +31,7 @@ pub(super) const ALL: &[Examination] = &[
     stress::EXAMINATION,
     periodic::EXAMINATION,
     laws::EXAMINATION,
+    soils::EXAMINATION,
     start::EXAMINATION,
     vibration::EXAMINATION,
     walls::EXAMINATION,

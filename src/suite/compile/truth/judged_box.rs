@@ -1,0 +1,114 @@
+//! The box to which errors are restricted, and the faces that it is independent of.
+//!
+//! The stated solution may violate the condition on a face if no elastic wave from that face
+//! reaches the box during the run: the solution in the box then depends on initial data only.
+
+use crate::exact::{Face, Problem, Survey};
+use crate::suite::compile::scene::outline;
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::model::Scene;
+use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::{JudgedBox, format_number};
+
+/// Help for a box in a suite whose solution is not a stated motion.
+const MOTION: &str = "state a motion under `exact`, or remove `within`";
+
+/// The box of `judge.within`, if the suite has one; `exact` is the problem of a stated solution.
+///
+/// # Errors
+/// A diagnostic of a box that is empty or not in the body, of a judged quantity that is not a
+/// field, or of a suite whose solution is not a stated motion of one box-shaped body.
+pub(crate) fn judged_box(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    exact: Option<&Problem>,
+) -> Result<Option<JudgedBox>, Diagnostic> {
+    let Some(stated) = &spec.judge.within else { return Ok(None) };
+    let path = Path::top("judge").then("within");
+    let (from, to) = outline::corners(evaluator, &path, stated, scene.dimension())?;
+    for (key, corner) in [("from", &from), ("to", &to)] {
+        for (axis, x) in corner.iter().enumerate() {
+            let (low, high) = (scene.from[axis], scene.to[axis]);
+            if !(low..=high).contains(x) {
+                let message = format!("{} is outside the body", shown(*x));
+                let label = format!("expected a number from {} to {}", shown(low), shown(high));
+                let at = path.then(key).then(axis);
+                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+            }
+        }
+    }
+    let refuse = |message: &str, help: &str| {
+        Err(evaluator.diagnostic_at_key(&path, message).with_help(help))
+    };
+    if spec.judge.of.is_sum() {
+        let message = format!("the {} is a sum over the whole body", spec.judge.of.words());
+        return refuse(&message, "judge a field such as `stress`, or remove `within`");
+    }
+    if spec.exact.is_none() || spec.reference.is_some() {
+        return refuse("errors are restricted to a box for a stated motion only", MOTION);
+    }
+    let Some(exact) = exact.filter(|exact| exact.heat.is_none()) else {
+        return refuse(
+            "heat spreads at no finite speed, so that every face affects the box",
+            MOTION,
+        );
+    };
+    if scene.outline.is_some() || !exact.bodies.is_empty() {
+        let message = "errors are restricted to a box in one box-shaped body only";
+        return refuse(message, "use `body: {box: ...}`, or remove `within`");
+    }
+    let within = JudgedBox { from, to };
+    if let Some(observed) = &spec.observe {
+        let at = Path::top("observe").then("at");
+        let place = evaluator.point(&at, &observed.at, scene.dimension())?;
+        if !within.holds(&place) {
+            let diagnostic = evaluator.diagnostic(&at, "this place is outside `judge.within`");
+            return Err(diagnostic.with_label(&format!("expected a place in {}", within.words())));
+        }
+    }
+    Ok(Some(within))
+}
+
+/// `exact` without the faces whose condition the motion violates, so that the check of the solution
+/// skips them.
+///
+/// # Errors
+/// A diagnostic of a box that an elastic wave from such a face reaches before the end of the run.
+pub(crate) fn without_distant_faces(
+    evaluator: &Evaluator<'_>,
+    within: &JudgedBox,
+    exact: Problem,
+) -> Result<Problem, Diagnostic> {
+    let survey = Survey::new(&exact);
+    let violates = |face: &usize| exact.violation_on_face(*face, &survey).is_some();
+    let violated: Vec<usize> = (0..exact.faces.len()).filter(violates).collect();
+    let reach = exact.wave_speed() * exact.until;
+    for number in &violated {
+        let Face { name, axis, high, .. } = exact.faces[*number];
+        let (corner, distance) = if high {
+            ("to", exact.to[axis] - within.to[axis])
+        } else {
+            ("from", within.from[axis] - exact.from[axis])
+        };
+        if !(distance >= reach) {
+            let message = format!(
+                "the box is {} m from the {name} face, whose condition the solution violates, and \
+                 an elastic wave from this face travels {} m in {} s at {} m/s",
+                format_number(distance),
+                format_number(reach),
+                format_number(exact.until),
+                format_number(exact.wave_speed()),
+            );
+            let at = Path::top("judge").then("within").then(corner).then(axis);
+            let label = format!("expected a distance of at least {} m", format_number(reach));
+            let diagnostic = evaluator.diagnostic(&at, &message).with_label(&label);
+            return Err(diagnostic.with_help("shorten the run, or move the box away from the face"));
+        }
+    }
+    let is_satisfied = |(number, _): &(usize, &Face)| !violated.contains(number);
+    let satisfied = exact.faces.iter().enumerate().filter(is_satisfied);
+    let faces = satisfied.map(|(_, face)| face.clone()).collect();
+    Ok(Problem { faces, ..exact })
+}
