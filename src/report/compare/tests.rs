@@ -11,7 +11,7 @@ fn case(name: &str, c: f64, w: f64) -> Value {
             "transfers": (w / (h * h)) as u64, "failure": null})
     };
     json!({"case": name, "verdict": "converging", "passed": true, "axis": "space",
-        "judge": {"of": "displacement", "norm": "rms", "scale": null},
+        "judge": {"of": "displacement", "norm": "rms", "scale": null, "within": null},
         "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
         "levels": [level(10), level(20), level(40), level(80)],
         "unmet": [], "stability": null, "forces": null})
