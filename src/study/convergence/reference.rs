@@ -2,10 +2,10 @@
 //!
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` is for studies in
 //! space, in any dimension: it runs the method itself on a grid much finer than any level. The
-//! reference configuration of its particles is a lattice, or its bilinear map, so the motion can be interpolated even
-//! after particles have moved. `FineSteps` is for studies in time: it runs the method itself on the
-//! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
-//! equations.
+//! reference configuration of its particles is a lattice, or the bilinear map of a lattice, so the
+//! motion can be interpolated even after particles have moved. `FineSteps` is for studies in time:
+//! it runs the method itself on the same grid, with steps so short that the result is the limit
+//! dt -> 0 of the space-discrete equations.
 //!
 //! `FineSteps` separates the time-step error from the grid error. At the Courant limit of a body,
 //! the grid error is larger and would hide the time-step error. Methods that filter the velocity in

@@ -38,8 +38,7 @@ study_spec! {
         judge: JudgeSpec,
         /// Point for the limit of the displacement and the velocity history.
         observe: Option<ObserveSpec>,
-        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-        /// a gate.
+        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<ExpectSpec>,
         /// Warnings of `check` that the suite intends, each with its reason.

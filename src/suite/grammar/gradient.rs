@@ -15,7 +15,7 @@ study_spec! {
         scene: SceneSpec,
         /// The solution as formulas, checked before any solver runs.
         exact: Option<ExactSpec>,
-        /// The state of rest at the end of the run as formulas of `X`, `Y`, `Z`, in place of `exact`.
+        /// Equilibrium at the end of the run as formulas of the coordinates, instead of `exact`.
         equilibrium: Option<ExactSpec>,
         /// The derivatives that are verified.
         gradient: DerivativeSpec,
@@ -26,7 +26,7 @@ study_spec! {
         /// External solvers with an expectation.
         #[serde(default)]
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case; without any the suite explores, and is no gate.
+        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<GradientExpectSpec>,
     }

@@ -14,8 +14,7 @@ study_spec! {
         internal_force: ForceSpec,
         /// Basis functions that are compared.
         methods: Vec<ForceMethodSpec>,
-        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-        /// a gate.
+        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<ForceExpectSpec>,
     }

@@ -17,8 +17,7 @@ study_spec! {
         spectrum: WavesSpec,
         /// Methods to be studied; lists in an entry multiply to cases.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-        /// a gate.
+        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<SpectrumExpectSpec>,
     }

@@ -25,8 +25,7 @@ study_spec! {
         show: Vec<crate::verify::RunFigure>,
         /// Methods to be studied; lists in an entry multiply to cases.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case; without expectations the suite explores, and is not
-        /// a gate.
+        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<StabilityExpectSpec>,
     }

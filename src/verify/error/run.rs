@@ -205,8 +205,8 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Returns the errors over the judged part of the body at time `t` (s); `None` for quantities without values at
-    /// labels.
+    /// Returns the errors over the judged part of the body at time `t` (s); `None` for quantities
+    /// without values at labels.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         let judged = || judged_samples(self.comparison, &self.samples);

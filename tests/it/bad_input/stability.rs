@@ -180,7 +180,7 @@ const PLATE: [(&str, &str); 5] = [
 )]
 #[case::in_single_precision(
     &[("scheme: [usl, musl]", "scheme: [usl, musl]\n      precision: ▸single")],
-    &["stability is studied in double precision"]
+    &["a stability study needs double precision"]
 )]
 fn a_study_with_an_energy_ledger(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(LEDGER, edits, words);
