@@ -141,13 +141,13 @@ impl<'a> Line<'a> {
     }
 
     /// Returns the requirement at an end of the line, where `now` is the motion at the time `t`.
-    fn demand(&self, high: bool, t: f64, now: Derivatives) -> Demand {
+    fn demand(&self, high: bool, t: f64, now: &Derivatives) -> Demand {
         let face = |face: &&Face| face.axis == self.axis && face.high == high;
         let Some(face) = self.problem.faces.iter().find(face) else { return Demand::Other };
         let label = self.labels[if high { self.elements } else { 0 }].clone();
         let event = Event { label, t };
         let demand = Cell::new(Demand::Other);
-        let point = DemandPoint { problem: self.problem, face, event, now, demand };
+        let point = DemandPoint { problem: self.problem, face, event, now: *now, demand };
         if face.condition.check(&point).is_err() {
             return Demand::Other;
         }
@@ -168,7 +168,7 @@ impl<'a> Line<'a> {
         let mut held = [false; 2];
         for (end, node) in [0, last].into_iter().enumerate() {
             self.at_node(node, &mut now);
-            match self.demand(end == 1, t, now) {
+            match self.demand(end == 1, t, &now) {
                 Demand::Held => held[end] = true,
                 Demand::Traction(traction) => forces[node] += traction,
                 Demand::Other => return None,

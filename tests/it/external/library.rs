@@ -102,7 +102,7 @@ fn what_a_maker_refuses_is_not_applicable() {
 struct Failing;
 
 impl SolverFactory for Failing {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "failing"
     }
 
