@@ -97,10 +97,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
 fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
     let message = format!("two suites have the name `{}`: the first is in {earlier}", suite.name);
     let diagnostic = source.diagnostic_at(&["suite".into()], &message);
-    diagnostic.with_severity(Severity::Warning).with_help(
-        "reports and tests are identified by \
-                                                           name",
-    )
+    let help = "reports and tests are identified by this name";
+    diagnostic.with_severity(Severity::Warning).with_help(help)
 }
 
 /// Collected findings. Text is printed immediately, JSON at the end.

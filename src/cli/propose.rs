@@ -40,13 +40,8 @@ fn of_suite(
     solver: Option<&dyn SolverFactory>,
 ) -> Result<String, CommandError> {
     let name = &suite.name;
-    let looks_inside = || {
-        CommandError::about(
-            name,
-            "it examines the internals of the built-in \
-                                                     methods",
-        )
-    };
+    let looks_inside =
+        || CommandError::about(name, "it examines the internals of the built-in methods");
     let suite = match solver {
         None => suite,
         Some(solver) => &under(suite, solver, false).ok_or_else(looks_inside)?,

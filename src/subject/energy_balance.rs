@@ -8,13 +8,13 @@ named! {
     pub enum LedgerStage {
         /// Particle velocities are mapped to nodes.
         ParticleToGrid = "particle_to_grid",
-        /// Nodal velocities differ from momentum over lumped mass.
+        /// Nodal velocities differ from momentum divided by lumped mass.
         NodalVelocity = "nodal_velocity",
         /// Work of the internal forces on the grid.
         InternalForce = "internal_force",
         /// Work of the external forces on the grid.
         ExternalForce = "external_force",
-        /// Accelerations differ from force over lumped mass.
+        /// Accelerations differ from force divided by lumped mass.
         Constraints = "constraints",
         /// Nodal velocities are mapped to particles.
         GridToParticle = "grid_to_particle",
@@ -49,13 +49,13 @@ pub struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// A balance without entries of a body with this energy (J).
+    /// Creates a balance without entries for a body with this energy (J).
     pub fn new(energy: f64) -> Self {
         Self { entries: [0.0; LedgerStage::ALL.len()], start: energy, now: energy }
     }
 
-    /// Adds the entries (J) of a step, one for each stage, after which the body has this energy
-    /// (J).
+    /// Adds the entries (J) of a step, one for each stage. `energy` (J) is the energy of the body
+    /// after the step.
     pub fn add(&mut self, entries: &[f64; LedgerStage::ALL.len()], energy: f64) {
         for (sum, entry) in self.entries.iter_mut().zip(entries) {
             *sum += entry;
@@ -63,40 +63,41 @@ impl EnergyBalance {
         self.now = energy;
     }
 
-    /// Sum of the entries (J) of one stage.
+    /// Returns the sum of the entries (J) of one stage.
     pub fn entry(&self, stage: LedgerStage) -> f64 {
         self.entries[stage as usize]
     }
 
-    /// Energy (J) now.
+    /// Returns the energy (J) after the last step.
     pub fn energy(&self) -> f64 {
         self.now
     }
 
-    /// Sum of all entries (J).
+    /// Returns the sum of all entries (J).
     pub fn change(&self) -> f64 {
         self.entries.iter().sum()
     }
 
-    /// Sum of the magnitudes of all entries (J).
+    /// Returns the sum of the magnitudes of all entries (J).
     pub fn size(&self) -> f64 {
         self.entries.iter().map(|entry| entry.abs()).sum()
     }
 
-    /// Difference between the sum of the entries and the change of the energy, over the sum of the
-    /// magnitudes of the entries.
+    /// Returns the difference between the sum of the entries and the change of the energy, relative
+    /// to the sum of the magnitudes of the entries.
     pub fn gap(&self) -> f64 {
         let difference = (self.change() - (self.now - self.start)).abs();
         if difference == 0.0 { 0.0 } else { difference / self.size() }
     }
 
-    /// Energy (J) gained by the maps between particles and grid, the mass matrix and walls.
+    /// Returns the energy (J) gained by the maps between particles and grid, the mass matrix and
+    /// walls.
     pub fn transfer_gain(&self) -> f64 {
         LedgerStage::TRANSFER.iter().map(|stage| self.entry(*stage)).sum()
     }
 
-    /// Work of the stress on the particles minus the work of the internal forces on the grid (J):
-    /// the stored energy that comes from nowhere.
+    /// Returns the change of the stored energy (J) that no work of the internal forces on the grid
+    /// explains.
     pub fn stress_work_error(&self) -> f64 {
         self.entry(LedgerStage::InternalForce) + self.entry(LedgerStage::Stored)
     }

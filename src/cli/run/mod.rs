@@ -59,19 +59,14 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     if let Some(text) = &args.case {
         runs = runs.into_iter().filter_map(|runs| runs.only(|case| case.contains(text))).collect();
         if runs.is_empty() {
-            return Err(CommandError::option(
-                "--case",
-                text,
-                "no name of a case contains this text",
-            ));
+            return Err(CommandError::option("--case", text, "no case name contains this text"));
         }
     }
     if let Some(shard) = args.shard {
         if args.judged.programs.with_methods || solvers.len() > 1 {
             return Err(CommandError::about(
                 "--shard",
-                "`--shard` supports one solver, or the \
-                                                       built-in methods only",
+                "shards are supported for one solver, or for the built-in methods",
             ));
         }
         runs = SuiteRuns::shard(runs, shard, extent(&args.report));

@@ -177,10 +177,8 @@ impl Subject for ProgramSubject {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         if dt != self.dt {
             let told = self.dt;
-            return Err(Failure::External(format!(
-                "was initialised for steps of {told} s, not {dt} \
-                                                  s"
-            )));
+            let reason = format!("was initialised for steps of {told} s, not {dt} s");
+            return Err(Failure::External(reason));
         }
         self.called += 1;
         if self.next == Some(self.called) {

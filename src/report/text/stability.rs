@@ -106,7 +106,7 @@ fn ledger(balances: &[EnergyBalance]) -> Vec<Vec<String>> {
     });
     let stages = stages.filter(|row| row[1..].iter().any(|cell| cell != "0"));
     let sums = [
-        row("all transfers".to_owned(), &EnergyBalance::transfer_gain),
+        row("transfer gain".to_owned(), &EnergyBalance::transfer_gain),
         row("stress work error".to_owned(), &EnergyBalance::stress_work_error),
         row("change".to_owned(), &EnergyBalance::change),
     ];

@@ -15,15 +15,14 @@ pub struct JudgedBox {
 }
 
 impl JudgedBox {
-    /// Whether the reference position `label` (m) lies in the box. A coordinate that is NaN does
-    /// not.
+    /// Whether the reference position `label` (m) lies in the box. False if a coordinate is NaN.
     pub fn holds(&self, label: &[f64]) -> bool {
         let ends = self.from.iter().zip(&self.to);
         label.len() == self.from.len()
             && ends.zip(label).all(|((from, to), x)| from <= x && x <= to)
     }
 
-    /// The samples whose labels lie in the box, in their order. Columns with a wrong number of
+    /// Returns the samples whose labels lie in the box, in their order. Columns with a wrong number of
     /// entries remain as they are, so that the comparison reports them as not measured.
     pub fn restrict(&self, samples: &Samples) -> Samples {
         let d = samples.dimension;
@@ -49,7 +48,7 @@ impl JudgedBox {
         }
     }
 
-    /// The corners in a sentence, in metres.
+    /// Formats the corners for a sentence, in metres.
     pub fn words(&self) -> String {
         let corner = |corner: &[f64]| {
             let texts: Vec<String> = corner.iter().map(ToString::to_string).collect();

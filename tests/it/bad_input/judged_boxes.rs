@@ -32,14 +32,14 @@ const FREE: (&str, &str) = ("  boundary: {left: fixed}\n", "");
         ("{norm: rms}", "{of: kinetic_energy, ▸within: {from: [10], to: [20]}}"),
         ("  - fem: {element: linear, mass: lumped}\n", ""),
     ],
-    &["the kinetic energy is a sum over the whole body", "judge a field"]
+    &["`within` is not supported for the kinetic energy, a sum over the whole body", "judge a field"]
 )]
 #[case::a_reference(
     &[
         ("{norm: rms}", "{norm: rms, ▸within: {from: [10], to: [20]}}"),
         (EXACT, "reference:\n  equation: small_strain\n  fem: {element: linear, mass: lumped, cells: 100, dt: 1e-3}\n"),
     ],
-    &["errors are restricted to a box for a stated motion only", "state a motion under `exact`"]
+    &["`within` needs a motion that is stated under `exact`", "state the solution under `exact`"]
 )]
 #[case::a_manufactured_motion(
     &[
@@ -49,11 +49,11 @@ const FREE: (&str, &str) = ("  boundary: {left: fixed}\n", "");
         ("  initial_velocity: [\"v0*mode(X)\"]\n", ""),
         ("  - fem: {element: linear, mass: lumped}\n", ""),
     ],
-    &["errors are restricted to a box for a stated motion only"]
+    &["`within` needs a motion that is stated under `exact`"]
 )]
 #[case::an_observed_place_outside_the_box(
     &[("{norm: rms}", "{norm: rms, within: {from: [15], to: [20]}}"), ("at: [12.5]", "at: ▸[12.5]")],
-    &["this place is outside `judge.within`", "expected a place in (15) to (20) m"]
+    &["the observed point is outside `judge.within`", "expected a point in (15) to (20) m"]
 )]
 #[case::a_wave_from_the_low_face(
     &[FREE, OBSERVE, ("{norm: rms}", "{norm: rms, within: {from: [▸4.9], to: [20]}}")],

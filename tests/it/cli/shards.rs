@@ -76,7 +76,7 @@ fn cases_are_chosen_by_their_names() {
     let cases: Vec<&str> = found.out.lines().filter(|line| line.contains("::")).collect();
     assert!(cases.len() == 1 && cases[0].contains("other-bar::mpm-linear-flip-usl"), "{cases:?}");
     let errors = folder.refused(&["run", "--case", "apic"]);
-    insta::assert_snapshot!(errors, @"error: --case apic: no name of a case contains this text");
+    insta::assert_snapshot!(errors, @"error: --case apic: no case name contains this text");
 }
 
 #[test]

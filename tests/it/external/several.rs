@@ -150,7 +150,7 @@ fn a_case_is_chosen_by_the_name_that_the_solver_is_given(folder: Folder) {
 )]
 #[case::parts(
     "--with-methods|--shard|1/2|--solver|a=sh one.sh",
-    "error: --shard: `--shard` supports one solver, or the built-in methods only"
+    "error: --shard: shards are supported for one solver, or for the built-in methods"
 )]
 #[case::no_command(
     "--solver|a=",

@@ -1,4 +1,4 @@
-//! Figures that need a measurement of their own, which a run makes only on request.
+//! Quantities with a separate measurement, which a run makes only if a suite requests them.
 
 use crate::mpm::{TransferChoice, TransferKind};
 use crate::subject::PlaneState;
@@ -10,7 +10,7 @@ use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::RunFigure;
 
-/// The first figure under `show` or `expect` with the property `is_meant`, and its place.
+/// Returns the first quantity under `show` or `expect` for which `is_meant` is true, with its path.
 fn first(
     spec: &StabilitySpec,
     is_meant: impl Fn(RunFigure) -> bool,
@@ -41,7 +41,7 @@ fn refuse_several_bodies(
     Err(evaluator.diagnostic(path, &message))
 }
 
-/// Whether a requested figure needs the null space of the grid, which is known of one body only.
+/// Whether a requested quantity needs the null space of the grid, implemented for one body only.
 pub(crate) fn null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -52,7 +52,7 @@ pub(crate) fn null_space(
     Ok(true)
 }
 
-/// Whether a requested figure needs the energy ledger, which assigns the energy of one body to the
+/// Whether a requested quantity needs the energy ledger, which assigns the energy of one body to the
 /// stages of a step.
 pub(crate) fn ledger(
     evaluator: &Evaluator<'_>,
@@ -93,7 +93,8 @@ pub(crate) fn refuse_unledgered(
         return Err(evaluator.diagnostic(&path.then("transfer"), &message));
     }
     if method.averages_volume() {
-        let message = "the force of `volume: averaged` does not derive from a stored energy";
+        let message = "the energy ledger is not supported with `volume: averaged`: its force does not \
+                       derive from a stored energy";
         let diagnostic = evaluator.diagnostic(&path.then("volume"), message);
         return Err(diagnostic.with_help("use `particle` for a study of the energy"));
     }

@@ -12,9 +12,10 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedBox, format_number};
 
 /// Help for a box in a suite whose solution is not a stated motion.
-const MOTION: &str = "state a motion under `exact`, or remove `within`";
+const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
-/// The box of `judge.within`, if the suite has one; `exact` is the problem of a stated solution.
+/// Compiles the box of `judge.within`, if the suite has one. `exact` is the problem of a stated
+/// solution.
 ///
 /// # Errors
 /// A diagnostic of a box that is empty or not in the body, of a judged quantity that is not a
@@ -43,20 +44,21 @@ pub(crate) fn judged_box(
         Err(evaluator.diagnostic_at_key(&path, message).with_help(help))
     };
     if spec.judge.of.is_sum() {
-        let message = format!("the {} is a sum over the whole body", spec.judge.of.words());
+        let of = spec.judge.of.words();
+        let message = format!("`within` is not supported for the {of}, a sum over the whole body");
         return refuse(&message, "judge a field such as `stress`, or remove `within`");
     }
     if spec.exact.is_none() || spec.reference.is_some() {
-        return refuse("errors are restricted to a box for a stated motion only", MOTION);
+        return refuse("`within` needs a motion that is stated under `exact`", MOTION);
     }
     let Some(exact) = exact.filter(|exact| exact.heat.is_none()) else {
         return refuse(
-            "heat spreads at no finite speed, so that every face affects the box",
+            "`within` is not supported with `heat`: heat from every face reaches the box at once",
             MOTION,
         );
     };
     if scene.outline.is_some() || !exact.bodies.is_empty() {
-        let message = "errors are restricted to a box in one box-shaped body only";
+        let message = "`within` is supported for a single body of kind `box` only";
         return refuse(message, "use `body: {box: ...}`, or remove `within`");
     }
     let within = JudgedBox { from, to };
@@ -64,15 +66,16 @@ pub(crate) fn judged_box(
         let at = Path::top("observe").then("at");
         let place = evaluator.point(&at, &observed.at, scene.dimension())?;
         if !within.holds(&place) {
-            let diagnostic = evaluator.diagnostic(&at, "this place is outside `judge.within`");
-            return Err(diagnostic.with_label(&format!("expected a place in {}", within.words())));
+            let diagnostic =
+                evaluator.diagnostic(&at, "the observed point is outside `judge.within`");
+            return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
         }
     }
     Ok(Some(within))
 }
 
-/// `exact` without the faces whose condition the motion violates, so that the check of the solution
-/// skips them.
+/// Returns `exact` without the faces whose condition the motion violates. The check of the solution
+/// then skips these faces.
 ///
 /// # Errors
 /// A diagnostic of a box that an elastic wave from such a face reaches before the end of the run.

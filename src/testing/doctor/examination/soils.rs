@@ -1,12 +1,11 @@
 //! Soil plasticity along element paths: yield, flow, edges, the apex, objectivity and the number of
 //! steps.
 //!
-//! A body so heavy that no wave moves during the run follows `v = L (X - C)`, so that its
-//! deformation gradient grows from I to `I + L` in one second. The stress in its middle is that of
-//! the law along this path. The built-in solver computes
-//! the expected stress on a grid in the reference configuration, which represents the motion
-//! exactly. It follows the measured motion, because averaging (PIC) and functions on a fixed grid
-//! change the motion.
+//! The body is so heavy that no wave moves during the run, so it follows `v = L (X - X_c)` and its
+//! deformation gradient grows from I to `I + L` in one second. The stress in its middle is the
+//! stress of the law along this path. The built-in solver computes the expected stress on a grid in
+//! the reference configuration, which represents the motion exactly. The expected stress belongs to
+//! the measured motion, because averaging (PIC) and functions on a fixed grid change the motion.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -25,23 +24,24 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 const LAWS: [&str; 2] = ["drucker_prager", "mohr_coulomb"];
 
-/// Largest error of a component, relative to the largest one. Laws in rate form differ by a share
-/// of the strain, which is 0.003. With PIC the motion in the middle is not uniform, and the stress
-/// is off by 0.016.
+/// Maximum error of a stress component, relative to the largest component. Laws in rate form have
+/// an error of the order of the strain (0.003). With PIC the motion in the middle is not uniform,
+/// and the error is up to 0.016.
 const NEAR: f64 = 0.025;
 
-/// Largest error with a rotation, which affine transfers change in their first step. The strain is
-/// ten times as large, so that errors of the motion are small compared with it.
+/// Maximum error with a rotation, which affine transfers change in their first step. The strain is
+/// ten times as large, so errors of the motion are small compared with the strain.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
-/// Ratio of the errors with few and with many steps below which the stress depends on the steps.
+/// Maximum ratio of the smaller to the larger of the errors with one and with 20 steps for which the
+/// stress depends on the number of steps.
 const STEP_RATIO: f64 = 0.3;
 
-/// Share of Young's modulus that is the strength of a soil: it yields at a tenth of the strain of a
-/// path.
+/// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the strain of
+/// a path.
 const STRENGTH: f64 = 1.0 / 15_000.0;
 
-/// Number of steps of a path, unless it is one.
+/// Number of steps of a path, except for the path with one step.
 const STEPS: u64 = 20;
 
 /// Young's modulus (Pa) of the soils.
@@ -51,14 +51,14 @@ const YOUNG: f64 = 15_000.0;
 /// is below 0.25.
 const POISSON: f64 = 0.2;
 
-/// Density (kg/m3) with which waves travel about 1e-8 cells in a second.
+/// Density (kg/m3). Waves travel about 1e-8 cells in a second.
 const DENSITY: f64 = 1e22;
 
 /// Displacement gradient at the end of each path. The soils yield on all of them.
 const COMPRESSION: [[f64; 3]; 3] = [[-0.003, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Beyond the apex.
+/// Extension beyond the apex.
 const EXTENSION: [[f64; 3]; 3] = [[0.0006, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Three different principal stresses: on a face of the pyramid of Mohr-Coulomb.
+/// Shear with three different principal stresses: on a face of the Mohr-Coulomb pyramid.
 const SHEAR: [[f64; 3]; 3] = [[0.0012, 0.0, 0.0], [0.0, -0.0012, 0.0], [0.0; 3]];
 /// Compression to 0.97 along X, and a rotation by 0.4 rad: the cosine is 0.921061 and the sine
 /// 0.389418.
@@ -73,13 +73,14 @@ struct Leg {
 }
 
 impl Leg {
-    fn off(&self) -> f64 {
+    /// Error of the stress, relative to the largest expected component.
+    fn relative_error(&self) -> f64 {
         error(&self.stress, &self.expected)
     }
 
     /// Whether the stress is wrong; also if it is not a number.
     fn is_wrong(&self) -> bool {
-        !(self.off() <= NEAR)
+        !(self.relative_error() <= NEAR)
     }
 
     /// Largest difference of the error of a component from that of `other`, relative to the largest
@@ -98,7 +99,8 @@ impl Leg {
         Ok(error(&self.stress, &expected(other)?) <= NEAR)
     }
 
-    fn seen(&self, path: &str) -> String {
+    /// Describes the measured and the expected stress of the `path`, over Young's modulus.
+    fn describe(&self, path: &str) -> String {
         let over = |stress: &[f64]| {
             let parts: Vec<String> = stress.iter().map(|s| shown(s / YOUNG)).collect();
             format!("({})", parts.join(", "))
@@ -113,7 +115,7 @@ impl Leg {
     }
 }
 
-/// The legs of one law; `None` for a path that the dimension does not have.
+/// All paths of one law; `None` for a path that the dimension does not have.
 struct Legs {
     compression: Leg,
     one_step: Leg,
@@ -139,9 +141,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             ("shear", legs.shear.as_ref()),
             ("rotation", legs.rotation.as_ref()),
         ];
-        let texts = named
-            .iter()
-            .filter_map(|(name, leg)| leg.map(|leg| format!("{name} {}", shown(leg.off()))));
+        let texts = named.iter().filter_map(|(name, leg)| {
+            leg.map(|leg| format!("{name} {}", shown(leg.relative_error())))
+        });
         let texts: Vec<String> = texts.collect();
         measured.push(format!(
             "{law} in {}-D: stress off by {}",
@@ -186,7 +188,7 @@ fn legs(patient: &Patient<'_>, kind: Kind) -> Result<Legs, Hindrance> {
     })
 }
 
-/// A body whose displacement gradient grows to `gradient` in `steps` steps.
+/// Creates a body whose displacement gradient grows to `gradient` in `steps` steps.
 fn path(kind: Kind, gradient: &[[f64; 3]; 3], steps: u64) -> BoxScene {
     let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -199,7 +201,7 @@ fn path(kind: Kind, gradient: &[[f64; 3]; 3], steps: u64) -> BoxScene {
     BoxScene { steps, dt: 1.0 / steps as f64, ..scene }
 }
 
-/// `scene` with a motion that ends in the deformation gradient `f`, row after row.
+/// Returns `scene` with a motion that ends in the deformation gradient `f`, row after row.
 fn with_gradient(scene: &BoxScene, f: &[f64]) -> BoxScene {
     let d = scene.dimension;
     let mut scene = scene.clone();
@@ -210,24 +212,24 @@ fn with_gradient(scene: &BoxScene, f: &[f64]) -> BoxScene {
     scene
 }
 
-/// The mean stress (Pa) in the middle at the end, row after row.
+/// Returns the mean stress (Pa) in the middle at the end, row after row.
 fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     inside(course, scene, &course.states[course.last()].stress)
         .ok_or_else(|| Hindrance::Broke("the column `stress` is missing".to_owned()))
 }
 
-/// The stress (Pa) of the built-in solver in the middle of `scene` at the end.
+/// Computes the stress (Pa) in the middle of `scene` at the end with the built-in solver.
 fn expected(scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     const METHOD: &str = "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian";
     in_middle(&scene.built_in(METHOD)?, scene)
 }
 
-/// The first finding on a law, from the plainest path on.
+/// Returns the first finding on a law. Simple paths are examined first.
 fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     let Legs { compression, one_step, extension, shear, rotation } = legs;
     let face_is_right = shear.as_ref().is_some_and(|leg| !leg.is_wrong());
     let on_edge = compression.scene.law == "mohr_coulomb" && face_is_right;
-    let [least, most] = sorted(compression.off(), one_step.off());
+    let [least, most] = sorted(compression.relative_error(), one_step.relative_error());
     let depends_on_steps =
         !(compression.distance_from(one_step) <= NEAR) && (on_edge || least <= STEP_RATIO * most);
     if depends_on_steps {
@@ -239,7 +241,7 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
         }
         return Ok(Some(SolverFinding::defect(
             "soil-depends-on-steps",
-            leg.seen(&name),
+            leg.describe(&name),
             "the stress depends on the number of steps, although the path is straight: the return ends before it \
              reaches the yield surface, or the flow is that of the start of the step",
             "the return mapping: solve for a stress on the yield surface at the end of the step, in one step of any \
@@ -255,17 +257,17 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     if extension.is_wrong() {
         return Ok(Some(SolverFinding::defect(
             "soil-apex",
-            extension.seen("extension beyond the apex"),
-            "in tension the return does not end at the apex of the yield surface, or the strength is another one",
+            extension.describe("extension beyond the apex"),
+            "in tension the return does not end at the apex of the yield surface, or the strength is wrong",
             "return to the apex p = k/eta, or c cot(phi), if the return to the cone or to an edge would turn the deviator",
         )));
     }
-    let is_wrong = |leg: &&Leg| !(leg.off() <= NEAR_WITH_ROTATION);
+    let is_wrong = |leg: &&Leg| !(leg.relative_error() <= NEAR_WITH_ROTATION);
     let Some(rotation) = rotation.as_ref().filter(is_wrong) else { return Ok(None) };
     Ok(Some(SolverFinding::defect(
         "soil-not-objective",
-        rotation.seen("compression with a rotation by 0.4"),
-        "the stress is right without rotation, and wrong with it: the elastic strain or the plastic state does not turn with \
+        rotation.describe("compression with a rotation by 0.4"),
+        "the stress is right without rotation and wrong with it: the elastic strain or the plastic state does not rotate with \
          the body",
         "b_e = F Cp^-1 F^T, with Cp^-1 in the reference axes; in rate form, an objective rate of the stress",
     )))
@@ -275,13 +277,13 @@ fn sorted(a: f64, b: f64) -> [f64; 2] {
     if a <= b { [a, b] } else { [b, a] }
 }
 
-/// The finding on a wrong stress on a path; `on_edge`: of a Mohr-Coulomb soil on an edge, whose
-/// stress on a face is right.
+/// Returns the finding on a wrong stress on a path. `on_edge` is true for a Mohr-Coulomb soil on an
+/// edge whose stress on a face is right.
 fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hindrance> {
     if leg.is_that_of(&BoxScene { law: "hencky", ..leg.scene.clone() })? {
         return Ok(SolverFinding::defect(
             "soil-does-not-yield",
-            leg.seen(path),
+            leg.describe(path),
             "the stress is elastic beyond yield",
             "the yield function, and the units of its strength; p is positive in tension, and so are principal stresses",
         ));
@@ -297,9 +299,11 @@ fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hind
         return Ok(edge(leg, path));
     }
     match is_on_surface(leg) {
-        Some(true) if path == "compression" => {
-            Ok(flow_direction(leg, path, "the stress is on the yield surface, at another place"))
-        }
+        Some(true) if path == "compression" => Ok(flow_direction(
+            leg,
+            path,
+            "the stress is on the yield surface, but at a wrong point",
+        )),
         _ => Ok(yield_surface(leg, path)),
     }
 }
@@ -307,7 +311,7 @@ fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hind
 fn edge(leg: &Leg, path: &str) -> SolverFinding {
     SolverFinding::defect(
         "soil-edge",
-        leg.seen(path),
+        leg.describe(path),
         "the return to a face is right, and the return to an edge, where two principal stresses are equal, is not",
         "return to both planes of the edge with two multipliers; the choice of the edge; afterwards no yield function \
          may be positive",
@@ -317,7 +321,7 @@ fn edge(leg: &Leg, path: &str) -> SolverFinding {
 fn flow_direction(leg: &Leg, path: &str, cause: &str) -> SolverFinding {
     SolverFinding::defect(
         "soil-flow-direction",
-        leg.seen(path),
+        leg.describe(path),
         cause,
         "the flow potential has the dilation in place of the friction; the volumetric part of the return, K times the dilation",
     )
@@ -326,9 +330,9 @@ fn flow_direction(leg: &Leg, path: &str, cause: &str) -> SolverFinding {
 fn yield_surface(leg: &Leg, path: &str) -> SolverFinding {
     SolverFinding::defect(
         "soil-yield-surface",
-        leg.seen(path),
-        "the stress is not on the yield surface of the problem: another coefficient, another strength, the sign of the mean \
-         stress, or angles in other units",
+        leg.describe(path),
+        "the stress is not on the yield surface of the problem: wrong coefficient, wrong strength, sign of the mean \
+         stress, or angles in wrong units",
         "sqrt(J2) + eta p = k with p positive in tension; (t1 - t3) + (t1 + t3) sin(phi) = 2 c cos(phi) with angles in degrees",
     )
 }
@@ -353,8 +357,8 @@ fn is_on_surface(leg: &Leg) -> Option<bool> {
     Some((one + other).abs() <= NEAR * (one.abs() + other.abs()))
 }
 
-/// Largest difference of a component, relative to the largest component of `expected`; infinite if
-/// a component is not a number.
+/// Computes the largest difference of a component, relative to the largest component of `expected`.
+/// It is infinite if a component is NaN.
 fn error(stress: &[f64], expected: &[f64]) -> f64 {
     let scale = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let differences = stress.iter().zip(expected).map(|(a, b)| (a - b).abs());
@@ -433,7 +437,7 @@ mod tests {
     ) {
         let leg = compression(law, dilation);
         assert_eq!(is_on_surface(&leg), Some(true));
-        assert!(leg.is_wrong(), "off by {}", leg.off());
+        assert!(leg.is_wrong(), "off by {}", leg.relative_error());
         let found = of_stress(&leg, "compression", false).unwrap_or_else(|_| panic!("it fails"));
         assert_eq!(found.name, "soil-flow-direction");
     }
