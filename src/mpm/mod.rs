@@ -40,8 +40,7 @@ mod step;
 mod transfer;
 
 pub use analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer};
-pub use analysis::energy_ledger::{EnergyLedger, kinetic_energy};
-pub use analysis::ledger_solver::LedgerSolver;
+pub use analysis::energy_ledger::{EnergyLedger, LedgerSolver, kinetic_energy};
 pub use analysis::stable_time_step::simplest_with_same_response;
 pub use analysis::wave_symbols::{Spline, WaveSymbols};
 pub use basis::*;

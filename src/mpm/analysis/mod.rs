@@ -3,7 +3,6 @@
 
 pub(crate) mod dispersion;
 pub(crate) mod energy_ledger;
-pub(crate) mod ledger_solver;
 pub(crate) mod null_space;
 pub(crate) mod stable_time_step;
 pub(crate) mod wave_symbols;

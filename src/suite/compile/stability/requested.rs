@@ -1,6 +1,6 @@
 //! Quantities with a separate measurement, which a run makes only if a suite requests them.
 
-use crate::mpm::{TransferChoice, TransferKind};
+use crate::mpm::TransferKind;
 use crate::subject::PlaneState;
 use crate::suite::compile::check::sums::refuse_law_without_energy;
 use crate::suite::evaluator::Evaluator;
@@ -52,8 +52,8 @@ pub(crate) fn null_space(
     Ok(true)
 }
 
-/// Whether a requested quantity needs the energy ledger, which assigns the energy of one body to the
-/// stages of a step.
+/// Whether a requested quantity needs the energy ledger, which assigns the energy of one body to
+/// the stages of a step.
 pub(crate) fn ledger(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -85,7 +85,7 @@ pub(crate) fn refuse_unledgered(
 ) -> Result<(), Diagnostic> {
     let Method::Mpm { transfer, .. } = method else { return Ok(()) };
     let path = path.then("mpm");
-    if is_integrated_over_cells(*transfer) {
+    if transfer.kind() == TransferKind::Cells {
         let message = format!(
             "the energy ledger is not supported with the transfer `{}`, which integrates over cells",
             transfer.name()
@@ -99,8 +99,4 @@ pub(crate) fn refuse_unledgered(
         return Err(diagnostic.with_help("use `particle` for a study of the energy"));
     }
     Ok(())
-}
-
-fn is_integrated_over_cells(transfer: TransferChoice) -> bool {
-    transfer.kind() == TransferKind::Cells
 }

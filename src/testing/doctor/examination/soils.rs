@@ -33,12 +33,12 @@ const NEAR: f64 = 0.025;
 /// ten times as large, so errors of the motion are small compared with the strain.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
-/// Maximum ratio of the smaller to the larger of the errors with one and with 20 steps for which the
-/// stress depends on the number of steps.
+/// Maximum ratio of the smaller to the larger of the errors with one and with 20 steps for which
+/// the stress depends on the number of steps.
 const STEP_RATIO: f64 = 0.3;
 
-/// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the strain of
-/// a path.
+/// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the strain
+/// of a path.
 const STRENGTH: f64 = 1.0 / 15_000.0;
 
 /// Number of steps of a path, except for the path with one step.
