@@ -324,7 +324,7 @@ fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
 }
 
-/// A [`Solver`] with an [`EnergyLedger`]. Its steps have the same bits as steps of the solver alone.
+/// A [`Solver`] with an [`EnergyLedger`]. Its steps have the same bits as those of the solver.
 /// It has no checkpoints.
 pub struct LedgerSolver<const D: usize> {
     solver: Solver<D>,
