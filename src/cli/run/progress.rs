@@ -167,7 +167,11 @@ mod tests {
     }
 
     #[rstest]
-    #[case(&["run", "heat", "--resume", "a b"], true, "`mpm-verify run heat --resume 'a b'` goes on")]
+    #[case(
+        &["run", "heat", "--resume", "a b"],
+        true,
+        "`mpm-verify run heat --resume 'a b'` resumes the run"
+    )]
     #[case(&["run", "--full", "mms-*"], false, "`mpm-verify run --full 'mms-*' --resume kept`")]
     #[case(&[], false, "`mpm-verify run --resume kept`")]
     fn the_note_has_a_line_that_can_be_pasted(
