@@ -1,4 +1,4 @@
-//! A bar in motion, and the points at which its state is sampled.
+//! A finite element bar: its state, its time step and its sampling points.
 
 use super::Sampling;
 use super::mass::{BarMassMatrix, add_nodal_lengths};
@@ -6,8 +6,8 @@ use super::mesh::{Element, Mesh, dot};
 use super::setup::{BarSetup, ScalarFunction, SetupError};
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
-/// Evaluates `$body` with the number of nodes of an element as the constant `$nodes`, so that the
-/// compiler unrolls loops over the nodes.
+/// Evaluates `$body` with the constant `$nodes`, the number of nodes of `$element`. A constant lets
+/// the compiler unroll loops over the nodes.
 macro_rules! with_nodes {
     ($element:expr, $nodes:ident => $body:expr) => {
         match $element {
@@ -35,8 +35,8 @@ pub struct Bar {
     acceleration: Vec<f64>,
     /// F at the quadrature points, element after element.
     def_grad: Vec<f64>,
-    /// Positions of the quadrature points (m). Like `displaced` (displacements there, m) and `load`
-    /// (body force there, m/s2), empty without a body force.
+    /// Reference positions of the quadrature points (m). `displaced` holds the displacements there
+    /// (m), and `load` the body force there (m/s2). All three are empty if there is no body force.
     places: Vec<f64>,
     displaced: Vec<f64>,
     load: Vec<f64>,
@@ -96,20 +96,20 @@ impl Bar {
         &self.displacement
     }
 
-    /// Returns the nodal velocities at the current time (m/s), as [`Bar::velocity_at`] does.
+    /// Returns the nodal velocities (m/s), advanced to the current time as in [`Bar::velocity_at`].
     pub fn nodal_velocities(&self) -> impl Iterator<Item = f64> {
         self.velocity.iter().zip(&self.acceleration).map(|(v, a)| v + self.lag * a)
     }
 
-    /// Returns the displacement (m) at any reference position; outside the bar, that of the nearest
-    /// end.
+    /// Returns the displacement (m) at the reference position `x`; outside the bar, the
+    /// displacement of the nearest end.
     pub fn displacement_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.displacement_in(cell, place)
     }
 
-    /// Returns the velocity (m/s) at any reference position; outside the bar, that of the nearest
-    /// end.
+    /// Returns the velocity (m/s) at the reference position `x`; outside the bar, the velocity of
+    /// the nearest end.
     ///
     /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
     /// advances them to the current time with the last acceleration, which is accurate to second
@@ -130,8 +130,8 @@ impl Bar {
         velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
-    /// Computes F at every quadrature point. Fails if an element is inverted, because it has no
-    /// physical stress. An infinite or undefined nodal value always gives an F that is not finite.
+    /// Computes F at every quadrature point. Fails if F is not positive or not finite. An infinite
+    /// or NaN nodal value always gives a non-finite F, so nodal values need no separate check.
     fn deform(&mut self) -> Result<(), Failure> {
         with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
         self.count_visits();
@@ -159,8 +159,7 @@ impl Bar {
         Ok(())
     }
 
-    /// Computes nodal forces per unit area; adds internal forces, body force and end forces in this
-    /// order.
+    /// Computes the nodal forces per unit area (Pa) in `acceleration`.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
         with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
@@ -208,8 +207,8 @@ impl Bar {
         self.count_visits();
     }
 
-    /// Adds the tractions with the sign of the outward normal. At a fixed end the reaction of the
-    /// support balances all forces.
+    /// Adds the end tractions, positive in tension. Sets the force at a fixed end to zero, because
+    /// the support balances all forces there.
     fn add_ends(&mut self) {
         let last = self.acceleration.len() - 1;
         for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
@@ -234,8 +233,8 @@ impl Subject for Bar {
         self.mass.solve(&mut self.acceleration);
         let (kick, lag) = match self.setup.start {
             Start::AtZero => (dt, 0.0),
-            // From the middle of the previous step, or from t = 0 in the first step, to the middle
-            // of this step.
+            // The velocity advances from the middle of the previous step to the middle of this
+            // step; in the first step, from t = 0.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
         let motion = self.displacement.iter_mut().zip(&mut self.velocity);
@@ -300,7 +299,7 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
-    // There is no early exit, so that the compiler can check several numbers at once.
+    // Without an early exit, the compiler can vectorise this check.
     if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
         return Ok(());
     }
@@ -323,8 +322,7 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Writes the current state at the points of `sampling`, which may differ from the sampling in
-    /// the set-up.
+    /// Samples the current state as `sampling` specifies, in place of the sampling of the set-up.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;
@@ -336,7 +334,7 @@ impl Bar {
         samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
-    /// Samples inside the elements. The weight of each point is a quarter of the element length.
+    /// The weight of each point is a quarter of the element length.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {

@@ -8,16 +8,16 @@ use super::Mass;
 use super::mesh::Mesh;
 use crate::subject::Failure;
 
-/// A mass matrix, prepared for one solve in each step.
+/// Mass matrix of a bar, factorised once.
 pub(super) enum BarMassMatrix {
     /// Diagonal of the lumped matrix.
     Lumped(Vec<f64>),
-    /// Cholesky factor of the consistent matrix. Its band structure makes reordering unnecessary.
+    /// Cholesky factor of the consistent matrix. The matrix is banded, so reordering is
+    /// unnecessary.
     Consistent(Box<CscCholesky<f64>>),
 }
 
 impl BarMassMatrix {
-    /// Assembles the matrix, and factorises it if it is not diagonal.
     pub(super) fn new(
         mass: Mass,
         mesh: &Mesh,
@@ -36,7 +36,7 @@ impl BarMassMatrix {
     }
 
     /// Converts forces to accelerations in place, without allocation. The force on a fixed node
-    /// must be zero; its acceleration is then zero.
+    /// must be zero; the acceleration is then zero.
     pub(super) fn solve(&self, force: &mut [f64]) {
         match self {
             Self::Lumped(diagonal) => {

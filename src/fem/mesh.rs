@@ -3,7 +3,7 @@
 
 use crate::named::named;
 
-/// A quadrature point of an element. All elements have their points at the same relative positions.
+/// A quadrature point, at the same relative position in every element.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshPoint {
     /// Position in the element: 0 at its left end, 1 at its right end.
@@ -39,12 +39,10 @@ impl Mesh {
         Self { from, to, cells, element, points: points.collect() }
     }
 
-    /// Returns the number of elements.
     pub(super) fn cells(&self) -> usize {
         self.cells
     }
 
-    /// Returns the kind of the elements.
     #[inline]
     pub(super) fn element(&self) -> Element {
         self.element
@@ -55,7 +53,6 @@ impl Mesh {
         (self.to - self.from) / self.cells as f64
     }
 
-    /// Returns the quadrature points of an element.
     #[inline]
     pub(super) fn points(&self) -> &[MeshPoint] {
         &self.points
@@ -74,14 +71,12 @@ impl Mesh {
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
-    /// Returns the mutable nodal values of a cell with N nodes.
     #[inline]
     pub(super) fn nodes_of_mut<const N: usize>(cell: usize, nodal: &mut [f64]) -> &mut [f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk_mut();
         local.unwrap_or_else(|| unreachable!("cell {cell}"))
     }
 
-    /// Returns the number of nodes.
     pub(super) fn node_count(&self) -> usize {
         self.cells * self.element.degree() + 1
     }
@@ -103,13 +98,11 @@ impl Mesh {
         cell * self.element.degree()
     }
 
-    /// Returns the nodal values of a cell.
     #[inline]
     pub(super) fn local<'a>(&self, cell: usize, nodal: &'a [f64]) -> &'a [f64] {
         &nodal[self.first_node(cell)..][..self.element.nodes()]
     }
 
-    /// Returns the mutable nodal values of a cell.
     #[inline]
     pub(super) fn local_mut<'a>(&self, cell: usize, nodal: &'a mut [f64]) -> &'a mut [f64] {
         &mut nodal[self.first_node(cell)..][..self.element.nodes()]
@@ -123,7 +116,7 @@ impl Mesh {
         (cell, along - cell as f64)
     }
 
-    /// Interpolates a field with these nodal values at the point `place` (0 to 1) of a cell.
+    /// Interpolates `nodal` values at the point `place` (0 to 1) of a cell.
     pub(super) fn interpolate(&self, cell: usize, place: f64, nodal: &[f64]) -> f64 {
         dot(&self.element.shape(2.0 * place - 1.0), self.local(cell, nodal))
     }
@@ -136,12 +129,13 @@ pub(super) fn dot(weight: &PerNode, nodal: &[f64]) -> f64 {
 }
 
 named! {
-    /// Which polynomials an element carries. Both are Lagrange elements with equally spaced nodes
-    /// (Hughes, *The Finite Element Method*, 2000, sections 1.8 and 3.6).
+    /// Kind of element: a Lagrange element with equally spaced nodes (Hughes, *The Finite Element
+    /// Method*, 2000, sections 1.8 and 3.6).
     pub enum Element {
-        /// Two nodes, `u` linear: order 2 in the displacement.
+        /// Two nodes, linear displacement; displacement errors are of order 2.
         Linear = "linear",
-        /// Three nodes, `u` quadratic: order 3 in the displacement, inside the elements.
+        /// Three nodes, quadratic displacement; displacement errors inside the elements are of
+        /// order 3.
         Quadratic = "quadratic",
     }
 }
@@ -153,7 +147,6 @@ const MOST_NODES: usize = 3;
 /// number.
 pub(super) type PerNode = [f64; MOST_NODES];
 
-/// A Gauss point of the parent interval.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GaussPoint {
     pub(super) xi: f64,
@@ -212,8 +205,8 @@ impl Element {
     /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly.
     /// This includes the mass matrix (degree 2k) and the internal force of a linear law (degree
     /// `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above the order `k + 1` of
-    /// the element (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978, section 4.1,
-    /// requires degree 2k - 2).
+    /// the element. Ciarlet (*The Finite Element Method for Elliptic Problems*, 1978, section 4.1)
+    /// requires only degree `2k - 2`.
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,

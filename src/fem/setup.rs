@@ -1,5 +1,5 @@
 //! Set-up of a bar and its validation, and the laws `P(F)` of the bar in uniaxial strain. The laws
-//! are implemented independently of the laws of MPM and of the exact solutions.
+//! are implemented independently of the MPM material laws and of the exact solutions.
 
 use super::Element;
 use crate::named::named;
@@ -10,9 +10,9 @@ use thiserror::Error;
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;
-/// A function of time, reference position and displacement, evaluated at many positions in one
-/// call. The arguments are t (s), positions X (m), which are equal in every call, the displacements
-/// u (m) there, and the array to which the values are written.
+/// A body force as a function of time, reference position and displacement, evaluated at many
+/// positions per call. The arguments are the time t (s), the positions X (m) and displacements u
+/// (m), and the output array. The positions are the same in every call.
 pub type BarLoad = Box<dyn FnMut(f64, (&[f64], &[f64]), &mut [f64]) + Send>;
 
 /// Creates a load with the value `f(X, t)` at each position.
@@ -25,7 +25,7 @@ pub fn pointwise(f: impl Fn(f64, f64) -> f64 + Send + 'static) -> BarLoad {
 }
 
 named! {
-    /// Which mass matrix.
+    /// Kind of mass matrix.
     pub enum Mass {
         /// Diagonal: the sums of the rows of the consistent matrix.
         Lumped = "lumped",
@@ -70,9 +70,8 @@ pub struct BarSetup {
     pub traction: [Option<TimeFunction>; 2],
     /// Displacement `u(X)` at t = 0 (m).
     pub initial_displacement: ScalarFunction,
-    /// Velocity `v(X)` at t = 0 (m/s). Velocity and displacement are interpolated at the nodes. The
-    /// interpolant is accurate to order k + 1, the order of the element. Interpolation needs no
-    /// second factorisation if the mass is lumped, and preserves `v` at a fixed end.
+    /// Velocity `v(X)` at t = 0 (m/s), interpolated at the nodes like the displacement.
+    /// Interpolation is accurate to order k + 1, the order of the element.
     pub initial_velocity: ScalarFunction,
     /// Time of the initial velocity.
     pub start: Start,
@@ -109,7 +108,7 @@ pub enum SetupError {
 }
 
 impl BarSetup {
-    /// Checks the values of the set-up. NaN fails each comparison.
+    /// Checks the values of the set-up; NaN is rejected.
     pub(super) fn check(&self) -> Result<(), SetupError> {
         let Self { from, to, cells, density, .. } = *self;
         if !(1..=MOST_CELLS).contains(&cells) {

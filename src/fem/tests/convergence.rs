@@ -1,4 +1,4 @@
-//! Orders in space and in time, on the vibrating bar.
+//! Tests of orders in space and time, stability limits and energy conservation of bars.
 
 use super::{bar_at_rest, orders, rms, run, vibrating_bar};
 use crate::fem::Element::{Linear, Quadratic};
@@ -46,7 +46,7 @@ fn the_vibrating_bar_shows_the_formal_order(
     };
     let observed = orders(&[4, 8, 16, 32, 64].map(error));
     println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
-    // At the nodes of lumped quadratic elements the first pair of levels is not asymptotic.
+    // At the nodes of lumped quadratic elements the first pair of meshes is not asymptotic.
     for order in &observed[1..] {
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
@@ -66,10 +66,9 @@ fn seen(start: Start, steps: u32) -> [f64; 2] {
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
 }
 
-/// The mesh is fixed, so a run with a much smaller step is an accurate reference. Under a constant
-/// load and from rest, [`Start::AtZero`] computes the exact motion half a step too early. Its
-/// displacement is therefore of first order, and its velocity, which is half a step behind, of
-/// second order.
+/// The mesh is fixed, so a run with a much smaller step is an accurate reference. From rest and
+/// under a constant load, [`Start::AtZero`] computes the exact motion shifted by half a step. The
+/// displacement is therefore of first order; the velocity is of second order.
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]

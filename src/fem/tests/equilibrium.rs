@@ -1,4 +1,4 @@
-//! Balanced forces, sums of forces, reported values, and invalid set-ups.
+//! Tests of equilibrium, samples, counters and errors of bars.
 
 use super::{bar_at_rest, run};
 use crate::fem::setup::MOST_CELLS;
@@ -76,7 +76,7 @@ fn samples_cover_the_bar(
     let mut samples = Samples::default();
     bar.sample(&mut samples);
     let count = samples.len();
-    bar.sample(&mut samples); // replaces what is there
+    bar.sample(&mut samples); // replaces the previous samples
     let lengths = [&samples.label, &samples.displacement, &samples.velocity].map(Vec::len);
     assert_eq!(lengths, [count; 3]);
     assert_eq!((samples.dimension, samples.len()), (1, count));
@@ -87,8 +87,8 @@ fn samples_cover_the_bar(
     }
 }
 
-/// Eight elements have two points and two nodes each. Each pair is visited once for the strain and
-/// once for the forces.
+/// Eight elements have two points and two nodes each. Each pair of a point and a node is visited
+/// once for the strain and once for the forces.
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
@@ -146,7 +146,8 @@ fn an_inversion_names_its_element_in_the_step_that_makes_it() {
     assert!(bar.counters().min_j <= j);
 }
 
-/// The first node is fixed. The traction fails at the last node.
+/// Node 0 is fixed, so node 1 is the first with an invalid force. The traction acts on the last
+/// node.
 #[rstest]
 #[case::law(BarSetup { law: Box::new(|_| f64::NAN), ..start() }, 1)]
 #[case::body_force(BarSetup { body_force: Some(pointwise(|_, t| 1.0 / t)), ..start() }, 1)]

@@ -53,7 +53,7 @@ pub enum WaveTransfer {
     /// MLS-MPM: APIC with gradients from the fit of its affine field.
     Mls,
     /// TPIC: PIC with the gradient of the basis as affine field. The particles must be symmetric in
-    /// their cell, so that the step has real coefficients.
+    /// their cell; otherwise the coefficients of the step are complex.
     Tpic,
     /// A blend of FLIP and PIC with this fraction of FLIP, from 0 to 1.
     Blend(f64),
@@ -76,7 +76,6 @@ impl WaveTransfer {
         }
     }
 
-    /// Returns the transfer with this name and a lumped mass matrix.
     fn named(name: TransferName) -> Option<Self> {
         match name {
             TransferName::Flip => Some(Self::Flip),
@@ -90,17 +89,19 @@ impl WaveTransfer {
             TransferName::Xpic5 => Some(Self::Xpic(5)),
             TransferName::Fmpm2 => Some(Self::Fmpm(2)),
             TransferName::Fmpm4 => Some(Self::Fmpm(4)),
-            // The maps go through quadrature points, which are not the particles.
+            // TLS maps between particles and grid through quadrature points.
             TransferName::Tls => None,
         }
     }
 }
 
-/// One step of a wave. Trace and determinant are linear in the squared Courant number.
+/// The 2 x 2 matrix of a step for one wave, described by its trace and determinant. Both are linear
+/// in the squared Courant number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveStep {
     theta: f64,
-    /// Determinant b of a step without stress: the part of the grid velocity that the step retains.
+    /// Determinant b of a step without stress: the fraction of the grid velocity that a step
+    /// retains.
     kept: f64,
     /// Coefficient p of `-C^2` in the trace.
     stiffness: f64,
@@ -113,8 +114,7 @@ impl WaveStep {
     pub fn new(transfer: WaveTransfer, scheme: SchemeName, symbols: &WaveSymbols) -> Self {
         let WaveSymbols { theta, stiffness: kappa, mass: s, affine: a, .. } = *symbols;
         let uses_grid_velocity = scheme == SchemeName::Usl;
-        // Creates the step of a transfer that adds `dt S f` to velocities and multiplies the grid
-        // part of the old velocities by `kept`.
+        // Transfers that add the interpolated velocity increment to the particle velocities.
         let adding = |kept: f64| {
             if uses_grid_velocity {
                 Self { theta, kept, stiffness: kappa, loss: kappa * (kept - s) }
@@ -122,7 +122,7 @@ impl WaveStep {
                 Self { theta, kept, stiffness: kappa * s, loss: 0.0 }
             }
         };
-        // Creates the step of a transfer that replaces velocities by grid velocities.
+        // Transfers that replace the particle velocities by interpolated grid velocities.
         let replacing = |kept: f64, stiffness: f64| {
             let passed = if uses_grid_velocity { 1.0 } else { kept };
             Self { theta, kept, stiffness: stiffness * passed, loss: 0.0 }
@@ -175,7 +175,7 @@ impl WaveStep {
         let slope = self.slope();
         let root = (slope * slope - 4.0 * square * lost).sqrt();
         let end = (slope + root) / (2.0 * square);
-        // The product of both roots is lost/square. The formula `slope - root` would suffer from
+        // Uses the product of the roots, lost/square, because `slope - root` would suffer from
         // cancellation.
         let start = lost / (square * end);
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
@@ -219,7 +219,7 @@ fn neumann(s: f64, terms: u32) -> f64 {
     (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
 }
 
-/// A method with regularly spaced particles, whose step is known for waves of any length.
+/// A method on regularly spaced particles, for which [`WaveStep`] describes waves of any length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveMethod {
     /// Basis functions.

@@ -4,8 +4,8 @@
 //! transfer without an affine field. Its kinetic energy is `K = sum m_p N_i u_pi^2 / 2`, and that
 //! of the grid `sum M_i w_i^2 / 2` with the lumped mass. The entries are exact identities for
 //! particles at any positions and for any transfer with the nodal mass `sum m_p N_i`. Each entry is
-//! a sum over particles or nodes; only those of effects, motion and stored energy are differences
-//! of energies. Primes mark values after the update of velocities:
+//! a sum over particles or nodes, except that the entries for effects, motion and stored energy are
+//! differences of energies. Primes mark values after the update of velocities:
 //!
 //! ```text
 //! particle to grid    -sum m_p N_i (u_pi - w_i)^2 / 2
@@ -19,15 +19,15 @@
 //! stored energy       change of W(F)
 //! ```
 //!
-//! Nodal velocity and constraints are zero unless a consistent mass matrix, a wall or a series of
-//! terms changes nodal velocities. The entry of the particle velocity is zero for PIC and APIC;
-//! with FLIP it returns the loss of the map to the grid.
+//! The entries for nodal velocity and constraints are zero unless a consistent mass matrix, a wall
+//! or the series of FMPM changes nodal velocities. The entry for the particle velocity is zero for
+//! PIC and APIC. For FLIP this entry restores the energy lost in the map to the grid.
 //!
-//! The sum of internal force and stored energy is the error of the stress work. Velocities are half
-//! a step behind stresses. The stored energy at the time of the velocities is therefore the mean of
-//! its values before and after the step; without this mean the ledger would leak an energy of the
-//! order of the step. Sources: Burgess, Sulsky & Brackbill 1992 (J. Comput. Phys. 103); for APIC
-//! Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+//! The sum of the entries for internal forces and stored energy is the error of the stress work.
+//! Velocities are half a step behind stresses. The stored energy at the time of the velocities is
+//! therefore the mean of its values before and after the step; without this mean the ledger would
+//! leak an energy of the order of the step. Sources: Burgess, Sulsky & Brackbill 1992 (J. Comput.
+//! Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -40,10 +40,11 @@ use crate::subject::{
     Subject, Totals,
 };
 
-/// Second moment of weights along an axis, in squared cell sizes, that counts as zero.
+/// Second moment of weights along an axis (squared cell sizes) up to which the moment counts as
+/// zero.
 const SMALLEST_MOMENT: f64 = 1e-13;
 
-/// The changes of the energy of one body, summed over its steps.
+/// Energy changes of one body, summed over its steps.
 #[derive(Debug, Clone)]
 pub struct EnergyLedger {
     basis: BasisName,
@@ -53,14 +54,15 @@ pub struct EnergyLedger {
     stored: f64,
 }
 
-/// Node, weight, and position of the node from the mean of the nodes of a particle (m).
+/// A node of a particle, its weight, and its offset from the weighted mean of the particle's nodes
+/// (m).
 struct NodeOfParticle<const D: usize> {
     node: usize,
     weight: f64,
     offset: Vector<D>,
 }
 
-/// Nodes of all particles at their positions, and the inverse of the second moments (1/m2).
+/// Nodes of all particles, and inverse second moments of their weights (1/m2).
 struct Weights<const D: usize> {
     nodes: Vec<Vec<NodeOfParticle<D>>>,
     inverse: Vec<Matrix<D>>,
@@ -107,7 +109,7 @@ impl<const D: usize> Weights<D> {
         all
     }
 
-    /// Sum over all particles and their nodes of mass times weight times `term`.
+    /// Returns `sum m_p N_i term(p, i, u_pi)` over all particles and their nodes.
     fn sum(
         &self,
         fields: &[AffineVelocity<D>],
@@ -123,7 +125,7 @@ impl<const D: usize> Weights<D> {
         sum
     }
 
-    /// Momentum (kg m/s) of each of `count` nodes.
+    /// Returns the momentum of `count` nodes (kg m/s).
     fn momentum(&self, fields: &[AffineVelocity<D>], count: usize) -> Vec<Vector<D>> {
         let mut momentum = vec![Vector::zeros(); count];
         for (p, (nodes, (v, slope))) in self.nodes.iter().zip(fields).enumerate() {
@@ -138,7 +140,6 @@ impl<const D: usize> Weights<D> {
         0.5 * self.sum(fields, |_, _, u| u.norm_squared())
     }
 
-    /// The velocity fields of the particles of `solver`.
     fn fields(&self, solver: &Solver<D>) -> Vec<AffineVelocity<D>> {
         let request = solver.setup.transfer.p2g_request(&solver.setup.particles);
         let affine = request.momentum.and_then(|momentum| momentum.affine);
@@ -152,7 +153,7 @@ impl<const D: usize> Weights<D> {
     }
 }
 
-/// Inverse of the second moments, zero along an axis without inertia.
+/// Inverts the second moments; the inverse is zero along an axis without inertia.
 fn inverse<const D: usize>(second: &Matrix<D>, h: f64) -> Matrix<D> {
     let is_small = |axis: usize| !(second[(axis, axis)] > SMALLEST_MOMENT * h * h);
     let whole = if (0..D).any(is_small) { None } else { second.try_inverse() };
@@ -161,12 +162,12 @@ fn inverse<const D: usize>(second: &Matrix<D>, h: f64) -> Matrix<D> {
     whole.unwrap_or_else(along_axes)
 }
 
-/// Nodal fields of a step, as far as its passes have computed them.
+/// Fields of a step, recorded pass by pass.
 struct Recorder<const D: usize> {
     weights: Weights<D>,
     start: Vec<AffineVelocity<D>>,
     momentum: Vec<Vector<D>>,
-    /// Nodal velocities before and after their advance (m/s).
+    /// Nodal velocities before the update by forces (m/s); `after` holds those after the update.
     before: Option<Vec<Vector<D>>>,
     after: Vec<Vector<D>>,
     internal: Vec<Vector<D>>,
@@ -195,7 +196,6 @@ impl<const D: usize> Recorder<D> {
         }
     }
 
-    /// Records the fields that `pass` has computed.
     fn record(&mut self, solver: &Solver<D>, pass: Pass) {
         let grid = &solver.setup.grid;
         match pass {
@@ -207,7 +207,7 @@ impl<const D: usize> Recorder<D> {
             }
             Pass::Update(Stage::Force) => self.force.clone_from(&grid.force),
             Pass::Update(Stage::Acceleration) => {
-                // A scheme whose step does not need these velocities does not compute them.
+                // Some schemes do not compute these velocities.
                 let before = self.before.get_or_insert_with(|| {
                     let mut field = self.momentum.clone();
                     solver.setup.mass.solve(grid, &mut field);
@@ -228,8 +228,8 @@ impl<const D: usize> Recorder<D> {
         }
     }
 
-    /// Entries of the step, except that of the stored energy; `moved_kinetic` is the kinetic
-    /// energy (J) at its end.
+    /// Returns the entries of the step, with zero for the stored energy. `moved_kinetic` is the
+    /// kinetic energy at the end of the step (J).
     fn entries(&self, masses: &[f64], moved_kinetic: f64) -> [f64; LedgerStage::ALL.len()] {
         let before = self.before.as_deref().unwrap_or_default();
         let nodes = || before.iter().zip(&self.after).zip(masses);
@@ -271,13 +271,13 @@ impl<const D: usize> Recorder<D> {
 }
 
 impl EnergyLedger {
-    /// An empty ledger of a solver with this basis.
+    /// Creates an empty ledger for a solver with this basis.
     pub fn new(basis: BasisName) -> Self {
         Self { basis, balance: None, stored: 0.0 }
     }
 
-    /// Advances `solver` by one step of length `dt` (s) and adds the entries of the step. The step
-    /// is that of [`Subject::step`], bit for bit.
+    /// Advances `solver` by one step of length `dt` (s) and adds the entries of the step. The
+    /// resulting state is bit-identical to that of [`Subject::step`].
     ///
     /// # Errors
     /// As [`Subject::step`].
@@ -307,25 +307,25 @@ impl EnergyLedger {
         Ok(())
     }
 
-    /// The entries so far; `None` before the first step.
+    /// Returns the entries so far; `None` before the first step.
     pub fn balance(&self) -> Option<&EnergyBalance> {
         self.balance.as_ref()
     }
 }
 
-/// Kinetic energy (J) of the particles of `solver` with their affine fields.
+/// Returns the kinetic energy of the particles, including their affine fields (J).
 pub fn kinetic_energy<const D: usize>(basis: BasisName, solver: &Solver<D>) -> f64 {
     let weights = Weights::new(basis, solver);
     weights.kinetic(&weights.fields(solver))
 }
 
-/// Stored energy (J); zero if the law has none.
+/// Returns the stored energy (J); zero if the law has none.
 fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
 }
 
-/// A [`Solver`] with an [`EnergyLedger`]. Its steps have the same bits as those of the solver.
-/// It has no checkpoints.
+/// A [`Solver`] with an [`EnergyLedger`]. Its steps are bit-identical to those of the solver.
+/// Checkpoints are not supported.
 pub struct LedgerSolver<const D: usize> {
     solver: Solver<D>,
     ledger: EnergyLedger,

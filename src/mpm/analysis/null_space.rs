@@ -3,10 +3,9 @@
 //! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
 //! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against
 //! v0, which is in the null space of the map to the grid (Brackbill 1988; Gritton & Berzins 2017,
-//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. The
-//! matrix of the fit is the consistent mass matrix. It may be singular, which conjugate gradients
-//! allow. The preconditioner is the lumped mass matrix, so each iteration maps to the grid and back
-//! once, like PIC and XPIC.
+//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. This
+//! matrix, the consistent mass matrix, may be singular; conjugate gradients converge nevertheless.
+//! The preconditioner is the lumped mass matrix. Each iteration maps to the grid and back once.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -23,8 +22,7 @@ const MOST: usize = 200;
 
 impl<const D: usize> Solver<D> {
     /// Returns the kinetic energy (J) of the null-space part of the particle velocities, at the
-    /// current positions. Walls do not influence this part: they fix nodes, and the null-space part
-    /// has no effect on nodes.
+    /// current positions. Walls do not change this energy, because they act on nodes only.
     pub fn null_space_energy(&self) -> f64 {
         0.5 * square(&self.setup.particles, &self.null_space_velocity())
     }
@@ -70,8 +68,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Computes nodal masses (kg) at the current particle positions. The masses of the grid belong to
-/// the positions before the last move.
+/// Computes nodal masses (kg) at the current particle positions. The masses stored in the grid are
+/// those at the positions before the last move.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

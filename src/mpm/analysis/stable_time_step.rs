@@ -5,11 +5,11 @@
 //! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
 //! frequency.
 //!
-//! Under USL an explicit step is stable up to `dt^2 L = 4/((2 - a) l)`, where a, between 0 and 1,
-//! is the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is
-//! stable for every mode. Under USF and MUSL the strain comes from grid velocities that were mapped
-//! to particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`. This
-//! operator stays bounded if a node has little mass.
+//! Under USL an explicit step is stable up to `dt^2 L = 4/(2 - a)`, where a, between 0 and 1, is
+//! the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is stable
+//! for every mode. Under USF and MUSL the strain comes from grid velocities that were mapped to
+//! particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`. This operator
+//! stays bounded if a node has little mass.
 //!
 //! The analysis runs the passes of the solver and therefore makes no assumption about basis, mass
 //! matrix, particle positions or law.
@@ -86,8 +86,8 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Estimates the eigenvalue by power iteration: returns the largest ratio of the norm of
-    /// `L mode` to the norm of `mode`. The norm is weighted by the nodal masses, because the matrix
-    /// is symmetric in this norm.
+    /// `L mode` to the norm of `mode`. The norm is weighted by the nodal masses, because L is
+    /// symmetric in this norm.
     fn square_of_frequency(
         &mut self,
         start: &[u8],
@@ -123,9 +123,9 @@ impl<const D: usize> Solver<D> {
         Ok(square)
     }
 
-    /// Returns the response of the nodes to a motion with `velocity` (m/s) for `dt` (s): their
-    /// accelerations (m/s2), or the velocities that P2G gives after these accelerations have acted
-    /// for 1 s.
+    /// Returns the nodal accelerations (m/s2) that follow from a motion with `velocity` (m/s) for
+    /// `dt` (s). If strains come from mapped velocities, the accelerations are mapped to particles
+    /// and back.
     fn response(
         &mut self,
         start: &[u8],
@@ -179,12 +179,13 @@ fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// Returns the simplest scheme and transfer with a bit-identical stable time step, so that the step
-/// is computed once for all methods that share it.
+/// Returns the simplest scheme and transfer with a bit-identical stable time step. Methods with the
+/// same pair need only one computation.
 ///
-/// A response contains P2G of momentum and G2P of velocities only if velocities are mapped to
-/// particles and back, and only in this mapping. All transfers except fits take forces and velocity
-/// gradients from the basis. All except series and cells take accelerations from the basis.
+/// All transfers except [`TransferKind::Fit`] compute forces and velocity gradients from the basis.
+/// All except [`TransferKind::Series`] and [`TransferKind::Cells`] compute accelerations from the
+/// basis. The map of velocities affects the step only if velocities are mapped to particles and
+/// back before they strain the particles.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,

@@ -1,5 +1,5 @@
-//! Symbols of stiffness, mass, APIC, MLS-MPM and TPIC: one Fourier mode of the maps between
-//! particles and grid.
+//! Symbols (eigenvalues for one Fourier mode) of the maps between particles and grid: stiffness,
+//! mass, APIC, MLS-MPM and TPIC.
 //!
 //! A periodic row of cells with the same particles in each cell is invariant under translation by a
 //! cell. A nodal field `exp(i theta x_i)` is therefore an eigenvector of every map from the grid to
@@ -12,7 +12,7 @@
 
 use crate::mpm::basis::BasisName;
 
-/// Minimum APIC inertia, in squared cell sizes, that counts as different from zero.
+/// APIC inertia (squared cell sizes) up to which a particle has no affine part.
 const SMALLEST_INERTIA: f64 = 1e-12;
 
 /// Basis functions of one axis: uniform B-splines, or averages of linear functions over the domain
@@ -57,7 +57,7 @@ impl Spline {
     }
 
     /// Returns value and derivative (per cell) at the distance `x` (in cells) from the centre of
-    /// the function. At a knot the derivative is that of the cell on the right.
+    /// the function. At a knot, returns the derivative from the right.
     fn at(self, x: f64) -> (f64, f64) {
         let (r, sign) = (x.abs(), if x < 0.0 { -1.0 } else { 1.0 });
         let (value, slope) = match self {
@@ -114,15 +114,16 @@ pub struct WaveSymbols {
     /// `mean |sum N_i (x_i - xi) exp(i theta x_i)|^2/D^2`.
     pub fitted_stiffness: f64,
     /// TPIC, `t = s + mean conj(sum N_i (x_i - xi) exp(i theta x_i)) sum N_i' exp(i theta x_i)`:
-    /// the part that remains if the affine field is the gradient of the basis. Real and imaginary
-    /// part; particles that are symmetric in their cell have no imaginary part.
+    /// the real and imaginary parts of the fraction of a nodal velocity that remains if the affine
+    /// field is the gradient of the basis. The imaginary part is zero for particles that are
+    /// symmetric in their cell.
     pub taylor: [f64; 2],
 }
 
 impl WaveSymbols {
     /// Computes the symbols of a wave with `theta` (rad) for particles of equal mass and volume at
-    /// `positions`, from 0 to 1 in each cell. A particle with D = 0 has no affine part. NaN without
-    /// particles.
+    /// `positions`, from 0 to 1 in each cell. A particle with D = 0 has no affine part. The symbols
+    /// are NaN if `positions` is empty.
     pub fn new(spline: Spline, theta: f64, positions: &[f64]) -> Self {
         let [mut stiffness, mut mass, mut affine, mut fitted_stiffness] = [0.0; 4];
         let mut taylor = [0.0; 2];

@@ -22,8 +22,8 @@ pub struct QuadraticBSpline;
 #[derive(Debug, Clone, Copy)]
 pub struct CubicBSpline;
 
-/// Returns knot k of an axis of `cells` cells for degree `p` (in cells): open at walls, otherwise
-/// uniform.
+/// Returns the position of knot `k` (in cells) for degree `p`. Knots are uniform, and repeated at
+/// walls.
 fn knot(k: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     let uniform = k as f64 - p as f64;
     if periodic { uniform } else { uniform.clamp(0.0, cells as f64) }
@@ -147,7 +147,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Recomputes the functions of those of four particles that are near a wall.
+/// Recomputes the functions of each of four particles that is near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

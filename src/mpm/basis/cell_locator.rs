@@ -14,7 +14,7 @@ pub struct WeightNeeds {
     pub(in crate::mpm) offsets: bool,
 }
 
-/// Data of the grid that a pass holds in registers.
+/// Grid data needed to locate particles, small enough to stay in registers.
 #[derive(Debug, Clone, Copy)]
 pub struct CellLocator<const D: usize> {
     pub(super) h: f64,
@@ -43,7 +43,6 @@ pub(super) struct CellPositions<F, const D: usize> {
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {
-    /// Creates a locator for `grid`, fields with this layout and a pass with these needs.
     pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: WeightNeeds) -> Self {
         Self {
             h: grid.h,
@@ -90,7 +89,7 @@ impl<const D: usize> CellLocator<D> {
         places
     }
 
-    /// Returns the index of the first node of these cells in a packed field.
+    /// Returns the index of each cell's first node in a packed field.
     #[inline(always)]
     pub(super) fn starts<F: F64x4>(&self, cell: &[F; D]) -> [u32; LANES] {
         let mut start = cell[0];
@@ -110,8 +109,9 @@ fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
     array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
-/// Returns cells and positions within them, for `s` (in cells) along an axis. Some `s` are at the
-/// end of the axis, outside the axis, or NaN.
+/// Returns cells, positions in the cells, and the mask of particles inside the grid, for positions
+/// `s` (in cells) along an axis. This slow path handles `s` at the end of the axis, outside it, or
+/// NaN.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

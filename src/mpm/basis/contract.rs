@@ -24,7 +24,7 @@ pub enum Domain {
     Follows,
 }
 
-/// Four neighbouring particles, and the batch lanes of their patches.
+/// Four consecutive particles, and the batch lanes of their patches.
 #[derive(Debug, Clone, Copy)]
 pub struct FourLanes {
     /// Index of the first particle.
@@ -108,9 +108,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. Because this is a method of the basis, the loops of each basis
-    /// file are a separate code-generation unit. The loops take most of the compile time, and a
-    /// change of one file does not recompile the loops of other files.
+    /// Runs a loop over this basis. As a trait method, it puts the loops of each basis file into a
+    /// separate code-generation unit, so a change of one file does not recompile the loops of the
+    /// others.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }
@@ -123,7 +123,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
 /// The basis function of one node, evaluated at a particle.
 #[derive(Debug, Clone, Copy)]
 pub struct NodeWeight<'a, const D: usize> {
-    /// Number of the node.
+    /// Index of the node.
     pub node: usize,
     /// Value of N_i at the particle.
     pub weight: f64,
@@ -166,7 +166,6 @@ pub struct NodeTerm<F, const D: usize> {
 }
 
 impl<F: Register, const D: usize> NodeTerm<F, D> {
-    /// A contribution without any part.
     pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
 }
 
@@ -190,8 +189,7 @@ pub trait PatchBatch<const D: usize>: Debug {
         mean: Option<&Vector<D>>,
     );
 
-    /// Returns the product of the matrix with these columns and the inverse inertia tensor of patch
-    /// `lane`.
+    /// Multiplies the matrix with these columns by the inverse inertia tensor of patch `lane`.
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
     /// Adds the terms of particles, each with its lane, to their nodes in `field`.
@@ -203,11 +201,11 @@ pub trait PatchBatch<const D: usize>: Debug {
         term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
     );
 
-    /// Returns the sum `sum_i field_i N_i`.
+    /// Returns `sum_i field_i N_i`.
     fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
 
-    /// Returns the sum `sum_i field_i N_i`, and the moments
-    /// `sum_i field_i (x_i - x_p - mean)_a N_i` for each axis.
+    /// Returns `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a N_i` for
+    /// each axis.
     fn gather_moment<S: Simd>(
         &self,
         simd: S,
@@ -215,8 +213,7 @@ pub trait PatchBatch<const D: usize>: Debug {
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]);
 
-    /// Returns the sum `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each
-    /// axis.
+    /// Returns `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each axis.
     fn gather_gradient<S: Simd>(
         &self,
         simd: S,

@@ -62,8 +62,8 @@ fn patches<const D: usize>(
     }
 }
 
-/// Computes the patches of four particles. The mask marks particles with one group of functions
-/// along each axis.
+/// Computes the patches of four particles. Returns the mask of particles with one group of
+/// functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
     simd: S,
@@ -109,7 +109,7 @@ fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> 
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// Wraps the first nodes of domains. Some nodes are before the first node of a periodic axis.
+/// Wraps first nodes that are before the start of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
@@ -225,7 +225,8 @@ impl<S: Simd> Domain1dSimd<S> {
     }
 
     /// Evaluates the functions of domains that end before the third node. The branches of
-    /// [`integral`] and [`hat`] are then known in advance, and the results are bit-identical.
+    /// [`integral`] and [`hat`] are then known in advance, and the results are bit-identical to
+    /// those of [`Domain1d::one_of_many`].
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));
@@ -281,7 +282,6 @@ impl Domain1d {
         Self { extent, groups }
     }
 
-    /// Evaluates the functions of one group.
     #[inline(always)]
     pub(in crate::mpm) fn along<const D: usize>(
         &self,
@@ -297,8 +297,8 @@ impl Domain1d {
         along.take(0, grid.wrap_signed(first, axis))
     }
 
-    /// Evaluates the functions of one group for a domain of any length; zero outside the domain and
-    /// outside the walls.
+    /// Evaluates the functions of one group for a domain of any length; the functions are zero
+    /// outside the domain and the walls.
     #[inline(always)]
     fn one_of_many<const D: usize>(
         &self,

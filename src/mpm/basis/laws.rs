@@ -67,7 +67,8 @@ struct NodeWeights<const D: usize> {
     offset: Vector<D>,
 }
 
-/// Returns the nodes of the only particle. All tests share one copy of this long loop.
+/// Returns the nodes of the only particle. The function is not inlined, so all tests share one
+/// compiled loop.
 #[inline(never)]
 fn node_weights<B: Basis, const D: usize>(
     grid: &Grid<D>,

@@ -121,8 +121,7 @@ fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Number of rows in a plane, and number of planes; one for an axis that the dimension does not
-    /// have.
+    /// Number of rows in a plane; one in 1-D.
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
@@ -137,8 +136,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         self.start[lane % BATCH] as usize
     }
 
-    /// Returns the weight of function `k` along `axis`; one for an axis that the dimension does not
-    /// have.
+    /// Returns the weight of function `k` along `axis`; one if `axis` is not less than D.
     #[inline(always)]
     pub(in crate::mpm) fn weight(&self, lane: usize, axis: usize, k: usize) -> f64 {
         if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
@@ -168,8 +166,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         sum.plus_product(flux[2], self.axes[2].slope[k].get(lane) * self.weight(lane, 1, j))
     }
 
-    /// Converts the flux to a part of the value. This applies to patches whose gradients are
-    /// weights times a vector.
+    /// For patches whose gradients are weights times a vector, converts the flux to a part of the
+    /// value.
     #[inline(always)]
     fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
         let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
@@ -237,8 +235,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                     |i, node| {
                         let Some(first) = first[i] else {
                             return match of_row {
-                                // In 1-D a sum waits for the sum of the previous particle; a
-                                // separate product runs in parallel.
+                                // In 1-D each sum depends on the sum of the previous particle. A
+                                // separate product shortens this chain.
                                 Some(row) if D == 1 => node + row * weights[i],
                                 Some(row) => node.plus_product(row, weights[i]),
                                 None => node,
@@ -410,7 +408,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     }
 }
 
-/// Field that receives the sums of P2G. The sums of K consecutive nodes are in registers.
+/// Field that receives the sums of P2G. In 1-D, the sums of K consecutive nodes stay in registers.
 #[derive(Debug)]
 pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,

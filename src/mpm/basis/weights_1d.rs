@@ -53,7 +53,7 @@ impl<const K: usize> Weights1d<K> {
     }
 }
 
-/// Returns the product over all axes of the moments of these orders.
+/// Returns the product over all axes of the moment of order `order(axis)`.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(
     moments: &[[f64; 3]; D],
@@ -66,14 +66,11 @@ pub(in crate::mpm) fn product<const D: usize>(
     product
 }
 
-/// K neighbouring functions of four particles in registers.
+/// K neighbouring functions of four particles in registers, with the quantities of [`Weights1d`].
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
-    /// Values of the functions.
     pub(in crate::mpm) weight: [S::F64x4; K],
-    /// Derivatives of the functions (1/m).
     pub(in crate::mpm) slope: [S::F64x4; K],
-    /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [S::F64x4; K],
     /// Variance, `sum weight offset^2` (m^2), about the mean.
     pub(in crate::mpm) variance: S::F64x4,
@@ -118,14 +115,11 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
     }
 }
 
-/// K neighbouring functions of a batch of particles in memory.
+/// K neighbouring functions of a batch of particles, with the quantities of [`Weights1d`].
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch<const K: usize> {
-    /// Values of the functions.
     pub(in crate::mpm) weight: [F64Batch; K],
-    /// Derivatives of the functions (1/m).
     pub(in crate::mpm) slope: [F64Batch; K],
-    /// Positions of the functions relative to the particle (m).
     pub(in crate::mpm) offset: [F64Batch; K],
     /// Variance, `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
     pub(in crate::mpm) variance: F64Batch,
@@ -138,7 +132,6 @@ pub struct Weights1dBatch<const K: usize> {
 }
 
 impl<const K: usize> Weights1dBatch<K> {
-    /// Functions with weight zero.
     pub(in crate::mpm) const NONE: Self = Self {
         weight: [F64Batch::ZERO; K],
         slope: [F64Batch::ZERO; K],

@@ -28,13 +28,13 @@ pub struct Advance {
 /// velocities that are mapped back. The functions must be consistent: a prescribed velocity plus
 /// the change by the prescribed acceleration must equal the prescribed velocity at the later time.
 pub trait Boundary<const D: usize>: Send {
-    /// Returns the columns with entries for nodes.
+    /// Returns the columns that the condition stores per node.
     fn columns(&self) -> Vec<Column<'_>>;
 
     /// Visits the state that persists between steps, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether [`Boundary::hold_advance`] reads velocities. Velocities are then mapped before
+    /// Whether [`Boundary::hold_advance`] reads velocities. If so, velocities are mapped before
     /// forces.
     fn reads_velocity(&self) -> bool {
         false
@@ -47,7 +47,7 @@ pub trait Boundary<const D: usize>: Send {
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
 
     /// Imposes a condition on velocities (m/s) and accelerations (m/s2) together. The velocities
-    /// before the advance already satisfy the condition. They have been mapped only if a condition
+    /// before the advance already satisfy the condition, and are available only if a condition
     /// reads velocities.
     fn hold_advance(
         &mut self,

@@ -21,7 +21,8 @@ pub struct Prescribed<const D: usize> {
 }
 
 impl<const D: usize> Prescribed<D> {
-    /// Prescribes the nodes on one face of `grid`, which has the functions of `basis`.
+    /// Prescribes the velocity of the nodes on one face of `grid`. `basis` determines the node
+    /// positions.
     pub fn face(
         grid: &Grid<D>,
         basis: BasisName,

@@ -109,7 +109,7 @@ mod tests {
         }
     }
 
-    /// Viscosity does not change the stress of a body that only expands, not even by one bit.
+    /// The stress of an expanding body stays bit-identical.
     #[test]
     fn expansion_is_free() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };

@@ -39,8 +39,7 @@ impl<const D: usize> BodyForce<D> {
         }))
     }
 
-    /// Sets the stiffness, which is the largest eigenvalue of -db/du (1/s2) among the particles at
-    /// the start.
+    /// Sets the stiffness: the largest eigenvalue of -db/du (1/s2) over the particles at the start.
     #[must_use]
     pub fn with_stiffness(self, stiffness: f64) -> Self {
         Self { stiffness, ..self }

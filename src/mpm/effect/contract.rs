@@ -11,7 +11,7 @@ pub trait Effect<const D: usize>: Send {
     /// Returns the name of the effect in suites.
     fn name(&self) -> &'static str;
 
-    /// Returns the columns with entries for particles or nodes.
+    /// Returns the columns that the effect stores per particle or node.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }

@@ -5,7 +5,7 @@
 //! Appl. Mech. 53, section on heat conduction):
 //!
 //! ```text
-//! T_i    = sum_p m_p (T_p + g_p . (x_i - x_p)) N_i / m_i       held where it is given
+//! T_i    = sum_p m_p (T_p + g_p . (x_i - x_p)) N_i / m_i       or the prescribed value
 //! g_p    = sum_i T_i grad N_i                                  grad T of the particle
 //! Q_i    = -sum_p V_p k g_p . grad N_i + sum_p m_p s_p N_i + flow through faces
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
@@ -18,8 +18,8 @@
 //! a linear field up to the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
-//! flow into the body, to round-off. Neglected: heat from plastic work, viscosity and compression,
-//! and variable conductivity.
+//! flow into the body, to round-off. The method neglects heat from plastic work, viscosity and
+//! compression, and assumes a constant conductivity.
 
 use super::contract::Effect;
 use super::thermal_face::ThermalBoundary;
@@ -34,9 +34,9 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 /// The heat may depend on T_p at the start of the step, but not on T_i, which would need another
 /// pass. The sum over particles is the integral of s for any such s.
 ///
-/// A sink s = -r c T adds its rate to the rate of conduction: with linear functions and equally
-/// spaced particles, forward Euler is stable for dt < 2/(4 k/(rho c h^2) + r). This stable time
-/// step is not predicted, so the suite must state the step.
+/// With a sink s = -r c T, linear functions and equally spaced particles, forward Euler is stable
+/// for dt < 2/(4 k/(rho c h^2) + r). This stable time step is not predicted, so the suite must
+/// state the step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Heat conduction in the body.

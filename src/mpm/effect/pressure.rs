@@ -23,7 +23,6 @@ pub struct Pressure<const D: usize> {
     site: PressedSurface<D>,
 }
 
-/// The part of the surface under pressure.
 enum PressedSurface<const D: usize> {
     Face(Surface),
     Rim(Vec<Facet<D>>),
