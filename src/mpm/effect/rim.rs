@@ -2,7 +2,7 @@
 //!
 //! The particles at a rim form a staircase. Unlike on a face of a box, their parts of the surface
 //! are not equal. The circle is therefore divided into arcs about half a spacing long. The force on
-//! an arc acts on the nearest particle, together with its moment. If the basis reproduces linear
+//! an arc and the moment of this force act on the nearest particle. If the basis reproduces linear
 //! fields, the sum of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the
 //! arc. The area vectors are exact, so a uniform pressure has no resultant.
 
@@ -21,7 +21,7 @@ pub struct RimCircle {
     pub centre: [f64; 2],
     /// Radius (m).
     pub radius: f64,
-    /// Sign of the outward normal along the radius.
+    /// Direction of the outward normal: 1 away from the centre, -1 towards the centre.
     pub outwards: f64,
 }
 
@@ -46,8 +46,8 @@ const PER_SPACING: f64 = 2.0;
 /// rim is at most half a diagonal of the particle lattice from a particle.
 const REACH: f64 = 2.0;
 
-/// Divides `circle` into facets, starting at the positive first axis. Every rim of a body has
-/// particles nearby.
+/// Divides `circle` into facets, starting at the positive first axis. The result is empty if no
+/// particle is near the rim.
 pub(super) fn facets<const D: usize>(
     particles: &Particles<D>,
     circle: &RimCircle,

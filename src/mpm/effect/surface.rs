@@ -10,8 +10,7 @@
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
 //!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
-//!   weights of the surface point are not used, because just beyond a node they would load a node
-//!   without mass.
+//!   weights of the surface point are not used, because they could load a node without mass.
 //!
 //! On a face of a mapped box, the layer contains the particles whose domains end on the face. The
 //! middles of these domain ends are on the face of the body ([`Particles::fill_mapped`]), even if
@@ -53,7 +52,7 @@ pub(super) struct Surface {
     /// Column of the domain matrix whose end is on the face, and its sign; `None` unless the body
     /// is mapped.
     column: Option<(usize, f64)>,
-    /// Index difference between a particle of this layer and the particle below.
+    /// Index difference between a particle of this layer and its neighbour in the next layer.
     below: usize,
 }
 
@@ -119,9 +118,9 @@ impl Surface {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
 
-    /// Returns the value of a column at the surface above particle `p`, extrapolated linearly from
-    /// this particle and the particle below. The value of particle `p` itself would be that of a
-    /// point half a spacing away.
+    /// Returns the value of a column at the surface above particle `p`: extrapolated linearly from
+    /// this particle and the particle below, or the value of particle `p` for
+    /// [`Placement::Particles`].
     fn continued<T>(&self, column: &[T], p: usize) -> T
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T>,

@@ -4,10 +4,10 @@
 //! `theta = 1 + alpha (T - T0)` on every axis, and the law uses Fe (Stojanovic, Djuric & Vujosevic
 //! 1964; Lubarda 2004, Appl. Mech. Rev. 57). A free body then expands exactly by theta. For a law
 //! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
-//! (Duhamel & Neumann), which is plane strain in 2-D and uniaxial strain in 1-D.
+//! (Duhamel & Neumann). In 2-D this is plane strain, in 1-D uniaxial strain.
 //!
 //! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the other axes
-//! have no effect. Neglected: heat absorbed by the expansion.
+//! have no effect. The heat absorbed by the expansion is neglected.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Matrix;
@@ -15,7 +15,8 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Checkpoint, Column};
 
-/// Thermal expansion. The effect that computes temperatures must come earlier in the list.
+/// Thermal expansion. In the list of effects, the effect that computes temperatures must precede
+/// this effect.
 pub struct ThermalExpansion<const D: usize> {
     /// Coefficient of thermal expansion alpha (1/K).
     coefficient: f64,
@@ -28,8 +29,8 @@ pub struct ThermalExpansion<const D: usize> {
 enum ExpansionLaw<const D: usize> {
     /// The law uses `elastic`, which is Fe, in place of F while stresses are computed.
     OfDeformation { elastic: Vec<Matrix<D>> },
-    /// The stress changes by `modulus`, `E/(1 - 2 nu)` (Pa), times the thermal strain since
-    /// `before`, the temperatures for which the stresses were computed (K).
+    /// `modulus` is `E/(1 - 2 nu)` (Pa). `before` holds the temperatures (K) at the last stress
+    /// update.
     InRateForm { modulus: f64, before: Vec<f64> },
 }
 

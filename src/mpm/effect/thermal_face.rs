@@ -25,7 +25,7 @@ pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send
 pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
 
 /// Condition on a face that is not insulated: a prescribed value, or a prescribed flux, which may
-/// depend on the value. A differential equation of second order in space has only these two kinds.
+/// depend on the value.
 pub enum Thermal<const D: usize> {
     /// Temperature (K): Dirichlet condition.
     Temperature(ScalarField<D>),
@@ -33,7 +33,7 @@ pub enum Thermal<const D: usize> {
     Inflow(HeatInflow<D>),
 }
 
-/// A face of the grid at which the body ends, with a thermal condition.
+/// A thermal condition on a face of the grid at which the body ends.
 pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
@@ -73,7 +73,7 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Returns the columns with entries for particles and nodes.
+    /// Returns the columns stored per particle and node.
     pub(super) fn columns(&self) -> [Column<'_>; 3] {
         [
             Column::of_particles("face layer", &self.layer),
@@ -113,7 +113,7 @@ impl<const D: usize> ThermalBoundary<D> {
         temperature: &[f64],
         flow: &mut [f64],
     ) -> u64 {
-        // A face with a prescribed temperature has neither a layer nor areas.
+        // For a prescribed temperature, layer and areas are empty, so this call does nothing.
         self.gather_shares(particles, kernel, grid);
         if let Thermal::Inflow(density) = &self.condition {
             for (i, x) in &self.nodes {

@@ -57,7 +57,8 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     })
 }
 
-/// Computes `a b`. Always inlined, because particle loops are compiled for wider registers.
+/// Computes `a b`. Always inlined, because the particle loops that call this function are compiled
+/// for wider registers.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     let mut product = Matrix::zeros();

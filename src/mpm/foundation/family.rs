@@ -1,4 +1,4 @@
-//! Registration: one line defines a family member and its name.
+//! Macros that register the members of a family. One line defines a member and its name.
 
 /// Declares a family of types that suites choose by name.
 ///
@@ -96,7 +96,7 @@ macro_rules! objects_with_parameter {
         }
 
         impl $names {
-            /// Returns the range and texts of the parameter.
+            /// Returns the range and description of the parameter.
             pub fn parameter(self) -> $parameter {
                 const D: usize = 1;
                 match self {

@@ -11,11 +11,7 @@ use crate::subject::{Failure, Site};
 use nalgebra::SMatrix;
 
 impl<const D: usize> Particles<D> {
-    /// Checks all quantities before the first step. The error names the first particle with a
-    /// number that is not finite.
-    ///
-    /// # Errors
-    /// [`Failure::NonFinite`].
+    /// Checks all quantities before the first step.
     pub(in crate::mpm) fn all_finite(&self) -> Result<(), Failure> {
         first_matrix("position", &self.x)?;
         first_matrix("reference position", &self.x0)?;
@@ -29,36 +25,25 @@ impl<const D: usize> Particles<D> {
         self.stressed_finite()
     }
 
-    /// Checks F after its update from velocity gradients. The error names the first particle with a
-    /// number that is not finite.
-    ///
-    /// # Errors
-    /// [`Failure::NonFinite`].
+    /// Checks F after its update from velocity gradients.
     pub(in crate::mpm) fn deformed_finite(&self) -> Result<(), Failure> {
         first_matrix("deformation gradient", &self.def_grad)
     }
 
-    /// Checks stresses. The error names the first particle with a number that is not finite.
-    ///
-    /// # Errors
-    /// [`Failure::NonFinite`].
+    /// Checks stresses.
     pub(in crate::mpm) fn stressed_finite(&self) -> Result<(), Failure> {
         first("hoop stress", &self.stress_across, |s| s.is_finite())?;
         first_matrix("stress", &self.sigma)
     }
 
-    /// Checks velocities at the end of a step. The error names the first particle with a number
-    /// that is not finite.
-    ///
-    /// # Errors
-    /// [`Failure::NonFinite`].
+    /// Checks velocities at the end of a step.
     pub(in crate::mpm) fn moving_finite(&self) -> Result<(), Failure> {
         first_matrix("velocity", &self.v)
     }
 }
 
-/// Whether every number of a column is finite. The check runs on all threads and has no early exit,
-/// so that the compiler can check several numbers at a time.
+/// Whether every number of a column is finite. The check runs on all threads. Without an early
+/// exit, the compiler can vectorise the check.
 pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     column: &[SMatrix<f64, R, C>],
 ) -> bool {
@@ -87,7 +72,7 @@ pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     ) && rest.iter().all(is_finite)
 }
 
-/// Finds the first particle with an invalid matrix; searches only if the column is not finite.
+/// Checks the whole column first, and searches for the invalid matrix only if this check fails.
 fn first_matrix<const R: usize, const C: usize>(
     quantity: &'static str,
     column: &[SMatrix<f64, R, C>],
@@ -106,7 +91,6 @@ fn first<T>(
     }
 }
 
-/// Whether every number of a matrix is finite.
 pub(in crate::mpm) fn is_finite<const R: usize, const C: usize>(
     matrix: &SMatrix<f64, R, C>,
 ) -> bool {

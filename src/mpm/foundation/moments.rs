@@ -34,7 +34,6 @@ impl<const D: usize> Moments<D> {
         self.second.resize(particles, Matrix::zeros());
     }
 
-    /// Returns the columns for the checkpoint.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 2] {
         [Column::of_particles("mean", &self.mean), Column::of_particles("D", &self.second)]
     }
@@ -75,7 +74,8 @@ impl<const D: usize> InertiaTensor<D> {
     }
 }
 
-/// Inverts the tensor on the axes whose second moment exceeds `smallest`; zero on other axes.
+/// Inverts the tensor on the axes whose second moment exceeds `smallest`. The inverse is zero on
+/// other axes.
 fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
     let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
     let drop = |matrix: &mut Matrix<D>, diagonal: f64| {

@@ -62,19 +62,19 @@ pub struct Block<const D: usize> {
 }
 
 impl<const D: usize> Block<D> {
-    /// Returns the centres of equal parts, see [`Particles::fill`].
+    /// Returns the centres of the equal parts of the block, one per particle ([`Particles::fill`]).
     pub fn centres(&self, h: f64, per_axis: usize) -> impl Iterator<Item = Vector<D>> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         (0..count.iter().product()).map(move |p| centre(p, self, &length, &count))
     }
 
-    /// Returns the lengths of a part (m).
+    /// Returns the particle spacing along each axis (m).
     pub fn spacing(&self, h: f64, per_axis: usize) -> Vector<D> {
         let (length, count) = (self.to - self.from, self.counts(h, per_axis));
         Vector::from_fn(|axis, _| length[axis] / count[axis] as f64)
     }
 
-    /// Returns the number of parts along each axis.
+    /// Returns the number of particles along each axis.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; D] {
         std::array::from_fn(|axis| {
             let length = self.to[axis] - self.from[axis];
@@ -92,8 +92,8 @@ impl<const D: usize> Particles<D> {
         Self::fill_where(block, h, per_axis, |_| true)
     }
 
-    /// Fills `block` and keeps the particles for whose reference position `inside` is true, each
-    /// with the full volume of its part.
+    /// Fills `block`, and keeps only particles whose reference position is `inside`. Each particle
+    /// has the full volume of its part.
     pub fn fill_where(
         block: &Block<D>,
         h: f64,
@@ -166,7 +166,7 @@ impl<const D: usize> Particles<D> {
         self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
     }
 
-    /// Adds the column of domains, or updates it from F.
+    /// Adds the column of domains, or updates the existing column from F.
     pub fn track_domains(&mut self) {
         self.track_deformation();
         self.domain.resize(self.len(), Matrix::zeros());

@@ -40,9 +40,9 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
     }
 
     /// Calls `visit` for the patches of the batch that starts at particle `first`, in order. The
-    /// arguments are the patches, their range of lanes (particle `first + k` is lane k), and, for a
-    /// particle with several patches, the moments of all its patches. Particles outside the grid
-    /// are skipped.
+    /// arguments of `visit` are the patches, their range of lanes (particle `first + k` is lane k),
+    /// and, for a particle with several patches, the moments of all its patches. Particles outside
+    /// the grid are skipped.
     ///
     /// Returns a mask. For bases with one patch, it contains the lanes of particles inside the
     /// grid; otherwise it is [`ALL`].
@@ -117,7 +117,7 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
             all.second += weight_moments.second;
         }
     });
-    // A single patch is a product of one-dimensional functions.
+    // A single patch is a product of one-dimensional functions, so its tensor is diagonal.
     if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }
 

@@ -18,12 +18,10 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Number of chunks in the smallest block. The chunk is the smallest unit when layers are assigned
-/// to blocks.
+/// Number of chunks in the smallest block. Blocks consist of whole chunks of particles.
 const CHUNKS: usize = 8;
 
-/// Number of independent minima and maxima in one loop over positions; a single one would be
-/// slower.
+/// Number of minima and maxima that one loop over positions computes in parallel.
 const TOGETHER: usize = 8;
 
 /// Numbers of blocks to try, largest first. The nodes of one block should fit the cache.

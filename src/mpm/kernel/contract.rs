@@ -1,8 +1,9 @@
 //! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
 //! [`Kernel`] is object-safe: there is one virtual call per pass, none per particle. Each pass
-//! recomputes the weights of a particle. Parts for the same particles and nodes therefore share one
-//! pass, and each part is bit-identical to the result of a separate pass.
+//! recomputes the weights of a particle. One pass can therefore compute several quantities
+//! ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a separate
+//! pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -16,10 +17,10 @@ use std::sync::atomic::Ordering::Relaxed;
 
 /// Passes of P2G and G2P for one basis.
 pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
-    /// Computes all parts of `request`, from particles to nodes, in one pass.
+    /// Computes all quantities of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
-    /// Computes all parts of `request`, from nodes to particles, in one pass.
+    /// Computes all quantities of `request`, from nodes to particles, in one pass.
     fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>);
 
     /// Computes only the mass `m_i`, see [`P2gRequest::mass`].
@@ -123,7 +124,7 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Returns the number of particles visited by each part of the passes.
+    /// Returns the counts of visited particles.
     fn tally(&self) -> &Tally;
 
     /// Returns the maximum number of nodes of a particle.
@@ -191,14 +192,14 @@ pub trait Scalars<const D: usize> {
 }
 
 /// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node
-/// positions. It is the position of the particle unless a wall truncates the particle domain. The
+/// positions, and equals the particle position unless a wall truncates the particle domain. The
 /// affine part is taken about `mean_p`, and therefore has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
     /// Gradients `C_p` (1/s).
     Slope(&'a [Matrix<D>]),
-    /// First moments `B_p` (m^2/s), with `C_p = B_p D_p^-1`. D_p belongs to the weights at the
-    /// particle position.
+    /// First moments `B_p` (m^2/s), with `C_p = B_p D_p^-1`. D_p is the inertia tensor of the
+    /// weights at the particle position.
     Moment(&'a [Matrix<D>]),
 }
 
@@ -250,8 +251,8 @@ pub struct P2gRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> P2gRequest<'_, D> {
-    /// Returns the names of the parts for reports. The moments of the weights count as a part, once
-    /// for each position of the particles.
+    /// Returns the names of the requested quantities, for reports. `weight moments` is included
+    /// only in requests for the mass, so it is counted once for each position of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
@@ -293,7 +294,7 @@ pub struct G2pRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Returns the names of the parts for reports.
+    /// Returns the names of the requested quantities, for reports.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         named_parts([
             ("g2p velocity", self.change.is_some()),
@@ -310,8 +311,8 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub struct LoopSettings {
     /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
-    /// Minimum number of particles for blocks on several threads, because smaller scenes fit the
-    /// cache. Sums over blocks have a different rounding order.
+    /// Minimum number of particles for a division into blocks. Smaller scenes fit the cache. The
+    /// division changes the order of sums, and therefore their rounding.
     pub min_particles: usize,
     /// Minimum number of particles per block, such that a block shares only a small part of its
     /// nodes with its neighbours.
@@ -325,8 +326,8 @@ impl Default for LoopSettings {
     }
 }
 
-/// Number of particles visited by each part of the passes. Counting starts with the first call of
-/// `take`.
+/// Number of particles visited for each quantity of the passes. Counting starts with the first call
+/// of `take`.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 
@@ -360,8 +361,8 @@ impl Tally {
         }
     }
 
-    /// Returns the parts of passes since the last call, each with the number of visited particles
-    /// summed over `tallies`.
+    /// Returns the quantities computed since the last call, each with the number of visited
+    /// particles, summed over `tallies`.
     pub(in crate::mpm) fn take(tallies: &[&Self]) -> Vec<(&'static str, u64)> {
         let taken = |part: usize| {
             let counts = tallies.iter().map(|tally| tally.0.get_or_init(Default::default));

@@ -15,7 +15,6 @@ use std::ops::Range;
 pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// Range of the particles of the pass.
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: G2pRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldView<'a>; 2],
@@ -185,7 +184,7 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
 }
 
 impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
-    // The loop computes sums of two axes at once, together with their factors.
+    // In 3-D, the sums along several axes and their factors need more than 16 registers.
     const NEEDS_AVX512: bool = D == 3;
 
     #[inline(always)]

@@ -64,7 +64,6 @@ fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSetting
     with_dimension!(dimension, D => Box::new(boxed::<D>(basis, settings)))
 }
 
-/// Kernel of basis `B`.
 struct Loops<B> {
     /// Memory reused by all passes. Results do not depend on the old contents.
     workspace: Mutex<Workspace>,

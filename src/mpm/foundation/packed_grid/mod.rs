@@ -30,7 +30,7 @@ pub(in crate::mpm) use node::{
 };
 use std::ops::Range;
 
-/// Number of nodes in a piece of a 1-D grid.
+/// Number of nodes per task when a 1-D field is packed.
 const PIECE: usize = 1 << 12;
 
 /// Nodal field in packed layout.
@@ -40,12 +40,12 @@ pub(in crate::mpm) struct PackedField<N> {
     layout: Layout,
 }
 
-/// Returns the number of nodes along each axis; one for an axis that the dimension does not have.
+/// Returns the number of nodes along each axis; one for axes that the grid does not have.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
     std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
 }
 
-/// Returns the components of a vector in the first lanes of a node.
+/// Returns the components of a vector in the first lanes of a node, and zero in the others.
 #[inline(always)]
 fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
     std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
@@ -89,7 +89,6 @@ impl<N: PackedNode> PackedField<N> {
 }
 
 impl PackedField<Node4> {
-    /// Returns a shared view of the field.
     pub(in crate::mpm) fn view(&self) -> FieldView<'_> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
@@ -134,8 +133,7 @@ impl PackedField<Node4> {
     }
 }
 
-/// Number of nodes in a piece of a 1-D grid. The piece is small enough for all its columns to stay
-/// in the cache.
+/// Number of nodes unpacked at a time in 1-D: few enough for all columns to stay in the cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
 /// Columns into which a field is unpacked: for all nodes, or for some layers across the last axis.
@@ -157,13 +155,11 @@ pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
     0..grid.counts[D - 1] + MARGIN
 }
 
-/// Returns the number of nodes in a layer of the grid.
 fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
     grid.counts[..D - 1].iter().product()
 }
 
 impl<const D: usize> Columns<'_, D> {
-    /// Reborrows the columns for a shorter lifetime.
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
         let Self { mass, momentum, force, before } = self;
         let (mass, momentum, force) =

@@ -1,4 +1,4 @@
-//! Nodes of packed fields, each as large as a register. Views of the whole field or of consecutive
+//! Nodes of packed fields, each as large as a register, and views of a field or of consecutive
 //! layers.
 
 use crate::mpm::foundation::grid::Grid;
@@ -161,7 +161,6 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Creates the layout of a field on `grid`.
     pub(in crate::mpm) fn new<const D: usize>(grid: &Grid<D>) -> Self {
         let mut strides = [1; 4];
         for axis in 0..3 {
@@ -204,7 +203,6 @@ pub struct FieldViewMut<'a, N> {
 }
 
 impl FieldView<'_> {
-    /// Returns K nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
         &self.nodes[start..start + K]
@@ -212,19 +210,16 @@ impl FieldView<'_> {
 }
 
 impl<N: PackedNode> FieldViewMut<'_, N> {
-    /// Reborrows the view for a shorter lifetime.
     #[inline(always)]
     pub(in crate::mpm) fn reborrow(&mut self) -> FieldViewMut<'_, N> {
         FieldViewMut { nodes: self.nodes, layout: self.layout }
     }
 
-    /// Returns K mutable nodes of a row.
     #[inline(always)]
     pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
         &mut self.nodes[start..start + K]
     }
 
-    /// Sets all numbers to zero.
     pub(in crate::mpm) fn clear(&mut self) {
         self.nodes.fill(N::default());
     }

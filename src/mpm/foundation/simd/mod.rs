@@ -185,7 +185,6 @@ impl Simd for fearless_simd::x86::Avx512 {
 /// in the L1 cache.
 pub(in crate::mpm) const BATCH: usize = 16;
 
-/// Number of registers in a batch.
 const REGISTERS: usize = BATCH / LANES;
 
 /// One number for each particle of a batch.
@@ -194,23 +193,19 @@ const REGISTERS: usize = BATCH / LANES;
 pub(in crate::mpm) struct F64Batch(pub(in crate::mpm) [f64; BATCH]);
 
 impl F64Batch {
-    /// A batch whose numbers are all zero.
     pub(in crate::mpm) const ZERO: Self = Self([0.0; BATCH]);
 
-    /// Returns the number of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm) fn get(&self, lane: usize) -> f64 {
-        // The remainder does not change `lane`, which is below BATCH. It avoids a bounds check.
+        // `lane` is below BATCH. The remainder only avoids a bounds check.
         self.0[lane % BATCH]
     }
 
-    /// Loads the register with this index.
     #[inline(always)]
     pub(in crate::mpm) fn load<S: Simd>(&self, simd: S, register: usize) -> S::F64x4 {
         simd.load(array(0.0, |lane| self.0[register % REGISTERS * LANES + lane]))
     }
 
-    /// Stores `values` in the register with this index.
     #[inline(always)]
     pub(in crate::mpm) fn store<F: F64x4>(&mut self, register: usize, values: F) {
         self.0[register % REGISTERS * LANES..][..LANES].copy_from_slice(&values.into());
@@ -300,13 +295,13 @@ registers!(fearless_simd::x86::Avx2);
 registers!(fearless_simd::x86::Avx512);
 sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 
-/// Leading 32 bits of sqrt(1/2). A number is split into `2^k` and a factor from sqrt(1/2) to
-/// sqrt(2).
+/// Leading 32 bits of sqrt(1/2). The logarithm splits a number into `2^k` and a factor from
+/// sqrt(1/2) to sqrt(2).
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// Bits of 2^52. The last bit of the mantissa has the value one, so an integer put into the
-/// mantissa is added.
+/// Bits of 2^52. The last bit of the mantissa has the value one, so an integer in the mantissa is
+/// added to 2^52.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
