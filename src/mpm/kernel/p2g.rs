@@ -16,7 +16,6 @@ use std::ops::Range;
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
-    /// Range of the particles of the pass.
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
@@ -65,8 +64,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     /// Whether a node has lanes for momentum and mass in addition to a force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
-    /// Adds the terms of particles. With `SLOPE` these contain an affine part, and with `FLUX` a
-    /// part along the gradient.
+    /// Adds the contributions of particles to their nodes. With `SLOPE` these contain an affine
+    /// part, and with `FLUX` a part along the gradient.
     #[inline(always)]
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
@@ -75,8 +74,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes without a request are not unpacked, so their contents do not matter. A body at rest
-        // has no velocities; positions, which every body has, are used in their place.
+        // Lanes that the request does not need are never unpacked, so any vectors are valid. Every
+        // body has positions; a body at rest has no velocities.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

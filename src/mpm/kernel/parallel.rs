@@ -24,7 +24,6 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
         Target { field: self.field.reborrow(), columns: self.columns.reborrow() }
     }
 
-    /// Splits the target into the nodes before `layer` and the nodes from `layer`.
     fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let field = self.field.split_at::<D>(layer);
         let columns = self.columns.split_at(grid, layer);

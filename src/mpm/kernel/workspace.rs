@@ -19,7 +19,6 @@ use std::marker::PhantomData;
 #[derive(Debug)]
 pub(in crate::mpm) struct Workspace {
     level: Level,
-    /// Packed nodal fields.
     fields: [PackedField<Node4>; 2],
     wide: PackedField<Node8>,
     blocks: Blocks,
@@ -39,7 +38,6 @@ fn pack<const D: usize>(
     }
 }
 
-/// A P2G pass on threads.
 struct P2g<'a, const D: usize> {
     level: Level,
     particles: &'a Particles<D>,
@@ -82,7 +80,7 @@ impl Workspace {
         }
     }
 
-    /// Runs P2G of all parts of `request` into `columns`.
+    /// Computes all quantities of `request` in `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,
@@ -100,7 +98,7 @@ impl Workspace {
         }
     }
 
-    /// Runs G2P of all parts of `request`, with `field` as the nodal velocities.
+    /// Computes all quantities of `request`, with `field` as the nodal velocities.
     pub(in crate::mpm) fn gather<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,

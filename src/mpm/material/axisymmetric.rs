@@ -1,4 +1,5 @@
-//! Bodies of revolution: a three-dimensional law whose third axis is the hoop, with F_33 = r/R.
+//! Bodies of revolution: a three-dimensional law whose third axis is the hoop direction, with F_33
+//! = r/R.
 //!
 //! Any law can be used in a body of revolution. The law is evaluated in three dimensions, where the
 //! shears between the meridian plane and the hoop are zero.
@@ -17,12 +18,12 @@ pub(super) struct Axisymmetric {
 }
 
 impl Axisymmetric {
-    /// Creates the law of a body of revolution from the law in three dimensions.
     pub(super) fn new(law: Box<dyn Material<3>>) -> Self {
         Self { law, space: none() }
     }
 
-    /// Applies the law to the body in three dimensions.
+    /// Calls `act` with the law and the three-dimensional state of the body, and copies volumes and
+    /// stresses back.
     fn in_space<const D: usize, T>(
         &mut self,
         particles: &mut Particles<D>,
@@ -109,7 +110,7 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.energy(&space)
     }
 
-    /// Starts from the hoop stretch computed from the positions, and its rate from the velocities.
+    /// Computes the hoop stretch from the positions, and its rate from the velocities.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         for p in 0..particles.len() {
             let r = particles.position(p)[0];

@@ -2,16 +2,18 @@
 //!
 //! With the mean stress `p`, positive in compression, and `q = sqrt(3 J2)` of the Kirchhoff stress,
 //! the clay yields if `q^2/M^2 + p (p - pc) > 0`; the flow is associated (Roscoe & Burland 1968;
-//! Borja & Lee 1990). Swelling has `d eps_v = kappa dp/p`, and plastic compaction hardens by `d
-//! pc/pc = d eps_v/(lambda - kappa)`. The shear modulus `G = r p/kappa` has a constant Poisson's
-//! ratio; the elastic law is in rate form and has no energy.
+//! Borja & Lee 1990). Elastic swelling follows `d eps_v = kappa dp/p`, and plastic compaction
+//! hardens the clay by `d pc/pc = d eps_v/(lambda - kappa)`. The shear modulus is `G = r p/kappa`
+//! with a constant r, so Poisson's ratio is constant. The elastic law is in rate form and has no
+//! energy.
 //!
-//! The state is the Kirchhoff stress and `pc`. A step changes the deformation by `I + grad v dt`,
-//! which is `v R`: R rotates the stress, and `ln v` is the strain increment. This is exact under
-//! any rotation, and equals the Jaumann rate to second order in the step. Along fixed axes,
-//! logarithmic strains add up without error. The return is implicit: exact at a constant stress
-//! ratio, and of first order in the step otherwise. It solves one equation for the stress ratio,
-//! whose root lies between the critical state and the yield surface before the step.
+//! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by
+//! `I + grad v dt`, which is `v R` in polar decomposition: R rotates the stress, and `ln v` is the
+//! strain increment. This integration is exact under any rotation, and equals the Jaumann rate to
+//! second order in the step. Along fixed axes, logarithmic strains add up without error. The return
+//! mapping is implicit: exact at a constant stress ratio, and of first order in the step otherwise.
+//! The return solves one equation for the stress ratio. The root lies between the critical state
+//! and the yield surface before the step.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
 use super::spectral::{MatrixBatch, assembled_batch, half_log_batch, spectral_batch};
@@ -26,15 +28,15 @@ use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
 pub struct CamClay {
     /// Slope M of the critical-state line in the plane of p and q.
     slope: f64,
-    /// Slope kappa of swelling.
+    /// Slope kappa of the swelling line.
     swelling: f64,
     /// `lambda - kappa`, the slope of plastic compaction.
     hardening: f64,
-    /// `G/K`.
+    /// Ratio `G/K` of shear modulus and bulk modulus.
     ratio: f64,
-    /// The state at rest.
+    /// State of each particle at rest.
     start: Clay,
-    /// One for each particle, from the start on.
+    /// State of each particle; empty before the first step.
     states: Vec<Clay>,
 }
 
@@ -47,7 +49,7 @@ struct Clay {
     consolidation: f64,
 }
 
-/// The preconsolidation pressure alone.
+/// Writes only the preconsolidation pressure.
 impl Entry for Clay {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.consolidation);
@@ -62,7 +64,7 @@ impl Memory for Clay {
     }
 }
 
-/// The trial state of a step: the stress before it, and the strain that it adds.
+/// Input of a return: the stress before the step, and the strain increment of the step.
 struct ClayTrial {
     /// Mean stress before the step (Pa), positive in compression.
     pressure: f64,
@@ -79,9 +81,9 @@ struct ClayTrial {
 const MAX_ITERATIONS: usize = 100;
 
 impl CamClay {
-    /// From the slope M of the critical-state line, the slopes of swelling and of compression in
-    /// logarithmic strain over the logarithm of p, Poisson's ratio, and the mean stress and the
-    /// preconsolidation pressure at rest (Pa), both positive in compression.
+    /// Creates the law from the slope M of the critical-state line, the slopes of the swelling and
+    /// compression lines (logarithmic strain over ln p), Poisson's ratio, and the mean stress and
+    /// preconsolidation pressure at rest (Pa). Both pressures are positive in compression.
     pub fn new(
         critical_state_slope: f64,
         swelling_slope: f64,
@@ -101,12 +103,13 @@ impl CamClay {
         }
     }
 
-    /// Mean stress at rest (Pa), positive in compression.
+    /// Returns the mean stress at rest (Pa), positive in compression.
     fn initial_pressure(&self) -> f64 {
         -self.start.tau[(0, 0)]
     }
 
-    /// The state after a step with the rotation `turn` followed by the logarithmic `strain`.
+    /// Returns the state after a step with the rotation `turn` followed by the logarithmic
+    /// `strain`.
     fn after(&self, before: &Clay, turn: &Matrix<3>, strain: &Matrix<3>) -> Clay {
         let tau = product(&product(turn, &before.tau), &turn.transpose());
         let (pressure, compaction) = (-tau.trace() / 3.0, -strain.trace());
@@ -128,9 +131,9 @@ impl CamClay {
         Clay { tau: deviator - Matrix::from_diagonal_element(pressure), consolidation }
     }
 
-    /// Mean stress (Pa) and deviator of the stress after the elastic volume strain `compaction`,
-    /// if all shear is elastic. The two elastic strains are in proportion, for which this is the
-    /// integral of the rate.
+    /// Returns the mean stress (Pa) and the stress deviator (Pa) after the elastic volume strain
+    /// `compaction`, if all shear is elastic. Both strains grow in proportion, so the result is the
+    /// exact integral of the rate form.
     fn swollen(&self, trial: &ClayTrial, compaction: f64) -> (f64, Matrix<3>) {
         let t = compaction / self.swelling;
         let pressure = trial.pressure * libm::exp(t);
@@ -138,13 +141,13 @@ impl CamClay {
         (pressure, trial.deviator + trial.shear * (2.0 * modulus))
     }
 
-    /// Mean stress, deviator and preconsolidation pressure (Pa) on the yield surface, from a trial
-    /// state outside.
+    /// Returns the mean stress, the deviator and the preconsolidation pressure (Pa) on the yield
+    /// surface, for a trial state outside.
     ///
     /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, which gives the plastic
-    /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`
-    /// over p, with the plastic compaction x. The signs of its sides at the critical state, m = 1,
-    /// and at the surface bracket the root.
+    /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`,
+    /// with the plastic compaction x. The root lies between the critical state, m = 1, and the
+    /// surface before the step.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.
@@ -158,7 +161,7 @@ impl CamClay {
             let beyond = equivalent(&deviator) - slope * m * p;
             6.0 * modulus / slope * flow * m - beyond * (1.0 - m * m)
         };
-        // The stress ratio on the surface at the consolidation before the step.
+        // Ratio m on the yield surface before the step.
         let m = libm::sqrt(libm::expm1(-depth).max(0.0));
         let m = root(residual, m.min(1.0), m.max(1.0));
         let flow = flow(m);
@@ -173,18 +176,18 @@ fn square(x: f64) -> f64 {
     x * x
 }
 
-/// `(e^t - 1)/t`, the mean of `e^s` for s from 0 to t.
+/// Returns `(e^t - 1)/t`, the mean of `e^s` for s from 0 to t.
 fn mean_growth(t: f64) -> f64 {
     if t == 0.0 { 1.0 } else { libm::expm1(t) / t }
 }
 
-/// `sqrt(3/2) |s|` of a deviator s.
+/// Returns `sqrt(3/2) |s|` for a deviator s.
 fn equivalent(deviator: &Matrix<3>) -> f64 {
     libm::sqrt(1.5 * deviator.norm_squared())
 }
 
-/// The root of a function that is negative at `low` and positive at `high`; an end where it has not
-/// that sign. By false position with the step of Illinois (Dowell & Jarratt 1971).
+/// Finds the root of a function that is negative at `low` and positive at `high`, by the Illinois
+/// variant of false position (Dowell & Jarratt 1971). If an end has another sign, returns this end.
 fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     if !(at_low < 0.0) {
@@ -215,8 +218,7 @@ fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 }
 
 impl MaterialProperties for CamClay {
-    /// The modulus `K + 4/3 G` of the clay at rest and the stress along the wave, if the clay is
-    /// inside the yield surface.
+    /// Returns `K + 4/3 G` at rest plus the initial stress; valid inside the yield surface.
     fn wave_modulus(&self, _: f64) -> f64 {
         let pressure = self.initial_pressure();
         pressure / self.swelling * (1.0 + 4.0 / 3.0 * self.ratio) + pressure
@@ -271,7 +273,7 @@ impl<const D: usize> Material<D> for CamClay {
         checkpoint.visit(&mut self.states);
     }
 
-    /// The initial pressure; a body that starts deformed is refused.
+    /// Sets the initial pressure. Fails for a body that starts deformed.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         if particles.is_deformed() {
             return Err(Failure::NotOfDeformation);
@@ -305,7 +307,7 @@ impl<const D: usize> Material<D> for CamClay {
     }
 }
 
-/// `I + grad v dt` in three dimensions.
+/// Returns `I + grad v dt` in three dimensions.
 #[inline(always)]
 fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
     let mut step = Matrix::identity();
@@ -317,7 +319,8 @@ fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
     step
 }
 
-/// The inverse and the logarithm of the left stretch of the increments of a batch of particles.
+/// Returns the inverse and the logarithm of the left stretch of `I + grad v dt`, for a batch of
+/// particles.
 fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, MatrixBatch<3>) {
     vectorized(
         #[inline(always)]
@@ -338,7 +341,7 @@ fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, Ma
 
 #[cfg(test)]
 impl super::contract::ClosedForms for CamClay {
-    /// Elastic, with axes that stretch by exp(e) and exp(-e).
+    /// The response is elastic, with principal stretches exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let pressure = self.initial_pressure();
@@ -362,7 +365,7 @@ impl super::contract::ClosedForms for CamClay {
 
 #[cfg(test)]
 impl CamClay {
-    /// The clay with each particle under the stress `tau` (Pa) at this preconsolidation pressure.
+    /// Sets the initial stress `tau` (Pa) and preconsolidation pressure (Pa).
     pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
         self.start = Clay { tau, consolidation };
         self
@@ -377,7 +380,7 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use proptest::prelude::*;
 
-    /// Clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
+    /// Creates clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
     fn clay(preconsolidation: f64) -> CamClay {
         CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
     }
@@ -407,8 +410,8 @@ mod tests {
                 let elastic = 0.02 * libm::log(p / 100.0);
                 let flow = 0.08 * libm::log(pc / law.start.consolidation);
                 assert_abs_diff_eq!(elastic + flow, compaction, epsilon = 1e-12);
-                // The ratios of the plastic shear to the gradient of q^2/M^2, and of the compaction
-                // to that of p (p - pc), are one multiplier.
+                // The plastic shear divided by the gradient of q^2/M^2, and the plastic compaction
+                // divided by the gradient of p (p - pc), are the same multiplier.
                 let modulus = 0.6 * (p - 100.0) / elastic;
                 let plastic = Matrix::from_diagonal(&shear) - deviator / (2.0 * modulus);
                 let flowed = plastic.dot(&deviator) / deviator.norm_squared();

@@ -50,8 +50,8 @@ fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
     (rows[0].into(), libm::log2(coarse[0] / fine[0]))
 }
 
-/// Compares with closed forms for p and q at this deviatoric strain, evaluated by an independent
-/// program. The return is of first order in the number of steps.
+/// The expected p and q are closed forms, evaluated by an independent program. The return is of
+/// first order in the step size.
 #[rstest]
 #[case::low([95.265_762_753, 28.579_728_826], 0.003_504_455_447)]
 #[case::middle([83.651_164_207, 50.190_698_524], 0.008_175_376_601)]

@@ -26,8 +26,8 @@ pub trait MaterialProperties {
         (self.wave_modulus(density) / density).sqrt()
     }
 
-    /// Checks that stress is a function of F alone. Only then may a body start in the state of a
-    /// stated motion, and a body force may be manufactured.
+    /// Checks that stress is a function of F alone. Only then can a body start in the state of a
+    /// prescribed motion, or a body force be manufactured.
     ///
     /// # Errors
     /// The reason why stress depends on other quantities.
@@ -87,7 +87,7 @@ pub trait MaterialProperties {
     /// Checks that the stored energy is a function of the state in `dimension` dimensions.
     ///
     /// # Errors
-    /// The reason, as the part of a sentence that follows the name of the law.
+    /// The reason, phrased to follow the name of the law in a sentence.
     fn has_energy(&self, dimension: usize) -> Result<(), &'static str> {
         let _ = dimension;
         Ok(())
@@ -105,8 +105,8 @@ pub struct Contradiction {
     pub explanation: &'static str,
 }
 
-/// Closed forms of a law, with which tests of all materials compare its stress. For laws with flow
-/// or heat during a step, the values apply to one infinitely long step from a state of rest.
+/// Closed forms of stress and energy, for tests of all materials. For laws with flow or heat during
+/// a step, the values apply to one infinitely long step from a state of rest.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
@@ -117,8 +117,8 @@ pub(super) trait ClosedForms {
     /// this case.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
-    /// Returns the energy density (J/m3), up to a constant. Its derivative is the stress without
-    /// flow. `None` for a law in rate form.
+    /// Returns the energy density (J/m3), up to a constant. The derivative of this energy is the
+    /// stress without plastic flow. `None` for a law in rate form.
     fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
 
     /// Returns the stress (Pa) caused by rounding of J in a step of zero length.
@@ -147,8 +147,8 @@ pub trait Material<const D: usize>: Send {
         false
     }
 
-    /// Whether stress depends directly on the velocity gradient. A body that starts in motion then
-    /// starts under stress.
+    /// Whether stress depends directly on the velocity gradient. If so, a body that starts in
+    /// motion starts under stress.
     fn reads_rate(&self) -> bool {
         false
     }

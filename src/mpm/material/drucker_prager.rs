@@ -1,12 +1,12 @@
 //! Drucker-Prager plasticity: a cone about the axis of mean stress.
 //!
-//! Yield if `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and
+//! The material yields if `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and
 //! `J2 = dev(tau) : dev(tau)/2`. The flow has the coefficient of dilation `etab` instead of `eta`.
 //! The return goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008,
-//! section 8.3). The integration is that of [`plastic_flow`](super::plastic_flow).
+//! section 8.3). [`plastic_flow`](super::plastic_flow) integrates the law.
 //!
-//! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
-//! a tension cut-off, which is not part of the flow rule.
+//! Without dilation, plastic flow does not change the mean stress. If the mean stress is above the
+//! apex, the return to the apex is then a tension cut-off, which is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{
@@ -27,8 +27,8 @@ pub struct Cone {
 }
 
 impl DruckerPrager {
-    /// From Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta and of dilation
-    /// etab, and the strength k (Pa), which is sqrt(J2) at yield without mean stress.
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the coefficients of friction eta
+    /// and of dilation etab, and the strength k (Pa): sqrt(J2) at yield without mean stress.
     pub fn new(young: f64, poisson: f64, friction: f64, dilation: f64, strength: f64) -> Self {
         let elasticity = LogElasticity::new(young, poisson);
         Self::with_surface(Cone { elasticity, friction, dilation, strength })
@@ -72,14 +72,14 @@ impl YieldSurface for Cone {
         Some((after, trial.distance(&after)))
     }
 
-    /// With the flow `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)`, `dp = K (tr deps - etab dg)`
+    /// Uses the flow `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)`, `dp = K (tr deps - etab dg)`
     /// and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)` (de Souza Neto et al. 2008, section 8.3).
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, .. } = *self;
         let (after, _) = self.return_from(trial, flowed)?;
         let (size, length) = (trial.deviator.norm(), 2.0 * mu * after.deviator.norm());
         if length == 0.0 {
-            // The apex is one stress.
+            // At the apex, the stress does not depend on the strain.
             return Some(Matrix::zeros());
         }
         let one = Vector::<3>::from_element(1.0);
@@ -110,9 +110,9 @@ mod tests {
     use super::super::plastic_flow::path::{isotropic, principal};
     use rstest::rstest;
 
-    /// Paths of logarithmic strain, and the principal Kirchhoff stresses at their ends: closed
-    /// forms that were computed by an independent program. In uniaxial strain the stress is
-    /// bilinear; in extension it ends at the apex.
+    /// Paths of logarithmic strain end at the expected principal Kirchhoff stresses: closed forms
+    /// that were computed by an independent program. In uniaxial strain the stress is bilinear; in
+    /// uniaxial extension the stress ends at the apex.
     #[rstest]
     #[case::elastic(&[[-0.002, 0.0, 0.0]], [-36.0, -12.0, -12.0])]
     #[case::compression(&[[-0.01, 0.0, 0.0]], [-152.446_057_383_1, -80.748_883_761_5, -80.748_883_761_5])]

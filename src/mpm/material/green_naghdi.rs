@@ -1,11 +1,11 @@
 //! Linear elasticity with the rate of Green and Naghdi.
 //!
-//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress `tau = J
-//! sigma`, with `Omega = R_dot R^T` of the polar decomposition `F = R U` (Green & Naghdi 1965;
-//! Johnson & Bammann 1984 compare such rates). The state is the stress `R^T tau R`, whose rate is
-//! `lambda tr(D) I + 2 mu D` with `D = sym(U_dot U^-1)`. A step adds `sym(ln(U' U^-1))` to the
-//! integral of D: exact under any rotation, and of order 2 in the time step. The work of the stress
-//! in a closed cycle of deformation is not zero, so that there is no energy.
+//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress
+//! `tau = J sigma`, with `Omega = R_dot R^T` of the polar decomposition `F = R U` (Green & Naghdi
+//! 1965; Johnson & Bammann 1984 compare such rates). The state is the stress `R^T tau R`, whose
+//! rate is `lambda tr(D) I + 2 mu D` with `D = sym(U_dot U^-1)`. A step adds `sym(ln(U' U^-1))` to
+//! the integral of D: exact under any rotation, and of order 2 in the time step. The work of the
+//! stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::linear_elastic::{LinearElastic, logarithm};
@@ -19,7 +19,7 @@ use crate::subject::{Checkpoint, Column, Entry, Memory};
 #[derive(Debug, Clone, PartialEq)]
 pub struct GreenNaghdi {
     elasticity: LinearElastic,
-    /// One for each particle, from the first step on.
+    /// State of each particle; empty before the first step.
     states: Vec<Unrotated>,
 }
 
@@ -53,13 +53,13 @@ impl Memory for Unrotated {
 }
 
 impl GreenNaghdi {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self { elasticity: LinearElastic::new(young, poisson), states: Vec::new() }
     }
 
-    /// The state after a step to F, whose right stretch has these `squares` along `axes`, and the
-    /// Kirchhoff stress (Pa).
+    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). The right stretch has
+    /// these `squares` along `axes`.
     fn after<const D: usize>(
         &self,
         before: &Unrotated,
@@ -79,17 +79,17 @@ impl GreenNaghdi {
     }
 }
 
-/// The part of a tensor along the axes of a scene in D dimensions.
+/// Returns the components of a tensor along the D axes of the scene.
 fn in_plane<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, j| m[(i, j)])
 }
 
-/// A tensor with zeros along the axes that a scene in D dimensions has not.
+/// Extends a tensor from D to three dimensions with zeros.
 fn in_space<const D: usize>(m: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, j| if i < D && j < D { m[(i, j)] } else { 0.0 })
 }
 
-/// The right stretch of a batch of particles: its squares and their axes.
+/// Returns the squared right stretches of a batch of particles, and their axes.
 fn stretch<const D: usize>(def_grad: &[Matrix<D>]) -> (VectorBatch<D>, MatrixBatch<D>) {
     vectorized(
         #[inline(always)]
@@ -160,7 +160,7 @@ impl<const D: usize> Material<D> for GreenNaghdi {
 
 #[cfg(test)]
 impl super::contract::ClosedForms for GreenNaghdi {
-    /// One step has the logarithmic strain.
+    /// The strain of one step is the logarithmic strain.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let shear = 2.0 * self.elasticity.mu * e;

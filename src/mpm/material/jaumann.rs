@@ -3,8 +3,8 @@
 //! `tau_dot = lambda tr(d) I + 2 mu d + w tau - tau w` for the Kirchhoff stress `tau = J sigma`,
 //! with the symmetric part d and the skew part w of the velocity gradient. Johnson & Bammann (1984)
 //! compare such rates. In a step `I + grad v dt = v R`, R rotates the stress and `ln v` is the
-//! strain increment: exact under any rotation, and of order 2 in the time step. The work of the
-//! stress in a closed cycle of deformation is not zero, so that there is no energy.
+//! strain increment. The integration is exact under any rotation, and of order 2 in the time step.
+//! The work of the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::linear_elastic::LinearElastic;
@@ -18,14 +18,14 @@ use crate::mpm::foundation::simd::{BATCH, vectorized};
 pub struct Jaumann(LinearElastic);
 
 impl Jaumann {
-    /// From Young's modulus (Pa) and Poisson's ratio.
+    /// Creates the law from Young's modulus (Pa) and Poisson's ratio.
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(LinearElastic::new(young, poisson))
     }
 }
 
-/// The left stretch of the steps of a batch of particles: its squares, its logarithms, and their
-/// axes.
+/// Returns the squares and the logarithms of the left stretch of `I + grad v dt`, and their axes,
+/// for a batch of particles.
 fn stretch<const D: usize>(
     grad_v: &[Matrix<D>],
     dt: f64,
@@ -94,7 +94,7 @@ impl<const D: usize> Material<D> for Jaumann {
 
 #[cfg(test)]
 impl super::contract::ClosedForms for Jaumann {
-    /// One step has the logarithmic strain.
+    /// The strain of one step is the logarithmic strain.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let shear = 2.0 * self.0.mu * e;
@@ -111,7 +111,7 @@ impl super::contract::ClosedForms for Jaumann {
         None
     }
 
-    /// The logarithm of a stretch has the rounding of the stretch.
+    /// The logarithm of a stretch inherits the rounding error of the stretch.
     fn rounding(&self) -> f64 {
         4.0 * f64::EPSILON * self.wave_modulus(1.0)
     }

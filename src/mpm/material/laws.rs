@@ -92,8 +92,8 @@ fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
         let expected = law.energy_density(&spaced).zip(rest).map(|(energy, rest)| energy - rest);
         let found = found.map(|found| found - start);
         let Some((found, expected)) = found.zip(expected) else { return };
-        // The expected value is a difference of large numbers, so its rounding error has the size
-        // of the moduli.
+        // The expected value is a difference of large numbers, so its rounding error is
+        // proportional to the moduli.
         assert_relative_eq!(found, expected, max_relative = tolerance, epsilon = 3e-13);
     }
 }

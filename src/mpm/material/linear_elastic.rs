@@ -125,7 +125,7 @@ impl<const D: usize> Material<D> for LinearElastic {
 
     /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with
     /// `eps = ln J`. The work per reference volume, the integral of `J sigma d eps`, is
-    /// `M (eps e^eps - e^eps + 1)`. It is evaluated with the eps of the stress. In 2-D and 3-D the
+    /// `M (eps e^eps - e^eps + 1)`. The function computes eps from the stress. In 2-D and 3-D the
     /// work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;

@@ -47,7 +47,8 @@ impl MaterialPlan {
         }
     }
 
-    /// Returns Young's modulus (Pa) and Poisson's ratio of a solid.
+    /// Returns Young's modulus (Pa) and Poisson's ratio; `None` for a material without these
+    /// parameters.
     pub fn elasticity(&self) -> Option<(f64, f64)> {
         Some((self.parameter("young")?, self.parameter("poisson")?))
     }

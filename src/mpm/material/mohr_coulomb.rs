@@ -1,14 +1,13 @@
 //! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
 //!
-//! Yield if `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal Kirchhoff stresses
-//! `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi instead of phi. The
-//! return goes to a plane, to one of the two edges between planes of neighbouring orders, or to the
+//! The material yields if `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal
+//! Kirchhoff stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi
+//! instead of phi. The return goes to a plane, to one of the two edges of this plane, or to the
 //! apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0 this is
-//! Tresca's law, which has no apex. The integration is that of
-//! [`plastic_flow`](super::plastic_flow).
+//! Tresca's law, which has no apex. [`plastic_flow`](super::plastic_flow) integrates the law.
 //!
-//! Without dilation the flow cannot lower a tension beyond the apex: the return to the apex is then
-//! a tension cut-off, which is not part of the flow rule.
+//! Without dilation, plastic flow does not change the mean stress. If the mean stress is above the
+//! apex, the return to the apex is then a tension cut-off, which is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
@@ -28,10 +27,10 @@ pub struct Pyramid {
     strength: f64,
 }
 
-/// Negative part of the flow on an edge that rounding explains.
+/// Relative size of a negative flow on an edge that counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// A plane of the pyramid, by the places of the largest and the smallest stress.
+/// A plane of the pyramid: the indices of the largest and the smallest principal stress.
 type YieldPlane = [usize; 2];
 
 /// Part of the pyramid on which a return ends.
@@ -43,8 +42,8 @@ enum Landing {
 }
 
 impl MohrCoulomb {
-    /// From Young's modulus (Pa), Poisson's ratio, the angles of friction and of dilation
-    /// (degrees), and the cohesion (Pa).
+    /// Creates the law from Young's modulus (Pa), Poisson's ratio, the angles of friction and of
+    /// dilation (degrees), and the cohesion (Pa).
     pub fn new(
         young: f64,
         poisson: f64,
@@ -60,13 +59,13 @@ impl MohrCoulomb {
 }
 
 impl Pyramid {
-    /// Value of the yield function (Pa) of a plane.
+    /// Returns the yield function of a plane (Pa).
     fn excess(&self, [high, low]: YieldPlane, stress: &Vector<3>) -> f64 {
         let sine = self.sines[0];
         (1.0 + sine) * stress[high] - (1.0 - sine) * stress[low] - self.strength
     }
 
-    /// Stress (Pa) that a unit of flow on a plane takes away.
+    /// Returns the stress reduction per unit of flow on a plane (Pa).
     fn relief(&self, [high, low]: YieldPlane) -> Vector<3> {
         let (LogElasticity { lambda, mu, .. }, sine) = (&self.elasticity, self.sines[1]);
         let mut relief = Vector::<3>::from_element(2.0 * lambda * sine);
@@ -75,19 +74,20 @@ impl Pyramid {
         relief
     }
 
-    /// Value of a plane's yield function (Pa) that a unit of flow on another plane takes away.
+    /// Returns the reduction of the yield function of `plane` per unit of flow on the plane `of`
+    /// (Pa).
     fn slope(&self, plane: YieldPlane, of: YieldPlane) -> f64 {
         self.excess(plane, &self.relief(of)) + self.strength
     }
 
-    /// The stress on the plane.
+    /// Returns the stress after a return to the plane (Pa).
     fn on_plane(&self, plane: YieldPlane, trial: &Vector<3>) -> Vector<3> {
         let flow = self.excess(plane, trial) / self.slope(plane, plane);
         trial - self.relief(plane) * flow
     }
 
-    /// Flow on each of two planes that takes away the values `excess` of both yield functions, or
-    /// the derivatives of these flows for derivatives of the values.
+    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. Also
+    /// converts derivatives of these reductions to derivatives of the flows.
     fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
@@ -98,8 +98,8 @@ impl Pyramid {
         [(f_a * bb - f_b * ab) / determinant, (f_b * aa - f_a * ba) / determinant]
     }
 
-    /// The stress on the edge of two planes; `None` if a flow is negative beyond rounding, as it is
-    /// away from the edge.
+    /// Returns the stress after a return to the edge of two planes (Pa). `None` if a flow is
+    /// negative: the return does not end on this edge.
     fn on_edge(&self, [a, b]: [YieldPlane; 2], trial: &Vector<3>) -> Option<Vector<3>> {
         let excess = [self.excess(a, trial), self.excess(b, trial)];
         let [flow_a, flow_b] = self.flows([a, b], excess);
@@ -108,8 +108,9 @@ impl Pyramid {
             .then(|| trial - self.relief(a) * flow_a - self.relief(b) * flow_b)
     }
 
-    /// The stress after the return from a trial stress outside, whose largest, middle and smallest
-    /// values are at the places `order`, and the part of the pyramid that it is on.
+    /// Returns the stress (Pa) after the return of a trial stress outside the pyramid, and the part
+    /// of the pyramid on which the return ends. The first argument is the order from
+    /// [`Self::outside`].
     fn returned(&self, [high, middle, low]: [usize; 3], trial: &Vector<3>) -> (Vector<3>, Landing) {
         let plane = [high, low];
         let stress = self.on_plane(plane, trial);
@@ -132,13 +133,13 @@ impl Pyramid {
         } else {
             low_edge().or_else(high_edge)
         };
-        // The edges of Tresca's prism never meet: the sine is above zero here.
+        // Tresca's prism has no apex, so the sine is above zero here.
         let apex = || Vector::<3>::from_element(self.strength / (2.0 * self.sines[0]));
         edge.unwrap_or_else(|| (apex(), Landing::Apex))
     }
 
-    /// The trial stress with the places of its largest, middle and smallest value; `None` if it is
-    /// inside.
+    /// Returns the trial stress (Pa), and the indices of its largest, middle and smallest value.
+    /// `None` if the stress is inside the pyramid.
     fn outside(&self, trial: &PrincipalStrain) -> Option<(Vector<3>, [usize; 3])> {
         let stress = self.elasticity.stress(trial);
         let mut order = [0, 1, 2];
@@ -146,7 +147,8 @@ impl Pyramid {
         (self.excess([order[0], order[2]], &stress) > 0.0).then_some((stress, order))
     }
 
-    /// Derivatives of a plane's yield function (Pa) by the principal trial strains.
+    /// Returns the derivatives of a plane's yield function (Pa) with respect to the principal trial
+    /// strains.
     fn excess_slope(&self, [high, low]: YieldPlane) -> Vector<3> {
         let sine = self.sines[0];
         let mut normal = Vector::<3>::zeros();
@@ -199,7 +201,7 @@ impl YieldSurface for Pyramid {
         })
     }
 
-    /// Yield on one plane, as long as the third stress is between the others.
+    /// The material yields on one plane while the third stress is between the other two.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let ([s, sp], LogElasticity { lambda, mu, .. }) = (self.sines, self.elasticity);
@@ -224,10 +226,10 @@ mod tests {
     use proptest::prelude::*;
     use rstest::rstest;
 
-    /// Angles, a path of logarithmic strain, and the principal Kirchhoff stresses at its end:
-    /// closed forms that were computed by an independent program. Uniaxial paths lie on an edge,
-    /// isochoric ones on a plane; the second isochoric path ends on an edge, where two stresses are
-    /// equal.
+    /// Angles, a path of logarithmic strain, and the expected principal Kirchhoff stresses at the
+    /// end of the path, which an independent program computed from closed forms. Uniaxial paths
+    /// return to an edge, isochoric paths to a plane. The path `isochoric_to_an_edge` ends on an
+    /// edge.
     #[rstest]
     #[case::compression([30.0, 10.0], &[[-0.01, 0.0, 0.0]], [-196.127_569_232, -53.828_851_027, -53.828_851_027])]
     #[case::in_steps(
@@ -262,8 +264,8 @@ mod tests {
     }
 
     proptest! {
-        /// After a return no yield function is positive in any order of the stresses, and one is
-        /// zero: a wrong edge leaves one positive.
+        /// After a return, no yield function is positive, and at least one is zero. A return to the
+        /// wrong edge would leave a positive value.
         #[test]
         fn a_return_ends_on_the_pyramid(
             strain in proptest::array::uniform3(-0.05..0.05_f64),
@@ -282,8 +284,8 @@ mod tests {
             }
         }
 
-        /// A trial stress that returns to a plane next to an edge, within rounding: the return to
-        /// the edge has zero flow on the other plane, which rounding makes negative.
+        /// The trial stress returns to the edge of a plane, up to rounding. There the flow on the
+        /// other plane is zero, and rounding can make this flow negative.
         #[test]
         fn a_return_to_the_rim_of_a_plane_ends_there(
             friction in prop_oneof![Just(0.0), 0.0..50.0_f64],

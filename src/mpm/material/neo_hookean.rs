@@ -188,8 +188,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The squares of such strains are far below rounding. All elastic laws then have the same
-    /// quadratic form.
+    /// The squares of strains of size 1e-9 are far below rounding. All elastic laws then have the
+    /// same quadratic form.
     #[test]
     fn tiny_strains_store_an_energy_too() {
         let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);
