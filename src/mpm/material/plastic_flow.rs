@@ -5,8 +5,9 @@
 //! with the elastic strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter
 //! 14). With the exponential map, the return in `eps` has the same form as in small strain, along
 //! the axes of the trial strain. A yield surface is therefore a function of principal values. The
-//! plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is a function of F
-//! alone, so a body that starts deformed needs only its F, and an elastic state does not drift.
+//! plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is computed from the
+//! total F and not from increments, so a body that starts deformed needs only F, and an elastic
+//! state does not drift.
 //!
 //! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.
@@ -77,9 +78,10 @@ impl PrincipalStrain {
     }
 }
 
-/// Returns the derivatives of `mean 1 + length n` with respect to the strains, where `n` is the
-/// direction of the strain deviator. The derivatives of the mean and of the length are given as
-/// rows. The direction rotates by `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
+/// Returns the derivatives of `mean 1 + length n` with respect to the principal strains, where `1`
+/// is the vector of ones and `n` the direction of the strain deviator. `mean_slope` and
+/// `length_slope` are the derivatives of the mean and of the length. The direction changes by
+/// `(I - 1 (x) 1/3 - n (x) n) deps / |dev eps|`.
 pub(super) fn modulus_of_invariants(
     strain: &PrincipalStrain,
     mean_slope: &Vector<3>,
@@ -165,13 +167,12 @@ impl Memory for Flowed {
 }
 
 impl<S: YieldSurface> ElastoPlastic<S> {
-    /// Creates a law without initial plastic flow.
     pub(super) fn with_surface(surface: S) -> Self {
         Self { surface, flowed: Vec::new() }
     }
 
-    /// Returns the Kirchhoff stress at F and the plastic state after the return. The trial strain
-    /// is given along its axes.
+    /// Returns the Kirchhoff stress at F and the plastic state after the return. `strain` contains
+    /// the principal trial strains along `axes`.
     fn kirchhoff(
         &self,
         f: &Matrix<3>,

@@ -99,7 +99,7 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// Returns a symmetric stress (Pa) with shear. Its magnitude is that of the moduli.
+    /// Returns a symmetric stress (Pa) with shear, as large as the moduli.
     fn initial<const D: usize>() -> Matrix<D> {
         let all = scattered::<D>(20.0, 0.8);
         all + all.transpose()

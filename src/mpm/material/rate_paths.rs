@@ -7,7 +7,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
-/// The Jaumann rate with lambda = mu = 1 Pa.
+/// Material with the Jaumann rate. All materials of these tests have lambda = mu = 1 Pa.
 const JAUMANN: MaterialPlan = MaterialPlan::Jaumann { young: 2.5, poisson: 0.25 };
 const GREEN_NAGHDI: MaterialPlan = MaterialPlan::GreenNaghdi { young: 2.5, poisson: 0.25 };
 const LOGARITHMIC: MaterialPlan = MaterialPlan::Hencky { young: 2.5, poisson: 0.25 };
@@ -53,7 +53,8 @@ fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     (rows[0], order)
 }
 
-/// Tests components 11 and 12 in simple shear, which the rates compute with order 2.
+/// Tests components 11 and 12 of the stress in simple shear. The integration of the rates has order
+/// 2.
 #[rstest]
 #[case::jaumann(JAUMANN, 1.0, [0.459_697_694_1, 0.841_470_984_8])]
 #[case::jaumann_far(JAUMANN, 3.0, [1.989_992_496_6, 0.141_120_008_1])]

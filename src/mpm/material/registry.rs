@@ -11,8 +11,8 @@ macro_rules! materials {
             pub use $file::$member;
         )+
 
-        /// A material in the notation of suites: its name, its parameters and its density, each a
-        /// number type `N`.
+        /// A material as written in a suite: its name, parameters and density. `N` is the type of
+        /// the values.
         #[derive(Debug, Clone, PartialEq, serde::Deserialize)]
         #[cfg_attr(
             feature = "schemas",
@@ -36,7 +36,7 @@ macro_rules! materials {
             )+
         }
 
-        /// A material that is ready to be built: its name and parameters.
+        /// A material with evaluated parameters.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum MaterialPlan {
             $(
@@ -74,7 +74,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Reference density (kg/m3), a number or a formula of the coordinates.
+            /// Returns the reference density (kg/m3), a number or a formula of the coordinates.
             pub fn density(&self) -> &N {
                 match self {
                     $(Self::$member { density, .. } => density,)+
@@ -135,7 +135,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Returns one instance of every registered material, for the law tests.
+            /// Returns one instance of every registered material, for tests of all materials.
             pub fn every(value: impl Fn(&MaterialParameter) -> f64) -> Vec<Self> {
                 vec![$(Self::$member { $($field: value(&$parameter)),* }),+]
             }

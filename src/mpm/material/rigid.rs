@@ -5,7 +5,7 @@ use super::stress_update::StressUpdate;
 #[cfg(test)]
 use crate::mpm::foundation::algebra::Matrix;
 
-/// A rigid body at rest. Nothing is computed for its motion, and its stress is never read.
+/// A rigid body at rest. The solver computes no motion and never reads the stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rigid;
 

@@ -10,7 +10,7 @@ use rstest::rstest;
 /// Number of steps of a path.
 const STEPS: u32 = 40;
 
-/// Largest error of a component, as a fraction of the largest stress of the path.
+/// Maximum error of a stress component, as a fraction of the largest stress of the path.
 const TOLERANCE: f64 = 1e-10;
 
 /// A path of principal logarithmic strains, with the closed form of the principal Kirchhoff
@@ -21,8 +21,8 @@ struct SoilPath {
 }
 
 impl SoilPath {
-    /// Creates the path over these parameters. The closures return the strain and the stress of
-    /// each.
+    /// Creates a path with one point per parameter. The closures return the strain and the stress
+    /// at a parameter.
     fn through(
         parameters: impl Iterator<Item = f64>,
         strain: impl Fn(f64) -> [f64; 3],
@@ -135,8 +135,8 @@ impl PyramidPaths {
     fn uniaxial(self, e: f64) -> [f64; 3] {
         let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
         let m = l + 2.0 * mu;
-        // Overstress, and changes of the axial and lateral stress per unit of the plastic
-        // multiplier.
+        // Elastic increase of the yield function per unit of strain, and changes of the axial and
+        // lateral stress per unit of the plastic multiplier.
         let (towards, axial, lateral) = if e < 0.0 {
             let axial = -4.0 * l * sp + 4.0 * mu * (1.0 - sp);
             let lateral = -4.0 * l * sp - 2.0 * mu * (1.0 + sp);
@@ -195,7 +195,7 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
     let soil = PyramidPaths::soil(angles);
     let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
     path.assert(soil.plan(), angle);
-    // At larger strains the stress is on an edge.
+    // At larger strains the stress is on an edge, where the closed form is not valid.
     let path = SoilPath::through(up_to(end.abs().min(0.01)), isochoric, |e| soil.isochoric(e));
     path.assert(soil.plan(), angle);
 }
@@ -218,8 +218,8 @@ fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
     unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
 }
 
-/// Tests such a cycle. `axial` and `lateral` are the elastic moduli (Pa) for strain along the first
-/// axis.
+/// Tests a path with two cycles of unloading and reloading. `axial` and `lateral` are the elastic
+/// moduli (Pa) for strain along the first axis.
 fn unload(
     plan: MaterialPlan,
     loading: impl Fn(f64) -> [f64; 3],
@@ -255,9 +255,9 @@ fn one_step_has_the_stress_of_many() {
     }
 }
 
-/// The clay stays at a constant stress ratio or inside the yield surface. Tests isotropic
-/// compression through the preconsolidation pressure, and uniaxial and isochoric strain of
-/// overconsolidated clay.
+/// On these paths the clay stays at a constant stress ratio or inside the yield surface, where the
+/// integration is exact. Tests isotropic compression through the preconsolidation pressure, and
+/// uniaxial and isochoric strain of overconsolidated clay.
 #[rstest]
 fn clay_has_its_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
     let clay = |preconsolidation| MaterialPlan::CamClay {

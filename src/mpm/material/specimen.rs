@@ -117,7 +117,6 @@ impl<const D: usize> Specimen<D> {
         self.0.energy(&self.1)
     }
 
-    /// Returns the out-of-plane stretch.
     pub(super) fn across(&self) -> f64 {
         self.1.across[0]
     }

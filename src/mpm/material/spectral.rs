@@ -76,7 +76,6 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
 pub(in crate::mpm::material) struct MatrixBatch<const D: usize>([[F64Batch; D]; D]);
 
 impl<const D: usize> MatrixBatch<D> {
-    /// Returns identity matrices for all particles.
     #[inline(always)]
     pub(in crate::mpm::material) fn identity() -> Self {
         let mut all = Self([[F64Batch::ZERO; D]; D]);
@@ -86,7 +85,6 @@ impl<const D: usize> MatrixBatch<D> {
         all
     }
 
-    /// Sets the matrix of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn set(&mut self, lane: usize, m: &Matrix<D>) {
         for j in 0..D {
@@ -96,7 +94,6 @@ impl<const D: usize> MatrixBatch<D> {
         }
     }
 
-    /// Returns the matrix of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn get(&self, lane: usize) -> Matrix<D> {
         let mut m = Matrix::zeros();
@@ -116,7 +113,6 @@ pub(in crate::mpm::material) struct VectorBatch<const D: usize>(
 );
 
 impl<const D: usize> VectorBatch<D> {
-    /// Returns the vector of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn get(&self, lane: usize) -> Vector<D> {
         let mut vector = Vector::zeros();
@@ -126,7 +122,6 @@ impl<const D: usize> VectorBatch<D> {
         vector
     }
 
-    /// Sets the vector of particle `lane` of the batch.
     #[inline(always)]
     pub(in crate::mpm::material) fn set(&mut self, lane: usize, vector: &Vector<D>) {
         for i in 0..D {
@@ -134,7 +129,6 @@ impl<const D: usize> VectorBatch<D> {
         }
     }
 
-    /// Applies `f` to every number.
     #[inline(always)]
     pub(in crate::mpm::material) fn map(mut self, f: impl Fn(&F64Batch) -> F64Batch) -> Self {
         for i in 0..D {
@@ -220,7 +214,7 @@ fn rotate_batch<const D: usize>(
         let cotangent = (high - low) / (2.0 * coupling);
         let tangent =
             1.0_f64.copysign(cotangent) / (cotangent.abs() + (1.0 + cotangent * cotangent).sqrt());
-        // A zero angle changes no number.
+        // A rotation by zero leaves all numbers bit-identical.
         let tangent = if settled { 0.0 } else { tangent };
         cosine.0[lane] = 1.0 / (1.0 + tangent * tangent).sqrt();
         sine.0[lane] = tangent * cosine.0[lane];

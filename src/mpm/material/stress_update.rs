@@ -19,7 +19,7 @@ const BLOCK: usize = 128;
 pub struct StressUpdate<'a, const D: usize> {
     dt: f64,
     particles: &'a mut Particles<D>,
-    /// Whether F is still that of the start of the step.
+    /// Whether F still has its value at the start of the step.
     awaits_strain: bool,
     /// Smallest J of the last visit, if all J were positive and all stresses finite.
     least_j: Option<f64>,
@@ -51,13 +51,13 @@ pub struct StressBlock<'a, const D: usize> {
 type BlockLaw<'a, const D: usize, S> = dyn Fn(&mut StressBlock<'_, D>, &mut [S]) + Sync + 'a;
 
 impl<'a, const D: usize> StressUpdate<'a, D> {
-    /// Creates an update over `dt` (s). F must already belong to the end of the step.
+    /// Creates an update over `dt` (s). F must already have its value at the end of the step.
     pub fn new(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// Creates an update over `dt` (s) for particles whose F is that of the start of the step. The
-    /// velocity gradients advance F in the same visit as the law.
+    /// Creates an update over `dt` (s) for particles with F at the start of the step. The velocity
+    /// gradients advance F in the same visit as the law.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }

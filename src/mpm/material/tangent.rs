@@ -106,7 +106,6 @@ mod tests {
     use crate::mpm::foundation::algebra::det;
     use approx::assert_relative_eq;
 
-    /// Whether the law declares a tangent.
     fn has_tangent(plan: &MaterialPlan) -> bool {
         plan.properties().has_tangent().is_ok()
     }

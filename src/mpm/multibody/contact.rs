@@ -4,7 +4,7 @@
 //! Each body has its own velocity at an interface node. Two bodies that approach,
 //! `(v_a - v_b) . n > 0`, receive equal and opposite impulses, which make the normal velocities
 //! equal. The impulses also make the tangential velocities equal, unless this requires more than
-//! the friction limit, mu times the normal impulse. Bodies that separate are not changed.
+//! the friction limit, mu times the normal impulse. Separating bodies receive no impulse.
 //!
 //! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
 //! normal from the mass of each body. Two such normals are not opposite, so the impulses would not
@@ -37,7 +37,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     pairs: Vec<[usize; 2]>,
     /// Contact state after the last impulse, for each node and pair of bodies.
     states: Vec<ContactState>,
-    /// Mapped velocities of each body (m/s), if strains are updated first.
+    /// Mapped velocities of each body (m/s), if the scheme is USF.
     mapped: Vec<Vec<Vector<D>>>,
 }
 
@@ -59,7 +59,6 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Computes the mass gradients of the bodies.
     fn find_normals(&mut self, bodies: &mut [Solver<D>]) {
         for (body, outwards) in bodies.iter_mut().zip(&mut self.outwards) {
             let Setup { kernel, particles, grid, .. } = &body.setup;

@@ -38,7 +38,6 @@ impl InterfaceNodes {
         Self(Vec::with_capacity(bodies.first().map_or(0, |body| body.grid().nodes())))
     }
 
-    /// Finds the interface nodes of the current step.
     pub(in crate::mpm) fn find<const D: usize>(&mut self, bodies: &[Solver<D>]) {
         self.0.clear();
         let Some(first) = bodies.first() else { return };
@@ -47,7 +46,6 @@ impl InterfaceNodes {
         self.0.extend((0..first.grid().nodes()).filter(|node| present(*node) > 1));
     }
 
-    /// Returns the interface nodes.
     pub(in crate::mpm) fn nodes(&self) -> &[usize] {
         &self.0
     }

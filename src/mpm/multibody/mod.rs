@@ -130,7 +130,7 @@ impl<const D: usize> Subject for Bodies<D> {
         for solver in &self.solvers {
             solver.particles().sample(samples);
         }
-        // The column must be empty if some body does not have it.
+        // If any body has no deformation gradients, the column must be empty.
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }

@@ -119,7 +119,6 @@ impl<const D: usize> StepEquations<D> {
         Ok(balance)
     }
 
-    /// Returns the functions of particle `p`.
     pub(super) fn functions_of(&self, p: usize) -> &[NodeFunction<D>] {
         let start = if p == 0 { 0 } else { self.ends[p - 1] };
         &self.functions[start..self.ends[p]]

@@ -143,7 +143,7 @@ impl<const D: usize> QuasiStatic<D> {
                 particles.x[p] += increment[function.node] * function.weight;
             }
         }
-        // F is already that of the end of the step.
+        // F already has its value at the end of the step.
         material.update(&mut StressUpdate::new(0.0, particles));
         if kernel.domain() == Domain::Follows {
             particles.track_domains();

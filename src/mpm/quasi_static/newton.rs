@@ -105,7 +105,7 @@ impl<const D: usize> LoadStep<'_, D> {
         for _ in 0..=MOST_HALVINGS {
             let moved = now.increment.iter().zip(&correction);
             let next = self.iterate(moved.map(|(u, change)| u + change * share).collect());
-            // An increment that inverts a particle gives no stress, and its iterate is an error.
+            // An increment that inverts a particle gives an error instead of an iterate.
             let next = next
                 .ok()
                 .filter(|next| !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm);
