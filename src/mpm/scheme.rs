@@ -17,7 +17,7 @@ named! {
         Usl = "usl",
         /// Modified update stress last: the updated particle velocities are mapped back to the
         /// grid, and the resulting velocity updates stress and position (the "modified Lagrangian"
-        /// algorithm of the talk; Sulsky, Zhou & Schreyer 1995).
+        /// algorithm of Wobbes & Tielen 2015; Sulsky, Zhou & Schreyer 1995).
         Musl = "musl",
     }
 }

@@ -41,8 +41,8 @@ impl<'a> Checkpoint<'a> {
         Self(Way::Out(Vec::new()))
     }
 
-    /// Creates a checkpoint from the bytes of [`Checkpoint::into_bytes`]. The same visits must read
-    /// it.
+    /// Creates a checkpoint from the bytes of [`Checkpoint::into_bytes`]. The same sequence of
+    /// visits must read these bytes.
     pub fn from_bytes(bytes: &'a [u8]) -> Self {
         Self(Way::In(bytes))
     }
@@ -65,8 +65,8 @@ impl<'a> Checkpoint<'a> {
         memory.visit(self);
     }
 
-    /// Records a number that the set-up determines. If it differs on restoring, the checkpoint is
-    /// invalid.
+    /// Records a number that the set-up determines. If the number differs when the bytes are read,
+    /// the checkpoint is invalid.
     pub fn same(&mut self, number: usize) {
         let mut found = number as u64;
         self.visit(&mut found);
@@ -75,7 +75,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Marks the last value that was read as invalid.
+    /// Marks the checkpoint as invalid, because of the last value that was read.
     pub fn refuse(&mut self) {
         self.0 = Way::Misfit;
     }
@@ -142,7 +142,7 @@ impl Memory for bool {
     }
 }
 
-/// The length of a slice is fixed, so it is not stored.
+/// The length of a slice is fixed. It is stored only to detect bytes that do not fit.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());

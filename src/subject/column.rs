@@ -1,5 +1,5 @@
-//! Columns of the state of a subject, with their numbers and their size in memory. Also the cost of
-//! a step: its passes, the visited particles and the columns.
+//! Columns of a subject's state, with their numbers and memory size, and the cost profile of a
+//! step.
 
 /// Owner of the entries of a column: particles or nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,12 +115,12 @@ pub struct Profile {
     pub particles: usize,
     /// Number of grid nodes.
     pub nodes: usize,
-    /// Columns of the memory, without empty ones.
+    /// Non-empty columns in memory.
     pub columns: Vec<ColumnSize>,
     /// Passes of one step in order, from [`Subject::passes`](super::Subject::passes).
     pub passes: Vec<String>,
-    /// Names of the parts of the passes of one step, each with the number of particles that it
-    /// visits. A part that runs twice counts twice.
+    /// Quantities that the passes of one step compute, each with the number of visited particles. A
+    /// quantity that is computed twice counts twice.
     pub visits: Vec<(&'static str, u64)>,
 }
 

@@ -18,7 +18,7 @@ named! {
         Constraints = "constraints",
         /// Nodal velocities are mapped to particles.
         GridToParticle = "grid_to_particle",
-        /// Particles keep velocities that differ from the mapped ones.
+        /// Particles retain velocities that differ from the mapped ones.
         ParticleVelocity = "particle_velocity",
         /// Effects change velocities of particles.
         Effects = "effects",
@@ -30,7 +30,7 @@ named! {
 }
 
 impl LedgerStage {
-    /// Stages of the maps between particles and grid and of the mass matrix.
+    /// Stages of the transfer: the maps between particles and grid, the mass matrix and walls.
     pub const TRANSFER: [Self; 5] = [
         Self::ParticleToGrid,
         Self::NodalVelocity,
@@ -40,7 +40,7 @@ impl LedgerStage {
     ];
 }
 
-/// Changes of the energy of a body by stage, summed over steps, and the energy itself.
+/// Energy changes of a body by stage, summed over steps, with the initial and the current energy.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     entries: [f64; LedgerStage::ALL.len()],
@@ -96,8 +96,8 @@ impl EnergyBalance {
         LedgerStage::TRANSFER.iter().map(|stage| self.entry(*stage)).sum()
     }
 
-    /// Returns the change of the stored energy (J) that no work of the internal forces on the grid
-    /// explains.
+    /// Returns the change of the stored energy (J) that the work of the internal forces does not
+    /// balance.
     pub fn stress_work_error(&self) -> f64 {
         self.entry(LedgerStage::InternalForce) + self.entry(LedgerStage::Stored)
     }
@@ -107,7 +107,7 @@ impl EnergyBalance {
 mod tests {
     use super::*;
 
-    /// Entries 1, 2, 4, ... J, so that each sum has one set of terms.
+    /// Creates a balance with the entries 1, 2, 4, ... J, so each sum identifies its terms.
     fn balance() -> EnergyBalance {
         let mut balance = EnergyBalance::new(7.0);
         let entries = std::array::from_fn(|i| f64::from(1_u16 << i));

@@ -1,4 +1,4 @@
-//! Functionals of the final state of a run, and the parameters of a problem that they depend on.
+//! Functionals of the final state of a run, and the problem parameters for their derivatives.
 
 use crate::named::named;
 use serde::Serialize;
@@ -10,13 +10,13 @@ named! {
         Young = "young",
         /// Poisson's ratio.
         Poisson = "poisson",
-        /// Reference density (kg/m3). All masses are proportional to it.
+        /// Reference density (kg/m3). All masses are proportional to the density.
         Density = "density",
         /// Yield stress (Pa).
         Yield = "yield",
         /// Linear hardening modulus (Pa).
         Hardening = "hardening",
-        /// Coefficient of friction of the faces.
+        /// Coefficient of friction on faces.
         Friction = "friction",
         /// Factor on the whole initial velocity field; its nominal value is 1.
         InitialVelocity = "initial_velocity",

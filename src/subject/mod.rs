@@ -60,9 +60,9 @@ pub trait Subject {
         None
     }
 
-    /// Passes all state to `checkpoint` that affects later steps and that the set-up does not
-    /// restore. A subject with an equal set-up can then resume with identical bits. Returns false
-    /// if the subject does not support checkpoints.
+    /// Passes to `checkpoint` all state that affects later steps and that the set-up does not
+    /// restore. A subject with an equal set-up can then resume bit-identically. Returns false if
+    /// the subject does not support checkpoints.
     fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
         false
     }
@@ -75,8 +75,8 @@ pub trait Subject {
         None
     }
 
-    /// Changes of the energy by each stage of the steps so far; `None` by default, and before the
-    /// first step.
+    /// Returns the energy changes of each stage, summed over the steps so far; `None` by default,
+    /// and before the first step.
     fn energy_balance(&self) -> Option<EnergyBalance> {
         None
     }
@@ -89,8 +89,8 @@ pub trait Perturbable: Subject {
     /// continue to advance.
     fn fix_configuration(&mut self);
 
-    /// Writes all numbers that a step reads and changes to `state`, except the configuration. Their
-    /// number and order do not change.
+    /// Writes to `state` all numbers that a step reads and changes, except the configuration. The
+    /// number and order of the entries never change.
     fn state(&self, state: &mut Vec<f64>);
 
     /// Sets the state from numbers in the order of [`Perturbable::state`].
@@ -107,8 +107,8 @@ named! {
     /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
     /// a step behind. So the start determines the order in time.
     pub enum Start {
-        /// `v(-dt/2) = v0`, as in the talk. This is a velocity error of `dt/2 a0`: first order in
-        /// time, unless the initial acceleration `a0` is zero.
+        /// `v(-dt/2) = v0`, as in Wobbes & Tielen (2015). The velocity error is `dt/2 a0`: first
+        /// order in time, unless the initial acceleration `a0` is zero.
         AtZero = "at_zero",
         /// `v(-dt/2) = v0 - dt/2 a0`, the "CD" start of Wallstedt & Guilkey (2008): second order.
         HalfStepBack = "half_step_back",
@@ -116,7 +116,7 @@ named! {
 }
 
 /// State at reference labels: `n` labels in `dimension` dimensions, one label after another. If a
-/// subject does not have stress, F or temperature, this column is empty and the quantity cannot be
+/// subject does not have stress, F or temperature, the column is empty and the quantity cannot be
 /// judged.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
@@ -181,8 +181,8 @@ impl Samples {
     }
 }
 
-/// Deterministic counts and values of a run. They describe its cost and help to explain its error.
-/// `None` if the subject does not have a value.
+/// Deterministic counts and values of a run, which describe the cost of the run and help to explain
+/// the error. `None` if the subject does not have a value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RunCounters {
@@ -348,7 +348,7 @@ impl Totals {
         }
     }
 
-    /// Kinetic and stored energy together (J).
+    /// Returns the sum of kinetic and stored energy (J); `None` if the law defines no energy.
     pub fn energy(&self) -> Option<f64> {
         self.strain_energy.map(|stored| self.kinetic_energy + stored)
     }
@@ -380,7 +380,7 @@ impl Totals {
 pub struct Reaction {
     /// Time (s) at which the force acts.
     pub time: f64,
-    /// The force (N); components beyond the dimension are zero.
+    /// The force (N); components above the dimension are zero.
     pub force: [f64; 3],
 }
 
@@ -390,7 +390,7 @@ pub(crate) const LONGEST_NAME: usize = 64;
 /// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` is a valid solver name. Names of solvers become parts of case and file names.
+/// Whether `name` is a valid solver name. Solver names become parts of case and file names.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)
@@ -400,10 +400,10 @@ named! {
     /// Precision of a solver's numbers.
     #[derive(Default)]
     pub enum Precision {
-        /// 53 bits.
+        /// 53-bit significand.
         #[default]
         Double = "double",
-        /// 24 bits.
+        /// 24-bit significand.
         Single = "single",
     }
 }
@@ -412,10 +412,10 @@ named! {
     /// State of a two-dimensional body across its plane.
     #[derive(Default)]
     pub enum PlaneState {
-        /// Held across: F_33 = 1.
+        /// Plane strain: F_33 = 1.
         #[default]
         Strain = "strain",
-        /// A plate with free faces: sigma_33 = 0.
+        /// Plane stress, a plate with free faces: sigma_33 = 0.
         Stress = "stress",
         /// The meridian plane (r, z) of a body of revolution: F_33 = r/R.
         Axisymmetric = "axisymmetric",

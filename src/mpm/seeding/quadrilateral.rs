@@ -82,8 +82,8 @@ impl Quadrilateral {
         (place, Matrix::from_columns(&[along, across]))
     }
 
-    /// The point of the unit square whose place is `place` (m), by Newton's method from the middle.
-    /// The map of a convex panel has one such point for each place in the panel.
+    /// Returns the point of the unit square that is mapped to `place` (m), by Newton's method from
+    /// the centre. In a convex panel this point is unique.
     pub fn inverse(&self, place: &Vector<2>) -> [f64; 2] {
         const MOST_ITERATIONS: usize = 50;
         let mut point = Vector::<2>::from_element(0.5);
@@ -132,7 +132,7 @@ mod tests {
         Quadrilateral::new(corners.map(Vector::from)).unwrap()
     }
 
-    /// Creates a square with each corner moved by less than a quarter, so that it remains convex.
+    /// Creates a square with each corner moved by less than a quarter, so the panel remains convex.
     fn any() -> impl Strategy<Value = Quadrilateral> {
         prop::array::uniform4(prop::array::uniform2(-0.24..0.24_f64)).prop_map(|moved| {
             let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -22,7 +22,7 @@ pub(in crate::mpm) struct CellTracker<const D: usize> {
 }
 
 impl<const D: usize> CellTracker<D> {
-    /// Finds the cells of particles that have not moved.
+    /// Finds the initial cells of the particles.
     ///
     /// # Errors
     /// [`Failure::LeftDomain`] for the first particle outside all cells.
@@ -33,7 +33,7 @@ impl<const D: usize> CellTracker<D> {
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 
-    /// Completes `counters` of a run with the number of particles and the counters of their cells.
+    /// Adds the numbers of particles, crossings and departures to `counters`.
     pub(in crate::mpm) fn counters(&self, counters: RunCounters) -> RunCounters {
         RunCounters {
             particles: Some(self.cells.len() as u64),
@@ -43,7 +43,6 @@ impl<const D: usize> CellTracker<D> {
         }
     }
 
-    /// Returns the column with the cells of the particles.
     pub(in crate::mpm) fn columns(&self) -> Column<'_> {
         Column::of_particles("cell", &self.cells)
     }
@@ -71,7 +70,7 @@ impl<const D: usize> CellTracker<D> {
     }
 }
 
-/// Numbers of crossings and departures of some particles that have moved.
+/// Crossings and departures in one update of cells.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 struct CellChanges {
     crossings: u64,
@@ -140,7 +139,6 @@ fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> 
     stay
 }
 
-/// Updates the cell of each particle of a batch.
 #[inline(never)]
 fn enter_each<const D: usize>(
     grid: &Grid<D>,

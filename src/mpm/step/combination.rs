@@ -1,4 +1,4 @@
-//! Rules for which parts of a method can be combined.
+//! Rules for valid combinations of the parts of a method.
 
 use super::volume_average::VolumeName;
 use crate::mpm::basis::{BasisName, Domain, with_basis};

@@ -1,4 +1,4 @@
-//! The parts of a solver. Lists their columns for a memory profile and as fields.
+//! The parts of a solver, and lists of their columns for memory profiles and fields.
 
 use super::volume_average::VolumeName;
 use crate::mpm::boundary::Boundary;

@@ -19,14 +19,13 @@ use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
 use crate::subject::{Column, Failure, Profile, Site};
 
-/// The original MPM on one level: one body, with the state that changes from step to step.
+/// The original MPM for one body, with the state that changes from step to step.
 pub struct Solver<const D: usize> {
     pub(in crate::mpm) setup: Setup<D>,
     pub(in crate::mpm) schedule: StepSchedule,
     pub(in crate::mpm) time: f64,
     /// Time to which the velocities belong (s). After the first step, they are half a step behind.
     pub(in crate::mpm) velocity_time: f64,
-    /// Times and length of the last advance of velocities.
     pub(in crate::mpm) advance: Advance,
     pub(in crate::mpm) started: bool,
     pub(in crate::mpm) transfers: u64,
@@ -112,7 +111,6 @@ impl<const D: usize> Solver<D> {
         profile(grid, particles, effects, &self.columns())
     }
 
-    /// Returns all columns of particles and nodes.
     pub(in crate::mpm) fn columns(&self) -> Vec<Column<'_>> {
         let advected = Column::of_particles("advected x", &self.advected);
         let of_average = self.volume_average.iter().flat_map(VolumeAverage::columns);
@@ -120,8 +118,8 @@ impl<const D: usize> Solver<D> {
         self.setup.columns(own.into_iter().chain(of_average))
     }
 
-    /// Returns the parts of passes since the last call, each with the number of visited particles.
-    /// Counting starts with the first call.
+    /// Returns the quantities that passes have computed since the last call, each with the number
+    /// of visited particles. Counting starts with the first call.
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         Tally::take(&[self.setup.kernel.tally()])
     }

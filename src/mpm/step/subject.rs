@@ -1,14 +1,14 @@
 //! Implements [`Subject`] for a solver: the step, checkpoints, and the state as a vector of
 //! numbers.
 //!
-//! A step runs the passes of the schedule in order. Checkpoints name every field, so that the
-//! compiler reports a missing new field. The grid and the advected positions are recomputed in each
-//! step.
+//! A step runs the passes of the schedule in order. Checkpoints name every field, so the compiler
+//! reports a field that a checkpoint omits. The grid and the advected positions are recomputed in
+//! each step.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
 //! its column exists, and the affine state of the transfer. The grid has no state between steps.
-//! Internal variables of a material (plastic flow) are excluded. Positions and domains are the
-//! configuration.
+//! The vector excludes internal variables of a material (plastic flow) and the configuration
+//! (positions and domains).
 
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::{Setup, fields};

@@ -10,11 +10,11 @@
 //! Fbar_p = (Jbar_p/J_p)^(1/D) F_p
 //! ```
 //!
-//! J is that of the end of the step. The weights are those of the start of the step, like the
-//! weights for forces and velocity gradients, because stresses are computed before positions
-//! change. F, J and volumes of a particle are not changed; the internal force uses the volume
-//! `V0 J` and the gradients without averaging. Both averages have the same weights, which sum to
-//! one. So Jbar is between the smallest and largest J, and a uniform J is reproduced.
+//! J belongs to the end of the step. The weights belong to the start of the step, like the weights
+//! for forces and velocity gradients, because stresses are computed before positions change. The
+//! averaging does not change F, J and volume of a particle. The internal force uses the volume
+//! `V0 J` and gradients without averaging. Both averages have the same weights, which sum to one.
+//! So Jbar is between the smallest and largest J, and a uniform J is reproduced.
 //!
 //! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
 //! energy.
@@ -28,9 +28,9 @@ use crate::named::named;
 use crate::subject::{Checkpoint, Column, Failure};
 
 named! {
-    /// Names of the volume ratios at which suites may let a law compute its stress.
+    /// Volume ratios for which a law can compute its stress.
     pub enum VolumeName {
-        /// The volume ratio of the particle itself. The original MPM.
+        /// The volume ratio of the particle itself, as in the original MPM.
         Particle = "particle",
         /// The volume ratio averaged over the nodes of the particle: F-bar, which does not lock
         /// near incompressibility (Zhao, Jiang & Choo 2023, IJNME 124).
@@ -87,7 +87,7 @@ impl<const D: usize> VolumeAverage<D> {
         AveragedLaw { average: self, material, kernel, grid }
     }
 
-    /// Returns the columns with entries for particles and nodes.
+    /// Returns the columns stored per particle and node.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_particles("average of J", &self.ratio),
@@ -166,8 +166,8 @@ pub(in crate::mpm) struct AveragedLaw<'a, const D: usize> {
 }
 
 impl<const D: usize> AveragedLaw<'_, D> {
-    /// Calls `act` with the law and `particles` at averaged volume ratios. The volumes of the
-    /// particles must have been stored.
+    /// Calls `act` with the law and `particles` at averaged volume ratios. Particle volumes must
+    /// already be stored in `own_volume`.
     fn with_average<T>(
         &mut self,
         particles: &mut Particles<D>,
@@ -226,8 +226,8 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
                 *own = vol * det(&(Matrix::identity() + grad_v * dt));
             }
         }
-        // The volume has already advanced. A law that stores only J must therefore not advance it
-        // again.
+        // The volume has already advanced. A law that stores only J must therefore not advance the
+        // volume again.
         let rest = if reads_deformation { dt } else { 0.0 };
         self.with_average(particles, |material, particles| {
             material.update(&mut StressUpdate::new(rest, particles));

@@ -39,10 +39,8 @@ impl TransferParameter {
 }
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
-/// loop over particles return the number of passes for the work counter. Each part of a request
-/// counts as a pass, even if several parts share a visit to the nodes.
-///
-/// A transfer stores its own columns.
+/// loop over particles return the number of passes for the work counter. Each quantity of a request
+/// counts as a pass, even if one visit to the nodes computes several quantities.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {
@@ -53,12 +51,13 @@ pub trait Transfer<const D: usize>: Send + Sync {
     /// initial velocity.
     fn start(&mut self, _: &dyn Kernel<D>, _: &Grid<D>, _: &Particles<D>) {}
 
-    /// Returns the columns with entries for particles or nodes.
+    /// Returns the columns that the transfer stores per particle or node.
     fn columns(&self) -> Vec<Column<'_>> {
         Vec::new()
     }
 
-    /// Requests all parts of P2G. A divergence by fit is combined with velocity gradients by fit.
+    /// Returns the request for all P2G quantities. With [`Divergence::Fit`], velocity gradients are
+    /// also computed by fit.
     fn p2g_request<'a>(&'a self, particles: &'a Particles<D>) -> P2gRequest<'a, D> {
         let momentum = Some(ParticleField { v: &particles.v, affine: None });
         P2gRequest { mass: true, momentum, force: Some(Divergence::Gradient) }
@@ -93,9 +92,8 @@ pub trait Transfer<const D: usize>: Send + Sync {
         0
     }
 
-    /// Requests the parts of G2P that compute the new particle velocities after `dt` (s). The
-    /// moment or gradient of the request is the affine state that the transfer stores between
-    /// steps.
+    /// Returns the G2P request for the new particle velocities after `dt` (s). The moment or
+    /// gradient of the request is the affine state that the transfer stores between steps.
     fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D>;
 
     /// Returns the first moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). Its
@@ -106,7 +104,7 @@ pub trait Transfer<const D: usize>: Send + Sync {
     }
 }
 
-/// Runs one P2G pass with the parts of `request` that `stages` need.
+/// Runs one P2G pass for the quantities of `request` that `stages` need.
 pub(super) fn p2g<const D: usize>(
     request: P2gRequest<'_, D>,
     kernel: &dyn Kernel<D>,
@@ -126,8 +124,8 @@ pub(super) fn p2g<const D: usize>(
 /// Performs G2P over `dt` (s) for `stages` in one pass. The pass computes new velocities, velocity
 /// gradients in `particles.grad_v`, and positions after the step in `advected` (m).
 ///
-/// Returns the number of passes for these parts, except the pass for positions, which is counted
-/// when the particles move.
+/// Returns the number of passes. The pass for positions is not included, because it is counted when
+/// the particles move.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -169,8 +167,7 @@ pub fn g2p<const D: usize>(
     passes
 }
 
-/// Performs G2P that only adds the grid accelerations over `dt` (s) to velocities and affine states
-/// of particles, for a run that starts half a step back.
+/// Adds the grid accelerations over `dt` (s) to the velocities and affine states of the particles.
 pub(in crate::mpm) fn kick<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -181,7 +178,7 @@ pub(in crate::mpm) fn kick<const D: usize>(
     let mut v = std::mem::take(&mut particles.v);
     kernel.g2p(grid, &grid.acceleration, particles, (1.0, dt), &mut v);
     particles.v = v;
-    // The column of velocity gradients is free until the stress stage.
+    // The column of velocity gradients is not used until the stress stage.
     let mut change = std::mem::take(&mut particles.grad_v);
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(dt);
     if moment.is_some() {

@@ -84,7 +84,7 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.quadrature.columns().into_iter().chain(points).collect()
     }
 
-    /// Performs P2G in two passes, because each stage integrates other fields.
+    /// Performs separate P2G passes for each stage, because each stage integrates other fields.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,
@@ -190,9 +190,8 @@ impl<const D: usize> Fit<'_, D> {
     }
 
     /// Returns `mean + g . (x - about)` with the slope g of best fit. The slope is zero if the
-    /// particles do not span all axes. For a single row of particles, a line through the cell mean
-    /// also exists. If the row is near the cell centre, this line is steep and could give negative
-    /// nodal masses.
+    /// particles do not span all axes. Otherwise, a line fitted to a single row of particles near
+    /// the cell centre could be steep and give negative nodal masses.
     fn sloped<T>(
         &self,
         point: &QuadraturePoint<D>,

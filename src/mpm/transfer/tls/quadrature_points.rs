@@ -49,7 +49,6 @@ pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
 impl<const D: usize> Entry for QuadraturePoint<D> {}
 
 impl<const D: usize> QuadraturePoints<D> {
-    /// Returns the columns with entries for points, particles and cells.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 5] {
         [
             Column::of_particles("quadrature point", &self.all),
@@ -72,7 +71,6 @@ impl<const D: usize> QuadraturePoints<D> {
         most
     }
 
-    /// Returns all points.
     pub(in crate::mpm) fn all(&self) -> &[QuadraturePoint<D>] {
         &self.all
     }
