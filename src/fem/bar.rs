@@ -138,7 +138,6 @@ impl Bar {
         Ok(())
     }
 
-    /// Computes F in elements with N nodes and N quadrature points.
     fn deform_elements<const N: usize>(&mut self) -> Result<(), Failure> {
         let (points, mut least) = (self.mesh.points_of::<N>(), self.min_j);
         let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
@@ -274,7 +273,6 @@ impl Subject for Bar {
     }
 }
 
-/// Returns the reason why `def_grad` is not a valid F of the element `cell`.
 #[cold]
 fn no_deformation(cell: usize, def_grad: f64) -> Failure {
     let site = Site::Element(cell);

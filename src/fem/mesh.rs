@@ -8,7 +8,6 @@ use crate::named::named;
 pub(super) struct MeshPoint {
     /// Position in the element: 0 at its left end, 1 at its right end.
     pub(super) place: f64,
-    /// Values of the shape functions.
     pub(super) shape: PerNode,
     /// Derivatives of the shape functions with respect to X (1/m).
     pub(super) gradient: PerNode,
@@ -58,13 +57,11 @@ impl Mesh {
         &self.points
     }
 
-    /// Returns the quadrature points of an element with N nodes and N points.
     #[inline]
     pub(super) fn points_of<const N: usize>(&self) -> &[MeshPoint; N] {
         self.points.first_chunk().unwrap_or_else(|| unreachable!("{N} nodes"))
     }
 
-    /// Returns the nodal values of a cell with N nodes.
     #[inline]
     pub(super) fn nodes_of<const N: usize>(cell: usize, nodal: &[f64]) -> &[f64; N] {
         let local = nodal[cell * (N - 1)..].first_chunk();
@@ -81,7 +78,6 @@ impl Mesh {
         self.cells * self.element.degree() + 1
     }
 
-    /// Returns the reference position of node `i`.
     pub(super) fn node(&self, i: usize) -> f64 {
         self.from + (self.to - self.from) * i as f64 / (self.node_count() - 1) as f64
     }
@@ -140,7 +136,6 @@ named! {
     }
 }
 
-/// Maximum number of nodes of an element.
 const MOST_NODES: usize = 3;
 
 /// One number for each node of an element, from left to right; a linear element ignores the last
@@ -178,13 +173,11 @@ impl Element {
         }
     }
 
-    /// Returns the number of nodes of one element.
     #[inline]
     pub(super) fn nodes(self) -> usize {
         self.degree() + 1
     }
 
-    /// Returns the values of the shape functions.
     pub(super) fn shape(self, xi: f64) -> PerNode {
         match self {
             Self::Linear => [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0],

@@ -225,7 +225,6 @@ impl<const D: usize> MassMatrix<D> for Consistent {
 
 /// Maps the entries of particles to positions in a matrix.
 struct Assembly {
-    /// Positions of the non-zero matrix values.
     pattern: SparsityPattern,
     /// Indices of the entries, grouped by matrix position.
     order: Vec<usize>,

@@ -260,7 +260,6 @@ mod tests {
         checkpoint.into_bytes()
     }
 
-    /// Restores `memory` from `bytes`, and returns whether the bytes fitted.
     fn taken_back(memory: &mut (impl Memory + ?Sized), bytes: &[u8]) -> bool {
         let mut checkpoint = Checkpoint::from_bytes(bytes);
         checkpoint.visit(memory);

@@ -46,7 +46,6 @@ pub struct Column<'a> {
     write: WriteNumbers<'a>,
 }
 
-/// Function that appends the numbers of all entries.
 type WriteNumbers<'a> = Box<dyn Fn(&mut Vec<f64>) + 'a>;
 
 impl<'a> Column<'a> {

@@ -155,7 +155,6 @@ fn energy_stays_bounded(#[values(Start::AtZero, Start::HalfStepBack)] start: Sta
     assert!(worst.iter().all(|&now| now < 1.02 * worst[0]), "{worst:?}");
 }
 
-/// Returns all observable state of a bar, as bits.
 fn bits(bar: &Bar) -> (Vec<u64>, String) {
     let mut samples = Samples::default();
     bar.sample(&mut samples);

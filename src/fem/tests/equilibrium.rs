@@ -44,7 +44,6 @@ fn a_uniform_stretch_stays(
     assert_relative_eq!(bar.counters().min_j, STRETCH, epsilon = 1e-12);
 }
 
-/// A free bar under gravity falls without stress.
 #[rstest]
 fn a_free_bar_falls(
     #[values(Element::Linear, Element::Quadratic)] element: Element,

@@ -125,7 +125,6 @@ impl<const D: usize> Weights<D> {
         sum
     }
 
-    /// Returns the momentum of `count` nodes (kg m/s).
     fn momentum(&self, fields: &[AffineVelocity<D>], count: usize) -> Vec<Vector<D>> {
         let mut momentum = vec![Vector::zeros(); count];
         for (p, (nodes, (v, slope))) in self.nodes.iter().zip(fields).enumerate() {

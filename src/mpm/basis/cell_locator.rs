@@ -23,15 +23,12 @@ pub struct CellLocator<const D: usize> {
     /// Number of cells along each axis.
     pub(super) ends: [f64; D],
     pub(super) periodic: [bool; D],
-    /// Memory layout of packed fields.
     pub(in crate::mpm) layout: Layout,
     pub(super) needs: WeightNeeds,
 }
 
-/// Cells of four particles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct CellPositions<F, const D: usize> {
-    /// Index of the cell along each axis.
     pub(super) cell: [F; D],
     /// Position in the cell, from 0 to 1.
     pub(super) xi: [F; D],
@@ -39,7 +36,6 @@ pub(super) struct CellPositions<F, const D: usize> {
     pub(super) inside: u32,
 }
 
-/// Mask of four particles that are all inside the grid.
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {

@@ -102,7 +102,6 @@ fn patches_x4<S: Simd, const D: usize>(
     one
 }
 
-/// Returns the half-lengths of the domains of the last particles.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
@@ -116,7 +115,6 @@ fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES])
     first.map(|first| grid.wrap_signed(first, axis) as f64)
 }
 
-/// Returns the mask of the lanes that are not negative.
 #[cold]
 #[inline(never)]
 fn not_below_zero(four: [f64; LANES]) -> u32 {
@@ -200,7 +198,6 @@ pub(in crate::mpm) struct Domain1dSimd<S: Simd> {
     at: S::F64x4,
     low: S::F64x4,
     high: S::F64x4,
-    /// First node of the domain.
     pub(in crate::mpm) first: S::F64x4,
 }
 
@@ -259,7 +256,6 @@ impl<S: Simd> Domain1dSimd<S> {
     }
 }
 
-/// The domain of one particle along one axis.
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct Domain1d {
     extent: Domain1dSimd<Plain>,

@@ -59,7 +59,6 @@ fn is_whole<B: Basis, const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> bool {
     B::DOMAIN == Domain::Point || (0..D).all(|axis| inside.contains(&grid.local(x, axis)))
 }
 
-/// Basis functions of one node at the particle.
 struct NodeWeights<const D: usize> {
     node: usize,
     weight: f64,
@@ -191,7 +190,6 @@ fn every_basis_obeys_its_laws(#[values(false, true)] periodic: bool) {
     obey::<exercise::QuadraticBernstein>(periodic);
 }
 
-/// Tests known values of functions in a cell at a wall.
 #[rstest]
 #[case("linear", 0.25, &[0.75, 0.25])]
 #[case("quadratic_bspline", 0.0, &[1.0, 0.0, 0.0])]

@@ -18,7 +18,6 @@ use std::ops::Range;
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
 impl<const D: usize, const K: usize> Product<D, K> {
-    /// Stores the functions as patch `lane` of a batch.
     #[inline(always)]
     pub(super) fn put_into<const OUTWARD: usize>(
         &self,
@@ -103,7 +102,6 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
 pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
     /// Index of the first node of each patch in a packed field.
     pub(in crate::mpm) start: [u32; BATCH],
-    /// Functions along each axis.
     pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
     /// Vectors that convert weights to gradients (1/m).
     pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
@@ -125,7 +123,6 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
     pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
 
-    /// Stores the index of the first node of four patches.
     #[inline(always)]
     pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
         self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
@@ -142,7 +139,6 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         if axis < D { self.axes[axis].weight[k].get(lane) } else { 1.0 }
     }
 
-    /// Returns the weight of row `j` in plane `k`.
     #[inline(always)]
     fn row_weight(&self, lane: usize, j: usize, k: usize) -> f64 {
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
@@ -463,7 +459,6 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
         }
     }
 
-    /// Writes the sums from registers to their nodes.
     #[inline(always)]
     pub(in crate::mpm) fn flush(&mut self) {
         if self.start != NONE {

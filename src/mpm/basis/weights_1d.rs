@@ -101,7 +101,6 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
         }
     }
 
-    /// Extracts the functions of one particle.
     #[inline(always)]
     pub(in crate::mpm) fn take(&self, lane: usize, first: usize) -> Weights1d<K> {
         let of = |functions: &[S::F64x4; K]| array(0.0, |k| functions[k].into()[lane]);
@@ -142,7 +141,6 @@ impl<const K: usize> Weights1dBatch<K> {
         inverse: F64Batch::ZERO,
     };
 
-    /// Stores the functions of one particle.
     #[inline(always)]
     pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Weights1d<K>) {
         for k in 0..K {
@@ -190,7 +188,6 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 }
 
-/// Returns the functions of particle `lane` of a batch.
 #[inline(always)]
 pub(super) fn lane_functions<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
     array(0.0, |k| functions[k].get(lane))

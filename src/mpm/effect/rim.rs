@@ -25,7 +25,6 @@ pub struct RimCircle {
     pub outwards: f64,
 }
 
-/// An arc of a rim.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Facet<const D: usize> {
     /// Particle nearest to the middle of the arc.
@@ -72,7 +71,6 @@ pub(super) fn facets<const D: usize>(
         };
         let label: Vector<D> = along(centre, radius);
         let distance = |p: &usize| (particles.x0[*p] - label).norm_squared();
-        // If several particles are at the same distance, the first one is chosen.
         let nearest = near.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         Some(Facet { particle: nearest, label, area: along([0.0; 2], outwards * length) })
     };

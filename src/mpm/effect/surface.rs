@@ -39,7 +39,6 @@ named! {
 /// The outermost layer of particles on one face.
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
-    /// Particles of the layer, in ascending order.
     pub(super) layer: Vec<usize>,
     pub(super) placement: Placement,
     axis: usize,
@@ -57,7 +56,6 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Finds the layer of `particles` at the face `side` of `axis`.
     pub(super) fn new<const D: usize>(
         particles: &Particles<D>,
         axis: usize,
@@ -192,7 +190,6 @@ const ROUNDING: f64 = 1e-6;
 
 /// The layer of particles at a plane face of a mapped body.
 pub(super) struct MappedFace {
-    /// Particles of the layer, in ascending order.
     pub(super) layer: Vec<usize>,
     /// Column of the domain matrix whose end is on the face, and its sign.
     pub(super) column: (usize, f64),

@@ -40,7 +40,6 @@ pub struct ThermalBoundary<const D: usize> {
     wall: usize,
     /// Index and position (m) of each node on the face.
     nodes: Vec<(usize, Vector<D>)>,
-    /// Particles next to the face.
     layer: Vec<usize>,
     /// Area of the face per particle of the layer (m^(D-1)).
     area: f64,
@@ -73,7 +72,6 @@ impl<const D: usize> ThermalBoundary<D> {
         }
     }
 
-    /// Returns the columns stored per particle and node.
     pub(super) fn columns(&self) -> [Column<'_>; 3] {
         [
             Column::of_particles("face layer", &self.layer),

@@ -30,13 +30,11 @@ impl<const D: usize> Particles<D> {
         first_matrix("deformation gradient", &self.def_grad)
     }
 
-    /// Checks stresses.
     pub(in crate::mpm) fn stressed_finite(&self) -> Result<(), Failure> {
         first("hoop stress", &self.stress_across, |s| s.is_finite())?;
         first_matrix("stress", &self.sigma)
     }
 
-    /// Checks velocities at the end of a step.
     pub(in crate::mpm) fn moving_finite(&self) -> Result<(), Failure> {
         first_matrix("velocity", &self.v)
     }

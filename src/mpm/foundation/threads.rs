@@ -28,7 +28,6 @@ fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
 
-/// Splits an optional column into its first `count` entries and the remaining entries.
 pub(in crate::mpm) fn split<T>(
     column: Option<&mut [T]>,
     count: usize,

@@ -11,10 +11,8 @@ use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// Batch of patches of the basis `B`.
 pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;
 
-/// Mask of all lanes.
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
 /// Batches of particles, with the data that locates their patches. The patches are stored

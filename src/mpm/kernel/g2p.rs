@@ -27,7 +27,6 @@ pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
 
-/// Sums for a batch of particles during G2P.
 struct G2pSums<S: Simd, const D: usize> {
     change: [S::F64x4; BATCH],
     velocity: [S::F64x4; BATCH],

@@ -12,7 +12,6 @@ use crate::mpm::foundation::simd::{BATCH, Simd, SimdPass};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// P2G pass to a packed field.
 pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,

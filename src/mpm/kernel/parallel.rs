@@ -81,7 +81,6 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
             self.add(between, done, target.reborrow());
             return self.add(last, end..own.end, target);
         }
-        // The two odd blocks run in parallel.
         let (low, high) = target.split_at(self.grid, end);
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
@@ -96,7 +95,6 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
 }
 
 impl<const D: usize> G2pRequest<'_, D> {
-    /// Splits the request into one for the first `count` particles and one for the remaining ones.
     fn split_at(self, count: usize) -> (Self, Self) {
         let Self { change, mix, .. } = self;
         let value = split(self.value, count);

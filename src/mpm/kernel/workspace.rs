@@ -24,7 +24,6 @@ pub(in crate::mpm) struct Workspace {
     blocks: Blocks,
 }
 
-/// Packs velocities and, if requested, accelerations.
 fn pack<const D: usize>(
     [first, second]: &mut [PackedField<Node4>; 2],
     grid: &Grid<D>,

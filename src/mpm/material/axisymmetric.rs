@@ -41,7 +41,6 @@ impl Axisymmetric {
     }
 }
 
-/// Creates an empty set of particles.
 fn none() -> Particles<3> {
     let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
     Particles::fill_where(&Block { from, to, density: 1.0 }, 1.0, 1, |_| false)

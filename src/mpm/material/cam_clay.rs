@@ -40,7 +40,6 @@ pub struct CamClay {
     states: Vec<Clay>,
 }
 
-/// State of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Clay {
     /// Kirchhoff stress (Pa).

@@ -28,7 +28,6 @@ pub struct GreenNaghdi {
 struct Unrotated {
     /// `R^T tau R` (Pa).
     stress: Matrix<3>,
-    /// `U^-1`.
     inverse_stretch: Matrix<3>,
 }
 

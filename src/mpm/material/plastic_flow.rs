@@ -129,7 +129,6 @@ pub struct ElastoPlastic<S> {
     flowed: Vec<Flowed>,
 }
 
-/// Plastic state of a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Flowed {
     /// `Cp^-1`, the inverse of the plastic right Cauchy-Green tensor.

@@ -97,7 +97,6 @@ macro_rules! materials {
                 }
             }
 
-            /// Returns the closed forms of the law.
             #[cfg(test)]
             fn closed_forms(&self) -> Box<dyn ClosedForms> {
                 match *self {

@@ -7,7 +7,6 @@ use super::specimen::{SLOW, Specimen};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use rstest::rstest;
 
-/// Number of steps of a path.
 const STEPS: u32 = 40;
 
 /// Maximum error of a stress component, as a fraction of the largest stress of the path.
@@ -56,7 +55,6 @@ fn about_third(angle: f64) -> Matrix<3> {
     Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// Returns equal steps up to `end`.
 fn up_to(end: f64) -> impl Iterator<Item = f64> {
     (1..=STEPS).map(move |step| end * f64::from(step) / f64::from(STEPS))
 }
@@ -98,7 +96,6 @@ impl ConePaths {
         [mean + sign * 2.0 / 3.0_f64.sqrt() * shear, lateral, lateral]
     }
 
-    /// Returns the stress at the strain (e, -e, 0).
     fn isochoric(self, e: f64) -> [f64; 3] {
         let Self([bulk, mu], [eta, etab, k]) = self;
         let beyond = (e - k / (2.0 * mu)).max(0.0);

@@ -112,7 +112,6 @@ impl<const D: usize> Specimen<D> {
         self.0.response(0, f)
     }
 
-    /// Returns the stored energy (J) of a unit volume.
     pub(super) fn energy(&self) -> Option<f64> {
         self.0.energy(&self.1)
     }
@@ -121,7 +120,6 @@ impl<const D: usize> Specimen<D> {
         self.1.across[0]
     }
 
-    /// Returns the out-of-plane stress (Pa).
     pub(super) fn stress_across(&self) -> f64 {
         self.1.stress_across[0]
     }

@@ -138,7 +138,6 @@ impl<const D: usize> VectorBatch<D> {
     }
 }
 
-/// Computes the eigenvalues of the symmetric matrices `m` and their axes as columns.
 #[inline(always)]
 pub(in crate::mpm::material) fn spectral_batch<const D: usize>(
     mut m: MatrixBatch<D>,
@@ -162,8 +161,6 @@ pub(in crate::mpm::material) fn spectral_batch<const D: usize>(
     (VectorBatch(values), axes)
 }
 
-/// Returns half the logarithm of each number. For eigenvalues of F F^T this is the logarithmic
-/// strain.
 #[inline(always)]
 pub(in crate::mpm::material) fn half_log_batch(values: &F64Batch) -> F64Batch {
     let mut strains = ln(values);
@@ -173,7 +170,6 @@ pub(in crate::mpm::material) fn half_log_batch(values: &F64Batch) -> F64Batch {
     strains
 }
 
-/// Returns the symmetric matrices with these eigenvalues and axes.
 #[inline(always)]
 pub(in crate::mpm::material) fn assembled_batch<const D: usize>(
     values: &VectorBatch<D>,

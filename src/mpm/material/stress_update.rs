@@ -137,7 +137,6 @@ impl<'a, const D: usize> StressBlock<'a, D> {
     }
 }
 
-/// Splits off the first `count` entries of `column`, or all entries if there are fewer.
 #[allow(clippy::mut_mut, reason = "what is taken is gone from the column")]
 fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     column.split_off_mut(..count.min(column.len())).unwrap_or_default()
@@ -194,7 +193,6 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
     );
 }
 
-/// Number of ratios that are computed together.
 const TOGETHER: usize = 4;
 
 /// Returns the smallest `a / b` if all ratios are positive and finite; infinity for empty slices.

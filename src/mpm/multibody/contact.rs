@@ -33,7 +33,6 @@ pub(in crate::mpm) struct Contact<const D: usize> {
     interface: InterfaceNodes,
     /// Mass gradient of each body, `sum_p m_p grad N_i` (kg/m), up to date at interface nodes.
     outwards: Vec<Vec<Vector<D>>>,
-    /// All pairs of bodies, by index.
     pairs: Vec<[usize; 2]>,
     /// Contact state after the last impulse, for each node and pair of bodies.
     states: Vec<ContactState>,
@@ -42,7 +41,6 @@ pub(in crate::mpm) struct Contact<const D: usize> {
 }
 
 impl<const D: usize> Contact<D> {
-    /// Creates the contact among `bodies`. `friction` is the coefficient of friction.
     pub(in crate::mpm) fn new(bodies: &[Solver<D>], friction: f64) -> Self {
         let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
@@ -140,7 +138,6 @@ impl<const D: usize> Contact<D> {
     }
 }
 
-/// A pair of bodies at a node.
 struct ContactPair<const D: usize> {
     /// Unit normal from the first body to the second.
     normal: Vector<D>,

@@ -67,10 +67,8 @@ pub(super) struct Iterate<const D: usize> {
 }
 
 impl<const D: usize> StepEquations<D> {
-    /// Creates the equations for `particles` at the start of a step.
-    ///
-    /// # Errors
-    /// [`Failure::Solve`] if no component is free, or if the tangent does not fit into memory.
+    /// Creates the equations for `particles` at the start of a step. Fails if no component is free,
+    /// or if the tangent does not fit into memory.
     pub(super) fn new(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -124,7 +122,6 @@ impl<const D: usize> StepEquations<D> {
         &self.functions[start..self.ends[p]]
     }
 
-    /// Returns the number of particle-node pairs.
     pub(super) fn pairs(&self) -> u64 {
         self.functions.len() as u64
     }
@@ -162,10 +159,7 @@ impl<const D: usize> StepEquations<D> {
     }
 
     /// Computes stresses and residual for the increments `increment` (m) and external forces `load`
-    /// (N).
-    ///
-    /// # Errors
-    /// [`Failure::Inverted`] or [`Failure::NonFinite`] for the first particle without a stress.
+    /// (N). The error names the first particle without a stress.
     pub(super) fn iterate(
         &self,
         particles: &Particles<D>,
@@ -199,10 +193,8 @@ impl<const D: usize> StepEquations<D> {
         Ok(Iterate { increment, residual, norm, responses, push })
     }
 
-    /// Computes the Newton correction of an iterate (m).
-    ///
-    /// # Errors
-    /// The node of the first tangent row without a pivot.
+    /// Computes the Newton correction of an iterate (m). The error is the node of the first tangent
+    /// row without a pivot.
     pub(super) fn correction(
         &self,
         particles: &Particles<D>,
@@ -264,7 +256,6 @@ impl<const D: usize> StepEquations<D> {
     }
 }
 
-/// Reason why a law without a tangent cannot be used.
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
 
 /// Numbers the free components. Indices vary slowest along the longest grid axis, which gives a

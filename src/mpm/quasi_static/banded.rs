@@ -16,7 +16,6 @@ pub(super) struct BandedSystem {
 }
 
 impl BandedSystem {
-    /// Creates a zero matrix.
     pub(super) fn zeros(rows: usize, band: usize) -> Self {
         let band = band.min(rows.saturating_sub(1));
         Self { rows, band, entries: vec![0.0; rows * (3 * band + 1)] }
@@ -37,11 +36,8 @@ impl BandedSystem {
         self.entries[place] += value;
     }
 
-    /// Solves the system for the right-hand side `side`.
-    ///
-    /// # Errors
-    /// The first row without a pivot in elimination order, if the matrix is singular or an entry is
-    /// not finite.
+    /// Solves the system for the right-hand side `side`. If the matrix is singular or an entry is
+    /// not finite, the error is the first row without a pivot in elimination order.
     pub(super) fn solve(mut self, mut side: Vec<f64>) -> Result<Vec<f64>, usize> {
         let Self { rows, band, .. } = self;
         for k in 0..rows {

@@ -18,20 +18,17 @@ use crate::subject::Failure;
 /// to between 2e-14 and 1e-11 of the load.
 pub(super) const CONVERGED: f64 = 1e-10;
 
-/// Maximum number of corrections.
 const MOST_CORRECTIONS: usize = 25;
 
 /// Maximum number of successive iterates that do not improve on the best one.
 const PATIENCE: usize = 4;
 
-/// Maximum number of halvings of a correction.
 const MOST_HALVINGS: u32 = 12;
 
 /// Fraction of the reduction predicted by a linear model that the line search requires (Armijo
 /// 1966).
 const SUFFICIENT: f64 = 1e-4;
 
-/// Result of a load step.
 pub(super) struct Solution<const D: usize> {
     /// Residuals of all iterates, divided by the load.
     pub(super) residuals: Vec<f64>,
@@ -39,7 +36,6 @@ pub(super) struct Solution<const D: usize> {
     pub(super) last: Result<Iterate<D>, Failure>,
 }
 
-/// Input data of a load step.
 struct LoadStep<'a, const D: usize> {
     balance: &'a StepEquations<D>,
     particles: &'a Particles<D>,
@@ -48,7 +44,6 @@ struct LoadStep<'a, const D: usize> {
     load: &'a [Vector<D>],
 }
 
-/// Solves a load step with the external forces `load` (N).
 pub(super) fn solve<const D: usize>(
     balance: &StepEquations<D>,
     particles: &Particles<D>,

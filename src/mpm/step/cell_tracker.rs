@@ -22,10 +22,8 @@ pub(in crate::mpm) struct CellTracker<const D: usize> {
 }
 
 impl<const D: usize> CellTracker<D> {
-    /// Finds the initial cells of the particles.
-    ///
-    /// # Errors
-    /// [`Failure::LeftDomain`] for the first particle outside all cells.
+    /// Finds the initial cells of the particles. The error names the first particle outside all
+    /// cells.
     pub(in crate::mpm) fn new(grid: &Grid<D>, particles: &Particles<D>) -> Result<Self, Failure> {
         let find = |(p, x): (usize, &Vector<D>)| cell(grid, x).ok_or_else(|| nowhere(p, x));
         let mut cells = particles.x.iter().enumerate().map(find).collect::<Result<Vec<_>, _>>()?;
@@ -48,10 +46,8 @@ impl<const D: usize> CellTracker<D> {
     }
 
     /// Counts cell changes and departures. In the total-Lagrangian frame a particle remains in the
-    /// cell of its reference position, and its position must not be NaN.
-    ///
-    /// # Errors
-    /// The failure of the first particle outside all cells.
+    /// cell of its reference position, and its position must not be NaN. The error names the first
+    /// particle outside all cells.
     pub(in crate::mpm) fn track(
         &mut self,
         grid: &Grid<D>,

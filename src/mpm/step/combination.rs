@@ -14,7 +14,6 @@ use thiserror::Error;
 #[error("{0}")]
 pub struct CombinationError(String);
 
-/// Creates a [`CombinationError`] from a format string.
 macro_rules! refusal {
     ($($text:tt)+) => {
         CombinationError(format!($($text)+))

@@ -11,11 +11,7 @@ use crate::mpm::material::Material;
 use crate::subject::{Failure, Site};
 
 /// Adds the columns that are read by `material` or by a basis with this `domain`, and completes the
-/// initial state. Returns the smallest J.
-///
-/// # Errors
-/// [`Failure::NotOfDeformation`] if F does not determine the stress of a deformed body.
-/// [`Failure::NonFinite`] and [`Failure::Inverted`] name the first invalid particle.
+/// initial state. Returns the smallest J. The errors are those of [`complete_start`].
 pub(in crate::mpm) fn complete<const D: usize>(
     particles: &mut Particles<D>,
     domain: Domain,

@@ -15,7 +15,6 @@ use crate::mpm::scheme::Stage;
 use crate::subject::Start;
 use std::sync::Arc;
 
-/// An entry of a schedule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum Pass {
     /// One P2G pass for these stages.
@@ -94,14 +93,12 @@ pub(in crate::mpm) struct StepSchedule {
     /// Passes before the first step. They compute the accelerations at t = 0 if velocities start
     /// half a step back.
     pub(in crate::mpm) opening: Arc<[Pass]>,
-    /// Passes of each step.
     pub(in crate::mpm) passes: Arc<[Pass]>,
 }
 
 /// Properties of the coupling of a body with other bodies.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::mpm) struct Coupled {
-    /// Whether several bodies are coupled.
     pub(in crate::mpm) bodies: bool,
     /// Whether the coupling reads velocities before they advance.
     pub(in crate::mpm) reads_velocity: bool,

@@ -55,7 +55,6 @@ impl<const D: usize> Setup<D> {
         self.scheme.stages(is_taken || is_read || self.reads_velocity())
     }
 
-    /// Returns the names of the passes for the effects' own state.
     pub(in crate::mpm) fn state_passes(&self) -> Vec<&'static str> {
         self.effects.iter().flat_map(|effect| effect.state_passes()).copied().collect()
     }

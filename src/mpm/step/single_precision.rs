@@ -152,7 +152,6 @@ fn round_matrices<const D: usize>(column: &mut [Matrix<D>]) {
     }
 }
 
-/// Rounds each number to single precision.
 fn round(numbers: &mut [f64]) {
     for number in numbers {
         *number = f64::from(*number as f32);

@@ -125,9 +125,6 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Runs one pass of a step of length `dt` (s).
-    ///
-    /// # Errors
-    /// See [`Subject::step`](crate::subject::Subject::step).
     pub(in crate::mpm) fn run(&mut self, pass: Pass, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, transfer, .. } = &mut self.setup;
         match pass {
@@ -172,7 +169,6 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// Converts momenta to velocities.
     fn momentum(&mut self) {
         let Setup { grid, particles, kernel, transfer, mass, boundary, .. } = &mut self.setup;
         let mut field = std::mem::take(&mut grid.velocity);
@@ -218,7 +214,6 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// Integrates the effects' own state over `dt` (s).
     fn integrate_state(&mut self, dt: f64) -> Result<(), Failure> {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects {
@@ -249,7 +244,6 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Advances velocities: `v <- v + a dt`.
 fn advance<const D: usize>(v: &mut [Vector<D>], a: &[Vector<D>], dt: f64) {
     PIECES.each(v, &|k, piece| {
         let a = &a[k * PIECES.length..];

@@ -94,7 +94,6 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// Prepares the passes before the first step.
     pub(in crate::mpm) fn open(&mut self, dt: f64) {
         self.drive(0.0);
         if self.setup.start == Start::HalfStepBack {
@@ -275,7 +274,6 @@ fn matrices<const D: usize>(particles: &Particles<D>) -> impl Iterator<Item = &M
     [&particles.sigma, &particles.def_grad].into_iter().flatten()
 }
 
-/// Returns the affine velocity field of the particles, if the transfer has such a field.
 fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
     solver.setup.transfer.p2g_request(&solver.setup.particles).momentum?.affine
 }

@@ -56,10 +56,7 @@ pub(in crate::mpm) const PASSES: u64 = 2;
 
 impl<const D: usize> VolumeAverage<D> {
     /// Creates the arrays for `particles` on `grid`. The law must either read F
-    /// (`reads_deformation`) or store only J.
-    ///
-    /// # Errors
-    /// [`Failure::Solve`] in one dimension.
+    /// (`reads_deformation`) or store only J. Fails in 1-D.
     pub(in crate::mpm) fn new(
         particles: &Particles<D>,
         grid: &Grid<D>,
@@ -87,7 +84,6 @@ impl<const D: usize> VolumeAverage<D> {
         AveragedLaw { average: self, material, kernel, grid }
     }
 
-    /// Returns the columns stored per particle and node.
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 4] {
         [
             Column::of_particles("average of J", &self.ratio),

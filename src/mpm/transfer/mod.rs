@@ -60,7 +60,6 @@ objects_with_parameter! {
 impl TransferName {
     /// Returns the kind of the transfer.
     pub fn kind(self) -> TransferKind {
-        // The kind is the same in any dimension.
         transfer::<1>(self).kind()
     }
 }

@@ -33,7 +33,6 @@ use std::ops::Range;
 /// Number of nodes per task when a 1-D field is packed.
 const PIECE: usize = 1 << 12;
 
-/// Nodal field in packed layout.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct PackedField<N> {
     nodes: Vec<N>,

@@ -4,7 +4,6 @@
 use crate::mpm::foundation::algebra::floor;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// Number of lanes in a register of four.
 pub(in crate::mpm) const LANES: usize = 4;
 
 /// A register of several `f64`.

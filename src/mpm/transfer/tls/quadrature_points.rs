@@ -75,12 +75,10 @@ impl<const D: usize> QuadraturePoints<D> {
         &self.all
     }
 
-    /// Returns the positions of all particles (m), wrapped into the grid on periodic axes.
     pub(in crate::mpm) fn x(&self) -> &[Vector<D>] {
         &self.x
     }
 
-    /// Returns the particles in the cell of `point`.
     pub(in crate::mpm) fn members(&self, point: &QuadraturePoint<D>) -> &[usize] {
         &self.order[point.members.0..point.members.1]
     }
@@ -189,7 +187,6 @@ fn fold<const D: usize>(index: &[usize; D], counts: &[usize; D]) -> usize {
     (0..D).rev().fold(0, |number, axis| number * counts[axis] + index[axis])
 }
 
-/// Returns the index of a cell on each axis.
 fn unfold<const D: usize>(mut cell: usize, counts: &[usize; D]) -> [usize; D] {
     std::array::from_fn(|axis| {
         let index = cell % counts[axis];
