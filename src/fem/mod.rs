@@ -1,4 +1,4 @@
-//! The reference finite element method in 1-D. MPM solvers are compared with it.
+//! A finite element method in 1-D, with which MPM solvers are compared.
 //!
 //! The method is total-Lagrangian and explicit, on `[from, to]`:
 //!

@@ -29,7 +29,7 @@ impl<T, const N: usize> Entry for [T; N] {}
 /// Size of a column. A column has an entry for each particle or node, or for some of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ColumnSize {
-    /// Name of the column in its struct.
+    /// Name of the column.
     pub name: &'static str,
     /// Owner of the entries.
     pub holder: Holder,

@@ -234,7 +234,7 @@ pub enum Failure {
         /// Location of the failure.
         site: Site,
     },
-    /// The deformation gradient lost its orientation.
+    /// The determinant of a deformation gradient is not positive.
     #[error("{site} is inverted, J = {j:.3e}")]
     Inverted {
         /// Location of the failure.
@@ -297,8 +297,7 @@ impl From<&str> for SubjectError {
     }
 }
 
-/// Sums over the particles p, which a motion without external forces conserves. Components above
-/// the dimension are zero.
+/// Sums over the particles p, for checks of conservation. Components above the dimension are zero.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// `sum m_p` (kg).
@@ -397,7 +396,7 @@ pub(crate) fn is_solver_name(name: &str) -> bool {
 }
 
 named! {
-    /// Precision of a solver's numbers.
+    /// Floating-point precision of a solver.
     #[derive(Default)]
     pub enum Precision {
         /// 53-bit significand.
@@ -409,7 +408,7 @@ named! {
 }
 
 named! {
-    /// State of a two-dimensional body across its plane.
+    /// Out-of-plane state of a two-dimensional body.
     #[derive(Default)]
     pub enum PlaneState {
         /// Plane strain: F_33 = 1.

@@ -1,4 +1,4 @@
-//! Shape functions, quadrature, mesh and mass matrices.
+//! Tests of shape functions, quadrature, mesh and mass matrices.
 
 use approx::assert_relative_eq;
 use proptest::prelude::*;

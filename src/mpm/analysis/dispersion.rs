@@ -10,9 +10,10 @@
 //! ```
 //!
 //! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer,
-//! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h`. All other
-//! eigenvalues of the particle matrix are 1, 0, or the FLIP share of a blend, and do not affect the
-//! grid. While the eigenvalues are complex, each step multiplies the amplitude by `sqrt(det)`.
+//! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h` and coefficients
+//! b, p and q ([`WaveStep`]). All other eigenvalues of the particle matrix are 1, 0, or the FLIP
+//! share of a blend, and do not affect the grid. While the eigenvalues are complex, each step
+//! multiplies the amplitude by `sqrt(det)`.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
@@ -198,7 +199,7 @@ impl WaveStep {
         0.5 * (self.trace(courant).abs() + (-discriminant).sqrt())
     }
 
-    /// Returns the amplitude factor over one exact period, `2 pi h/(theta c)`.
+    /// Returns the amplitude factor over one period of the exact wave, `2 pi h/(theta c)`.
     pub fn kept_per_period(&self, courant: f64) -> f64 {
         libm::pow(self.largest_modulus(courant), TAU / (self.theta * courant))
     }

@@ -1,8 +1,8 @@
 //! Energy ledger: each change of the energy in a step, assigned to one stage of the step.
 //!
 //! A particle p has the velocity field `u_pi = v_p + C_p (x_i - x_p)` at node i; C_p is zero for a
-//! transfer without an affine field. Its kinetic energy is `K = sum m_p N_i u_pi^2 / 2`, and that
-//! of the grid `sum M_i w_i^2 / 2` with the lumped mass. The entries are exact identities for
+//! transfer without an affine field. The kinetic energy is `sum m_p N_i u_pi^2 / 2` for the
+//! particles, and `sum M_i w_i^2 / 2` with the lumped mass for the grid. The entries are exact for
 //! particles at any positions and for any transfer with the nodal mass `sum m_p N_i`. Each entry is
 //! a sum over particles or nodes, except that the entries for effects, motion and stored energy are
 //! differences of energies. Primes mark values after the update of velocities:
@@ -26,8 +26,8 @@
 //! The sum of the entries for internal forces and stored energy is the error of the stress work.
 //! Velocities are half a step behind stresses. The stored energy at the time of the velocities is
 //! therefore the mean of its values before and after the step; without this mean the ledger would
-//! leak an energy of the order of the step. Sources: Burgess, Sulsky & Brackbill 1992 (J. Comput.
-//! Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+//! have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill 1992 (J.
+//! Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -279,7 +279,7 @@ impl EnergyLedger {
     /// resulting state is bit-identical to that of [`Subject::step`].
     ///
     /// # Errors
-    /// As [`Subject::step`].
+    /// The errors of [`Subject::step`].
     pub fn step<const D: usize>(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
         solver.begin(dt, &mut |_, _| {})?;
         let old = stored(solver);

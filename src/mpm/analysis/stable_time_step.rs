@@ -3,7 +3,7 @@
 //! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
 //! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step on a small
 //! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
-//! frequency.
+//! frequency. Below, L also denotes this eigenvalue.
 //!
 //! Under USL an explicit step is stable up to `dt^2 L = 4/(2 - a)`, where a, between 0 and 1, is
 //! the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is stable

@@ -95,7 +95,8 @@ fn hat_integral(x: f64) -> f64 {
     if x < 0.0 { tail } else { 1.0 - tail }
 }
 
-/// Symbols of one wave number, for lengths in units of the cell size.
+/// Symbols of one wave number, for lengths in units of the cell size. In the formulas, `xi` is a
+/// particle position, and `mean` the mean over the particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveSymbols {
     /// Wave number times cell size, theta = k h (rad). A wave of n cells has theta = 2 pi/n.

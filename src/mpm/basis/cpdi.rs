@@ -14,9 +14,9 @@
 //! ```
 //!
 //! In 2-D these are the formulas of the paper. In 1-D they are `(S_i(x + l) + S_i(x - l))/2` and
-//! `(S_i(x + l) - S_i(x - l))/(2l)`: the gradient of contiguous-particle GIMP with another weight.
-//! `grad N_i` is the average of a gradient, not the gradient of the average `N_i`. Both reproduce
-//! linear fields: `sum_i x_i N_i = x`,
+//! `(S_i(x + l) - S_i(x - l))/(2l)`. This gradient equals that of contiguous-particle GIMP; the
+//! weight differs. `grad N_i` is the average of a gradient, not the gradient of the average `N_i`.
+//! `N_i` and `grad N_i` reproduce linear fields: `sum_i x_i N_i = x`,
 //! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! A domain that extends through a wall is compressed along the axis until it ends at the wall,

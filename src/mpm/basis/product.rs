@@ -1,8 +1,7 @@
 //! Products of one-dimensional functions, the patch type of most bases, for one particle and for a
 //! batch. Also contains the P2G and G2P loops over the nodes of a batch.
 //!
-//! G2P sums are computed axis by axis. A node needs one product and one sum per function, instead
-//! of one per axis.
+//! G2P sums are computed axis by axis, so the work per node does not depend on the number of axes.
 
 use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};

@@ -1,8 +1,8 @@
 //! Heat conduction: a temperature on the particles, and its own fields on the grid.
 //!
-//! `rho c dT/dt = div(k grad T) + rho s` on the current body, in one step of forward Euler (Tao,
-//! Zheng, Zhang & Chen 2016, Int. J. Appl. Mech. 8; de Vaucorbeil, Nguyen, Sinaie & Wu 2020, Adv.
-//! Appl. Mech. 53, section on heat conduction):
+//! `rho c dT/dt = div(k grad T) + rho s` on the current configuration, integrated by forward Euler
+//! (Tao, Zheng, Zhang & Chen 2016, Int. J. Appl. Mech. 8; de Vaucorbeil, Nguyen, Sinaie & Wu 2020,
+//! Adv. Appl. Mech. 53, section on heat conduction):
 //!
 //! ```text
 //! T_i    = sum_p m_p (T_p + g_p . (x_i - x_p)) N_i / m_i       or the prescribed value
@@ -32,7 +32,7 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 /// Function that writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
 /// The heat may depend on T_p at the start of the step, but not on T_i, which would need another
-/// pass. The sum over particles is the integral of s for any such s.
+/// pass.
 ///
 /// With a sink s = -r c T, linear functions and equally spaced particles, forward Euler is stable
 /// for dt < 2/(4 k/(rho c h^2) + r). This stable time step is not predicted, so the suite must

@@ -1,5 +1,5 @@
-//! The family of effects. A new effect requires one file and one line of `members`. A solver has a
-//! list of effects. An effect that is not in the list adds no call, column or branch.
+//! The family of effects. A new effect requires one file and one line in `src/members.rs`. A solver
+//! has a list of effects. An effect that is not in the list adds no call, column or branch.
 
 mod contract;
 mod hoop;

@@ -1,5 +1,5 @@
-//! Batches of particles: their patches of nodes, the moments of their weights, and their matrices
-//! as columns in registers.
+//! Batches of particles: their patches of nodes, the moments of their weights, and the conversion
+//! of matrices to registers.
 
 use crate::mpm::basis::{Basis, CellLocator, FourLanes, Patch, PatchBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};

@@ -2,7 +2,7 @@
 //! = r/R.
 //!
 //! Any law can be used in a body of revolution. The law is evaluated in three dimensions, where the
-//! shears between the meridian plane and the hoop are zero.
+//! shears between the meridian plane and the hoop direction are zero.
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;

@@ -66,8 +66,8 @@ fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strai
     assert!((0.97..1.03).contains(&order), "order {order}");
 }
 
-/// The clay is elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`. Then a closed form
-/// applies.
+/// The clay is elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`. After yield, the expected
+/// p and q are closed forms.
 #[test]
 fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
     let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);

@@ -12,7 +12,7 @@ pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
     Err("a law in rate form does not compute its stress from F or J")
 }
 
-/// Properties of a law that determine which problems can be stated with it.
+/// Properties of a law that determine which problems can use the law.
 pub trait MaterialProperties {
     /// Returns the stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest
     /// wave, in a body with the reference density `density` (kg/m3).

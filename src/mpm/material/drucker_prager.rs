@@ -73,7 +73,8 @@ impl YieldSurface for Cone {
     }
 
     /// Uses the flow `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)`, `dp = K (tr deps - etab dg)`
-    /// and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)` (de Souza Neto et al. 2008, section 8.3).
+    /// and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)` with the direction n of the deviator (de Souza
+    /// Neto et al. 2008, section 8.3).
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, .. } = *self;
         let (after, _) = self.return_from(trial, flowed)?;

@@ -2,9 +2,9 @@
 //!
 //! `sigma = -p I`, `p = -K (J - 1)`, from the energy `K/2 (J - 1)^2`. In uniaxial strain
 //! `P = K u_X` for any amplitude, so plane waves of finite strain retain their shape. (In other
-//! fluids, waves steepen because p is a curved function of the specific volume: Landau & Lifshitz
-//! 1987, section 101.) To first order in the strain, `p = c^2 (rho - rho0)`, `c^2 = K/rho0`. The
-//! pressure at collapse, J = 0, is finite: p = K.
+//! fluids, waves steepen because p is a nonlinear function of the specific volume: Landau &
+//! Lifshitz 1987, section 101.) To first order in the strain, `p = c^2 (rho - rho0)`,
+//! `c^2 = K/rho0`. The pressure at collapse, J = 0, is finite: p = K.
 //!
 //! The stress depends only on J, which is integrated as `J *= det(I + grad v dt)`.
 

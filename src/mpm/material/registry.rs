@@ -58,7 +58,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Evaluates the suite text of every parameter with `number`, and returns the material.
+            /// Converts every parameter to a number with `number`, and returns the material.
             ///
             /// # Errors
             /// The first error that `number` returns.

@@ -87,7 +87,7 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
     }
 
     /// Calls `law` for all particles, block by block, on all threads. `law` also receives the
-    /// entries of `state` for these particles. The first call creates them.
+    /// entries of `state` for these particles. The first call creates the entries of `state`.
     pub fn by_block_with<S: Clone + Default + Send>(
         &mut self,
         state: &mut Vec<S>,

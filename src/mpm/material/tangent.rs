@@ -4,7 +4,7 @@
 //! within a load step: it is the identity for an elastic law, and the inverse plastic metric
 //! `Cp^-1` for an elastic-plastic law. With the principal values `b_A`, the logarithmic strains
 //! `ln(b_A)/2` and the stresses `tau_A`, a change of the deformation gradient by `dF = dh F`
-//! changes the stress by (components along the axes)
+//! changes the stress by these components along the axes:
 //!
 //! ```text
 //! d tau_AA = sum_B (d tau_A / d eps_B) dh_BB

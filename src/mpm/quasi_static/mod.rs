@@ -1,6 +1,6 @@
-//! Quasi-static MPM: the load grows in steps. Each step solves for the equilibrium at its end by
-//! Newton's method (Charlton, Coombs & Augarde 2017, Comput. Struct. 190; Coombs & Augarde 2020,
-//! Adv. Eng. Softw. 139).
+//! Quasi-static MPM: the load grows in steps. In each step, Newton's method solves for the
+//! equilibrium at the end of the step (Charlton, Coombs & Augarde 2017, Comput. Struct. 190; Coombs
+//! & Augarde 2020, Adv. Eng. Softw. 139).
 //!
 //! Load step k of N:
 //!

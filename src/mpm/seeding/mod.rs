@@ -13,7 +13,7 @@ pub struct Fragment<const D: usize> {
     pub place: Vector<D>,
     /// Volume (m^D).
     pub volume: f64,
-    /// Vectors of half the edges of a parallelepiped with this volume, as columns (m).
+    /// Half-edge vectors of a parallelepiped with this volume, as columns (m).
     pub domain: Matrix<D>,
 }
 

@@ -11,8 +11,8 @@ use crate::subject::{
     BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
 };
 
-/// Solver for a body at rest. Nodal masses are mapped once, and a step integrates the state of the
-/// effects.
+/// Solver for a body at rest. Nodal masses are computed once, and a step integrates the state of
+/// the effects.
 pub struct HeatSolver<const D: usize> {
     grid: Grid<D>,
     particles: Particles<D>,

@@ -23,7 +23,7 @@ pub(in crate::mpm) enum Pass {
     G2p(&'static [Stage]),
     /// Work of a stage on nodes or particles after its P2G or G2P pass.
     Update(Stage),
-    /// Integration over the step of the state that effects store.
+    /// Integration of the effects' own state over the step.
     IntegrateState,
     /// Coupling of several bodies.
     Couple(CouplingPoint),

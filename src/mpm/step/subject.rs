@@ -102,7 +102,8 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// Completes the passes before the first step: computes `v(-dt/2) = v(0) - dt/2 a(0)`.
+    /// Computes `v(-dt/2) = v(0) - dt/2 a(0)` from the accelerations of the passes before the first
+    /// step.
     pub(in crate::mpm) fn opened(&mut self, dt: f64) {
         self.started = true;
         if self.setup.start == Start::AtZero {

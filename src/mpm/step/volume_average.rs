@@ -1,8 +1,8 @@
-//! F-bar with an averaged volume ratio, against volumetric locking (Zhao, Jiang & Choo 2023, IJNME
-//! 124).
+//! F-bar with an averaged volume ratio, which prevents volumetric locking (Zhao, Jiang & Choo 2023,
+//! IJNME 124).
 //!
-//! When a law computes the stress of a particle, it reads a deformation gradient with an averaged
-//! volume ratio:
+//! When a law computes the stress of a particle, the law reads a deformation gradient with an
+//! averaged volume ratio:
 //!
 //! ```text
 //! Jbar_i = sum_p V0_p J_p N_i(x_p) / sum_p V0_p N_i(x_p)     nodes

@@ -1,7 +1,7 @@
 //! FMPM(k): PIC with grid velocities that approximate the result of the consistent mass matrix.
 //!
 //! With S the map from grid to particles and S+ the map back, the consistent matrix is the lumped
-//! matrix times S+ S. Its inverse is approximated by k terms of the Neumann series,
+//! matrix times S+ S. The inverse of this matrix is approximated by k terms of the Neumann series,
 //! `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn & Hammerquist 2021,
 //! CMAME 374, eqs 20-24). Momentum and force are both solved in this way. Then the particles
 //! receive the grid velocity. FMPM(1) is PIC.
