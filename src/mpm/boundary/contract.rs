@@ -34,8 +34,8 @@ pub trait Boundary<const D: usize>: Send {
     /// Visits the state that persists between steps, to store or restore it.
     fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
-    /// Whether [`Boundary::hold_advance`] reads velocities. If so, velocities are mapped before
-    /// forces.
+    /// Whether [`Boundary::hold_advance`] reads velocities. If so, velocities are mapped to the
+    /// grid before forces are computed.
     fn reads_velocity(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Heat conduction: a temperature on the particles, and its own fields on the grid.
+//! Heat conduction: temperatures of particles, and nodal fields of temperature and heat flow.
 //!
 //! `rho c dT/dt = div(k grad T) + rho s` on the current configuration, integrated by forward Euler
 //! (Tao, Zheng, Zhang & Chen 2016, Int. J. Appl. Mech. 8; de Vaucorbeil, Nguyen, Sinaie & Wu 2020,

@@ -1,10 +1,10 @@
 //! The rim of a round two-dimensional body, divided into facets that carry a surface force.
 //!
-//! The particles at a rim form a staircase. Unlike on a face of a box, their parts of the surface
-//! are not equal. The circle is therefore divided into arcs about half a spacing long. The force on
-//! an arc and the moment of this force act on the nearest particle. If the basis reproduces linear
-//! fields, the sum of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the middle x_s of the
-//! arc. The area vectors are exact, so a uniform pressure has no resultant.
+//! The particles at a rim form a staircase. Unlike on a face of a box, these particles represent
+//! unequal parts of the surface. The circle is therefore divided into arcs about half a spacing
+//! long. The force on an arc and the moment of this force act on the nearest particle. If the basis
+//! reproduces linear fields, the sum of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the
+//! middle x_s of the arc. The area vectors are exact, so a uniform pressure has no resultant.
 
 use super::surface::put_at_surface;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
@@ -41,8 +41,8 @@ impl<const D: usize> Entry for Facet<D> {}
 /// Number of arcs per particle spacing along the rim.
 const PER_SPACING: f64 = 2.0;
 
-/// Maximum distance from the rim of particles that can carry a facet (spacings). Each point of the
-/// rim is at most half a diagonal of the particle lattice from a particle.
+/// Maximum distance between the rim and a particle that can carry a facet (spacings). Each point of
+/// the rim is at most half a diagonal of the particle lattice from a particle.
 const REACH: f64 = 2.0;
 
 /// Divides `circle` into facets, starting at the positive first axis. The result is empty if no
@@ -78,8 +78,8 @@ pub(super) fn facets<const D: usize>(
 }
 
 /// Adds the forces of a pressure (Pa, per current area) on every facet. `pressure` is a function of
-/// the reference position. F at the rim is taken from the particle, half a spacing away. Returns
-/// the number of visited particle-node pairs.
+/// the reference position. F at the rim is approximated by F of the particle, half a spacing away.
+/// Returns the number of visited particle-node pairs.
 pub(super) fn press<const D: usize>(
     facets: &[Facet<D>],
     particles: &Particles<D>,

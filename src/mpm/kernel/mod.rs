@@ -7,7 +7,7 @@
 //! (K = 3, 2-D)             . x x x .                one register holds the components of a node
 //!                          . x x x .                K nodes of a row are neighbours in memory
 //!                  |
-//! grid         packed_grid: four or eight numbers per node, packed before a pass, unpacked after it
+//! grid         packed_grid: four or eight numbers per node, packed before, unpacked after a pass
 //!
 //! threads      |  even 0  | odd 0 |  even 1  | odd 1 |  even 2  |      blocks along the last axis
 //!              +----------+-------+----------+-------+----------+

@@ -132,8 +132,8 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// Compares stress, volume and energy with those of every law in 3-D, including the hoop, over
-    /// several steps.
+    /// For every law, compares stress (with the hoop stress), volume and energy with those of the
+    /// 3-D law over several steps.
     #[test]
     fn a_body_of_revolution_has_its_law_in_space() {
         for plan in every() {

@@ -24,7 +24,7 @@ use crate::subject::{Failure, Site};
 use std::array;
 
 /// Minimum sum of the functions of a node over all particles. A node with a smaller sum has no
-/// unknown, because its row of the tangent would be singular.
+/// unknown, because the tangent would be nearly singular.
 const LEAST_WEIGHT: f64 = 1e-12;
 
 /// Maximum number of stored entries of the tangent (4 GB).

@@ -11,8 +11,7 @@
 //!    reset the grid.
 //!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
-//! transfer. If Newton's method does not converge, the load step is not divided and the level
-//! fails.
+//! transfer. If Newton's method does not converge, the run fails; the load step is not divided.
 
 mod balance;
 mod banded;
@@ -207,7 +206,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// Returns a reaction whose time is the sum of the lengths of the load steps.
+    /// Returns the reaction. Its time is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };

@@ -103,7 +103,7 @@ impl Quadrilateral {
     /// Fills the panel with particles of density `density` (kg/m^2).
     pub fn fill<const D: usize>(&self, density: f64, h: f64, per_axis: usize) -> Particles<D> {
         let counts = self.counts(h, per_axis);
-        // A panel is two-dimensional. In 3-D, the third axis is its unit thickness.
+        // In 3-D, a panel has unit thickness along the third axis.
         let counts = std::array::from_fn(|axis| counts.get(axis).copied().unwrap_or(1));
         Particles::fill_mapped(counts, density, |s| {
             let (place, slope) = self.at(s[0], s.get(1).copied().unwrap_or(0.5));
@@ -234,7 +234,7 @@ mod tests {
 
     /// The parallelograms of CPDI tile any panel without gaps or overlaps. The boxes of contiguous
     /// GIMP tile only a panel with two upright sides. Boxes of equal size (uniform GIMP) do not
-    /// tile this panel, and no boxes tile a rotated panel, at any refinement.
+    /// tile a panel with two upright sides, and no boxes tile a rotated panel, at any refinement.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);
