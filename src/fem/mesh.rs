@@ -47,7 +47,6 @@ impl Mesh {
         self.element
     }
 
-    /// Returns the length of an element (m).
     pub(super) fn cell_length(&self) -> f64 {
         (self.to - self.from) / self.cells as f64
     }

@@ -74,7 +74,6 @@ pub struct Consistent {
 struct MassEntries {
     /// Row and column node of each entry.
     pairs: Vec<(usize, usize)>,
-    /// Mass of each entry (kg).
     masses: Vec<f64>,
     /// Whether any pair has changed since the previous step.
     have_moved: bool,

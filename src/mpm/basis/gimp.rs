@@ -180,7 +180,6 @@ pub(in crate::mpm) const AT_ONCE: usize = 3;
 /// Maximum half-length of a domain (cells); longer domains are truncated.
 const LONGEST: f64 = 2.5;
 
-/// Evaluates the hat function of a node at distance z (cells).
 fn hat(z: f64) -> f64 {
     (1.0 - z.abs()).max(0.0)
 }

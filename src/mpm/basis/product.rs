@@ -108,7 +108,6 @@ pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0
     row_weights: [[F64Batch; K]; K],
 }
 
-/// Returns `sum + a b`, or `a b` if there is no sum.
 #[inline(always)]
 fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
     match sum {
@@ -345,7 +344,6 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     }
 }
 
-/// Returns `sum_k row_k factors_k`.
 #[inline(always)]
 fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S::F64x4 {
     let mut sum = simd.load(row[0].0) * factors[0];
@@ -355,7 +353,6 @@ fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S
     sum
 }
 
-/// Adds term `k` to a sum. Term 0 starts the sum.
 #[inline(always)]
 fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
     *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
@@ -408,12 +405,11 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
 pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
     pub(in crate::mpm) simd: S,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
-    /// First node whose sums are in registers, or [`NONE`].
+    /// First node whose sums are in registers; [`NONE`] if there are no such sums.
     start: usize,
     sums: [N::Lanes<S>; K],
 }
 
-/// Value of `NodeAccumulator::start` if no node has its sums in registers.
 const NONE: usize = usize::MAX;
 
 impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {

@@ -77,7 +77,6 @@ pub(in crate::mpm) struct WeightsSimd<S: Simd, const K: usize> {
 }
 
 impl<S: Simd, const K: usize> WeightsSimd<S, K> {
-    /// Stores the values, and the quantities listed in `needs`.
     #[inline(always)]
     pub(in crate::mpm) fn put(
         self,

@@ -15,7 +15,6 @@ pub type VelocityField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> Vector<D
 
 /// A face of the grid with a prescribed velocity.
 pub struct Prescribed<const D: usize> {
-    /// Nodes and their positions (m).
     nodes: Vec<(usize, Vector<D>)>,
     value: VelocityField<D>,
 }

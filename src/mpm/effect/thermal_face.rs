@@ -38,7 +38,6 @@ pub struct ThermalBoundary<const D: usize> {
     condition: Thermal<D>,
     axis: usize,
     wall: usize,
-    /// Index and position (m) of each node on the face.
     nodes: Vec<(usize, Vector<D>)>,
     layer: Vec<usize>,
     /// Area of the face per particle of the layer (m^(D-1)).

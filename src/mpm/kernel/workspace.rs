@@ -79,7 +79,6 @@ impl Workspace {
         }
     }
 
-    /// Computes all quantities of `request` in `columns`.
     pub(in crate::mpm) fn scatter<B: Basis, const D: usize>(
         &mut self,
         particles: &Particles<D>,

@@ -33,7 +33,6 @@ pub struct LogElasticity {
 }
 
 impl LogElasticity {
-    /// Computes the moduli from Young's modulus (Pa) and Poisson's ratio.
     pub(super) fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, bulk: lambda + 2.0 / 3.0 * mu, mu }

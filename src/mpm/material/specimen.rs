@@ -20,7 +20,6 @@ pub(super) const FAST: f64 = 1.0 / SLOW;
 /// Reference density of a specimen (kg/m3).
 pub(super) const DENSITY: f64 = 1.25;
 
-/// Returns one instance of every registered material.
 pub(super) fn every() -> Vec<MaterialPlan> {
     MaterialPlan::every(|parameter| match *parameter {
         YOUNG => 100.0,
@@ -65,7 +64,6 @@ impl<const D: usize> Specimen<D> {
         Some(Self(plan.in_plane(plane)?, particles))
     }
 
-    /// Returns the stress after a step with this velocity gradient.
     pub(super) fn flow(&mut self, grad_v: &Matrix<D>, dt: f64) -> Matrix<D> {
         let Self(material, particles) = self;
         particles.grad_v[0] = *grad_v;
@@ -74,7 +72,6 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Returns the stress after a step with this velocity gradient and this hoop strain rate (1/s).
     pub(super) fn flow_in_hoops(&mut self, grad_v: &Matrix<D>, rate: f64, dt: f64) -> Matrix<D> {
         self.1.rate_across[0] = rate;
         self.1.across[0] *= 1.0 + rate * dt;

@@ -129,7 +129,6 @@ impl<'a, const D: usize> StressBlock<'a, D> {
         }
     }
 
-    /// Returns the smallest J, if every J and all stresses are valid.
     fn least_j(&self) -> Option<f64> {
         let least = least_ratio(self.vol, self.vol0)?;
         let is_sound = all_finite(self.sigma) && self.stress_across.iter().all(|s| s.is_finite());

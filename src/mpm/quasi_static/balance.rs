@@ -212,7 +212,6 @@ impl<const D: usize> StepEquations<D> {
         Ok(self.unknowns.iter().map(of_node).collect())
     }
 
-    /// Adds the stiffness of particle `p` to `tangent`.
     fn add_stiffness(&self, p: usize, vol0: f64, iterate: &Iterate<D>, tangent: &mut BandedSystem) {
         let (response, push) = (&iterate.responses[p], &iterate.push[p]);
         let functions = self.functions_of(p);

@@ -51,7 +51,6 @@ impl BandedSystem {
         side.iter().all(|value| value.is_finite()).then_some(side).ok_or(0)
     }
 
-    /// Eliminates column `k` from the rows up to `last`.
     fn eliminate(&mut self, k: usize, last: usize, side: &mut [f64]) -> Result<(), usize> {
         let end = (k + 2 * self.band).min(self.rows - 1);
         let size = |matrix: &Self, i: usize| matrix.entries[matrix.place(i, k)].abs();

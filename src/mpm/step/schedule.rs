@@ -17,15 +17,12 @@ use std::sync::Arc;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::mpm) enum Pass {
-    /// One P2G pass for these stages.
     P2g(&'static [Stage]),
-    /// One G2P pass for these stages.
     G2p(&'static [Stage]),
     /// Work of a stage on nodes or particles after its P2G or G2P pass.
     Update(Stage),
     /// Integration of the effects' own state over the step.
     IntegrateState,
-    /// Coupling of several bodies.
     Couple(CouplingPoint),
 }
 
@@ -75,7 +72,6 @@ impl Pass {
 }
 
 impl CouplingPoint {
-    /// Returns the quantity that is coupled, as named in reports.
     fn name(self) -> &'static str {
         match self {
             Self::Mass => "mass",

@@ -181,7 +181,6 @@ impl<const D: usize> Solver<D> {
         self.count(passes);
     }
 
-    /// Adds external forces to the internal forces.
     fn force(&mut self) {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
         for effect in effects.iter_mut() {

@@ -64,7 +64,6 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
     pass.run(Plain);
 }
 
-/// Best processor level that this computer supports.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
 
@@ -218,7 +217,6 @@ pub(in crate::mpm) fn registers_of(lanes: &Range<usize>) -> Range<usize> {
     lanes.start / LANES..lanes.end.div_ceil(LANES)
 }
 
-/// Returns D lanes, starting at `first`, as a vector.
 #[inline(always)]
 pub(in crate::mpm) fn components<const D: usize>(
     register: impl Into<[f64; LANES]>,
@@ -232,7 +230,6 @@ pub(in crate::mpm) fn components<const D: usize>(
     vector
 }
 
-/// Implements [`Register`] for a register type of `fearless_simd`.
 macro_rules! sums {
     ($register:ty) => {
         impl Register for $register {
@@ -244,7 +241,6 @@ macro_rules! sums {
     };
 }
 
-/// Implements [`F64x4`] for the 256-bit registers of a processor level.
 macro_rules! registers {
     ($processor:ty) => {
         sums!(fearless_simd::f64x4<$processor>);
@@ -332,7 +328,6 @@ pub(in crate::mpm) fn ln(x: &F64Batch) -> F64Batch {
     if all_normal { result } else { one_by_one(x) }
 }
 
-/// Computes `ln x` of a positive number that is neither subnormal nor infinite.
 #[inline(always)]
 fn ln_of_normal(x: f64) -> f64 {
     let shifted = x.to_bits().wrapping_add(ONE - ROOT_OF_HALF);

@@ -19,9 +19,7 @@ const SMALLEST: f64 = 1e-6;
 /// A point at which the fields of a cell are integrated.
 #[derive(Debug, Clone)]
 pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
-    /// Position (m).
     pub(in crate::mpm) x: Vector<D>,
-    /// Volume (m^D).
     pub(in crate::mpm) volume: f64,
     /// Index of the particle; `None` for a Gauss point.
     pub(in crate::mpm) particle: Option<usize>,
@@ -38,7 +36,6 @@ pub(in crate::mpm) struct QuadraturePoints<const D: usize> {
     all: Vec<QuadraturePoint<D>>,
     /// Position of each particle (m), wrapped into the grid on periodic axes.
     x: Vec<Vector<D>>,
-    /// Index of the cell of each particle.
     cell: Vec<usize>,
     /// Indices of the particles, cell by cell.
     order: Vec<usize>,
