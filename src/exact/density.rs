@@ -24,7 +24,7 @@ const PANELS: usize = 4;
 /// exactly zero on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
-/// A position in the body where the density is not positive, with its value (kg/m3).
+/// A position in the body where the density is not positive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoDensity {
     /// The position (m).
@@ -193,8 +193,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The acceleration constant is 3/4. Without the density gradient no force accelerates the gas;
-    /// an error of 1 % in a factor leaves a residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor leaves a
+    /// residual.
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -211,8 +211,8 @@ pub(super) mod tests {
         }
     }
 
-    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The force at fixed
-    /// positions equals the force at single points, and passes the check in weak form.
+    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The forces at
+    /// fixed positions and at single points are equal, and the force passes the check in weak form.
     #[test]
     fn manufactured_force_has_the_density_of_the_place() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
@@ -267,7 +267,7 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// Checks d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
+    /// Checks d/dX and d/dY of X^2 Y. A rounded density below zero has zero value and slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

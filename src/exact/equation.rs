@@ -1,5 +1,4 @@
-//! Stresses and forces of an [`Equation`] for any law. Also completes the derivatives of a plane
-//! motion by the out-of-plane state.
+//! Stresses and forces of an [`Equation`], and the out-of-plane derivatives of plane motions.
 
 use super::formula::{Number, Slope};
 use super::law::Equation;
@@ -8,7 +7,8 @@ use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
 use crate::subject::PlaneState;
 
 impl Equation {
-    /// Whether the law is for finite strains. A small-strain law has no deformed configuration.
+    /// Whether the law is for finite strains. Small-strain laws neglect the change of
+    /// configuration.
     pub fn is_finite(&self) -> bool {
         self.small_strain_modulus().is_none()
     }

@@ -57,8 +57,8 @@ pub fn meets(
     found.into_result()
 }
 
-/// Returns the motion on a face of `problem` at `event`, expanded about a point at the distance
-/// `inside` (m) from the face along `axis`.
+/// Returns the motion at a point on a face, expanded about a point inside the body. `inside` is the
+/// distance (m) between the two points along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;

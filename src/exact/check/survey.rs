@@ -16,8 +16,8 @@ const ROUNDS: usize = 8;
 /// Number of events added per round.
 const ADDED: usize = 16;
 
-/// Minimum share of the evenly distributed events at which a magnitude must be at least half of its
-/// maximum. With a smaller share, the events do not resolve the magnitude.
+/// The events resolve a magnitude if at least this share of the evenly distributed events has at
+/// least half of the maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum distance of an added event in the first round, relative to the body and the run. Each
@@ -43,12 +43,11 @@ pub struct Magnitudes {
     pub(crate) divergence: f64,
     /// Body force (N/m3).
     pub(crate) force: f64,
-    /// Sum of all terms of the equation of motion (N/m3).
+    /// Sum of the magnitudes of all terms of the equation of motion (N/m3).
     pub(crate) terms: f64,
 }
 
 impl Magnitudes {
-    /// Number of magnitudes.
     const COUNT: usize = 9;
 
     fn at(
@@ -210,7 +209,7 @@ fn point(problem: &Problem, event: Event) -> SurveyPoint {
     SurveyPoint { event, now, divergence, force, sizes }
 }
 
-/// Whether a quantity is zero, or at least half of its maximum at many evenly distributed events.
+/// Whether a quantity is at least half of its maximum at the share [`RESOLVED`] of the points.
 fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     let values = || points.iter().map(|point| point.sizes.to_array()[quantity]);
     let most = greatest(values());

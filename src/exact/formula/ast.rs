@@ -82,7 +82,6 @@ impl Expr {
         &self.nodes[at]
     }
 
-    /// Returns all sums of the formula.
     pub(super) fn sums(&self) -> impl Iterator<Item = &Sum> {
         self.nodes.iter().filter_map(|node| match &node.kind {
             NodeKind::Sum(sum) => Some(sum),

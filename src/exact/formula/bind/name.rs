@@ -78,7 +78,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Returns the constants, sorted by similarity to `name`.
+    /// Lists the constants as text, sorted by similarity to `name`.
     fn constants(&self, name: &str) -> Option<String> {
         let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
         let listed: Vec<String> =
