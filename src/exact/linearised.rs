@@ -47,7 +47,7 @@ mod tests {
         }
     }
 
-    /// A linear law leaves only rounding errors, and conditions without the law have no residual.
+    /// A linear law leaves only rounding errors. A violated condition without the law gives NaN.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";

@@ -116,7 +116,8 @@ impl Problem {
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// Returns the time (s) of the loads that belong to the motion at time `t`.
+    /// Returns the time (s) of the loads at time `t`, which is the end of the run for an
+    /// equilibrium.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }
@@ -200,7 +201,6 @@ impl Problem {
     }
 }
 
-/// The solution is the motion, with the stress from the law of the body at each position.
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
@@ -237,7 +237,7 @@ impl Truth for Problem {
 }
 
 impl Problem {
-    /// Returns the thermal stretch at one point and time.
+    /// Returns the thermal stretch at one point and time; `None` without thermal expansion.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
@@ -331,8 +331,8 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Returns the ring length (m/rad) at `label`, which is 1 unless the body is one of revolution.
-    /// Also returns the hoop stress (Pa) that opposes each displacement component.
+    /// Returns the circumference per angle (m/rad) at `label`, which is 1 unless the body is one of
+    /// revolution. Also returns the hoop stress (Pa) in each component of the equation of motion.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
@@ -412,7 +412,7 @@ pub struct Forcing {
 }
 
 impl Forcing {
-    /// Prepares the force of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the force of `problem` at the reference positions `labels` (m).
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
@@ -428,7 +428,7 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes the force (m/s2) at each position and time `t` (s), equal to
+    /// Writes the force (m/s2) at each position and time `t` (s), converted by `make`. Equals
     /// [`Problem::manufactured_force`]. Allocates only for shared forces.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
         let dimension = self.problem.dimension();

@@ -8,7 +8,7 @@ use super::problem::Problem;
 /// Up to three components of a sum, and the size to which an error of the sum is relative.
 type ValueAndSize = ([f64; 3], f64);
 
-/// A quantity and its size, per unit of reference volume or face area.
+/// Returns a quantity per unit of reference volume or face area, and the scale of its errors.
 pub type SumDensity = fn(&SumPoint<'_>) -> ([f64; 3], f64);
 
 /// A point at one time.
@@ -99,7 +99,6 @@ pub struct BodySum {
     size: f64,
 }
 
-/// A quadrature point.
 #[derive(Debug)]
 struct SumSite {
     body: usize,

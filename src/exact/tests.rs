@@ -94,12 +94,10 @@ where
     }
 }
 
-/// Creates the condition of a face that does not move.
 pub(super) fn fixed() -> Arc<dyn Condition> {
     Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
 }
 
-/// Creates the condition of a free face.
 pub(super) fn free() -> Arc<dyn Condition> {
     Demands::condition(|point| {
         (0..point.dimension()).try_for_each(|i| point.traction(i, "free", 0.0))
@@ -176,7 +174,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// The weak form on its own detects a force for plane strain instead of the given state.
+/// The weak form on its own detects a force that was computed for plane strain.
 #[rstest]
 fn the_weak_form_sees_what_happens_across(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
@@ -365,8 +363,8 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
 }
 
-/// The first half period of a bar with c = 1. Local damping makes the bar stiffer on its way out,
-/// to `pi sqrt(1.6)`, and softer on its way back, to half of that.
+/// The first half period of a bar with c = 1. Local damping raises the frequency on the way out to
+/// `pi sqrt(1.6)`, and halves it on the way back.
 #[test]
 fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let swing = |out: &str, back: &str| {

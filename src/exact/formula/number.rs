@@ -3,7 +3,6 @@
 use super::unary::Unary;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Declares the elementary functions as methods.
 macro_rules! elementary {
     ($($doc:literal $name:ident $variant:ident;)*) => {
         $(
@@ -46,7 +45,7 @@ pub trait Number:
     #[must_use]
     fn powi(self, exponent: i32) -> Self;
 
-    /// Computes a power. For an integer exponent without derivatives, this is [`powi`].
+    /// Computes a power. For an integer exponent without derivatives, calls [`powi`].
     ///
     /// [`powi`]: Number::powi
     #[must_use]

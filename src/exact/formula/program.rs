@@ -7,7 +7,6 @@ use super::builtin::Binary;
 use super::number::Number;
 use super::unary::Unary;
 
-/// Location of an instruction's argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Operand {
     Constant(f64),
@@ -32,8 +31,8 @@ pub(super) enum Action {
     Next(Loop),
 }
 
-/// The end of a sum's body: adds the term to register `to`. The next register contains the index.
-/// Unless the index is the last one, it is incremented and the program jumps to instruction `body`.
+/// The end of the body of a sum. Adds `term` to register `to`; the next register contains the
+/// index. If the index is below `last`, increments it and jumps to instruction `body`.
 #[derive(Debug, Clone)]
 pub(super) struct Loop {
     pub(super) term: Operand,
@@ -42,7 +41,6 @@ pub(super) struct Loop {
 }
 
 impl Action {
-    /// Returns the arguments of the action.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Operand> {
         let (first, second) = match self {
             Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => (*a, None),
@@ -65,7 +63,6 @@ impl Action {
     }
 }
 
-/// Runs the instructions of `code`, starting at `start`.
 pub(super) fn run<T: Number>(
     code: &[Instruction],
     start: usize,
@@ -117,7 +114,6 @@ pub(super) fn run<T: Number>(
     }
 }
 
-/// Returns the value of an operand.
 #[inline]
 pub(super) fn read<T: Number>(operand: Operand, variables: &[T], registers: &[T]) -> T {
     match operand {

@@ -19,7 +19,6 @@ pub struct Scope {
     free: Option<String>,
 }
 
-/// A user function.
 #[derive(Debug, Clone)]
 pub(super) struct Function {
     pub(super) parameters: Vec<String>,

@@ -38,7 +38,7 @@ pub struct Conduction {
     pub capacity: f64,
     /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates. Default: that of the exact solution.
+    /// Initial temperature (K), a formula of the coordinates; `None`: that of the exact solution.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
@@ -46,7 +46,7 @@ pub struct Conduction {
     pub temperature: Temperature,
     /// Deformation of the body; `None` if the body is at rest or strains are neglected.
     pub motion: Option<Motion>,
-    /// Whether the source is manufactured; if so, no source is stated.
+    /// Whether the source is derived from the exact temperature; `source` is then `None`.
     pub manufactured: bool,
     /// End of the run (s).
     pub until: f64,
@@ -99,7 +99,6 @@ impl Conduction {
     }
 }
 
-/// The solution is temperature and displacement. The displacement of a body at rest is zero.
 impl Truth for Conduction {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         match &self.motion {
@@ -178,7 +177,7 @@ pub struct HeatForcing {
 }
 
 impl HeatForcing {
-    /// Prepares the source of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the source of `problem` at the reference positions `labels` (m).
     pub fn new<'a>(problem: &Conduction, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let all = || labels.iter().map(Vec::as_slice);

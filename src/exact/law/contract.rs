@@ -26,8 +26,8 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
-    /// Returns the largest modulus at rest (Pa), `lambda + 2 mu` for a solid, which bounds the
-    /// stress for a given strain.
+    /// Returns the scale of stress per strain (Pa): the largest modulus at rest, `lambda + 2 mu`
+    /// for a solid.
     fn modulus(&self) -> f64;
 
     /// Returns the ratio of P, energy and modulus at the reference density `density` (kg/m3) to
@@ -56,10 +56,10 @@ pub(super) trait ConstitutiveLaw {
         false
     }
 
-    /// Checks that P is valid for a motion in `dimension` dimensions, or for a state `at_rest`.
+    /// Checks that the law is valid for motions in `dimension` dimensions, or for a body `at_rest`.
     ///
     /// # Errors
-    /// The reason why P is invalid, and the alternative for a suite.
+    /// The reason why the law is not valid, and an alternative for the suite.
     fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
         let _ = (dimension, at_rest);
         Ok(())

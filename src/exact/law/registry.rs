@@ -88,8 +88,8 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns the largest modulus at rest (Pa), which bounds the stress for a given
-            /// strain, for unit reference density like P.
+            /// Returns the scale of stress per strain (Pa): the largest modulus at rest, for unit
+            /// reference density like P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $($(Self::$law(law) => law.modulus(),)?)+
@@ -126,11 +126,11 @@ macro_rules! laws {
                 }
             }
 
-            /// Checks that the law is valid for a motion in `dimension` dimensions, or for a state
+            /// Checks that the law is valid for motions in `dimension` dimensions, or for a body
             /// `at_rest`.
             ///
             /// # Errors
-            /// The reason why the law is invalid, and the alternative for a suite.
+            /// The reason why the law is not valid, and an alternative for the suite.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
                     $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+

@@ -17,7 +17,7 @@ pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// Returns the axial stress of the law.
+    /// Returns the axial stress as a function of the strain.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -101,7 +101,6 @@ impl UniaxialLaw {
         tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
-    /// Whether the body yields at the displacement gradient `grad`.
     fn flows(&self, grad: f64) -> bool {
         let strain = libm::log1p(grad);
         strain.abs() > self.sense(strain).1.strain

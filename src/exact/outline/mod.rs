@@ -61,7 +61,7 @@ pub trait Outline: Debug + Send + Sync {
     /// Returns a closed line along the rim in the plane of the first two axes (m).
     fn trace(&self) -> Vec<(f64, f64)>;
 
-    /// Returns the parts of the rim, named for messages.
+    /// Returns the names of all parts of the rim, for messages.
     fn rims(&self) -> Vec<String>;
 
     /// Returns a random point on a part of the rim, and the outward normal at that point.

@@ -13,7 +13,7 @@ const LEAST: f64 = 0.25;
 pub enum Cut {
     /// Empty.
     Nothing,
-    /// The whole cell, as determined by the outline.
+    /// The outline counts the whole cell as part of the body.
     Whole,
     /// One or more pieces.
     Pieces(Vec<Piece>),
@@ -48,7 +48,7 @@ impl Piece {
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
-        // A line has no area except from rounding.
+        // A piece that degenerates to a line has an area from rounding only.
         if !(root > ROUNDING * (xx + yy)) {
             let half = 0.5 * self.volume.sqrt();
             return [half, 0.0, 0.0, half];

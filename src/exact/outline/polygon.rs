@@ -55,7 +55,6 @@ impl Polygon {
         pairs.map(|(one, two)| common(one, two)).sum::<f64>() > ROUNDING * area
     }
 
-    /// Returns the area (m2).
     fn area(&self) -> f64 {
         self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
     }
@@ -339,8 +338,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line removes no area. If rounding hides all ears, the largest is
-        // removed; the sum of signed areas is still correct.
+        // A corner on a straight line removes no area. If rounding hides all ears, the largest
+        // triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

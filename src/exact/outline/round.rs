@@ -33,7 +33,7 @@ pub struct Circle {
     pub centre: [f64; 2],
     /// Radius (m).
     pub radius: f64,
-    /// Sign of the body's outward normal along the radius.
+    /// 1 if the outward normal of the body points away from the centre, otherwise -1.
     pub outwards: f64,
 }
 
@@ -44,7 +44,7 @@ struct Rim {
     /// Name in suites.
     name: &'static str,
     radius: f64,
-    /// Sign of the outward normal along the radius.
+    /// 1 if the outward normal points away from the centre, otherwise -1.
     outwards: f64,
 }
 
