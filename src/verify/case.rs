@@ -1,5 +1,4 @@
-//! Judges a case of a convergence study: its levels and a plan determine the contents of its
-//! report.
+//! Judges a case of a convergence study from its levels and the judge plan.
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
@@ -17,7 +16,7 @@ use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
 
-/// Judgement of a case: the part of its outcome that its levels determine.
+/// Judgement of a case, computed from its levels.
 #[derive(Debug, Clone)]
 pub struct CaseJudgement {
     /// Verdict, as text.
@@ -32,7 +31,7 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case. If the verdict depends on it, `reruns` runs levels again with other settings.
+/// Judges a case. `reruns` runs levels again with other settings to find the cause of a floor.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,

@@ -74,7 +74,6 @@ impl LevelOutcome {
     }
 }
 
-/// Returns the levels that are excluded for the reason `by`.
 fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }

@@ -95,7 +95,6 @@ impl JudgePlan<'_> {
         }
     }
 
-    /// Judges levels that have run.
     pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {
         let is_sound = levels.iter().all(|level| level.run.failure.is_none());
         if !self.is_compared && is_sound {

@@ -45,7 +45,7 @@ pub struct Ranked {
 pub struct Ranking {
     /// Description of the problem.
     pub problem: String,
-    /// Size of the solution. Errors are divided by it.
+    /// Size of the solution, by which errors are divided.
     pub size: f64,
     /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,

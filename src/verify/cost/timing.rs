@@ -88,9 +88,8 @@ impl TimedSuite {
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// Fits the cost model of a case. Also returns its relative error at the finest level when it
-    /// is fitted to the other levels only, which shows how well it predicts a level that has not
-    /// run.
+    /// Fits the cost model of a case. Also returns the relative error with which a fit to the other
+    /// levels predicts the finest level.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =

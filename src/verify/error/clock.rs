@@ -30,8 +30,8 @@ pub const MOST_STEPS: f64 = 1e9;
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// Creates a clock whose number of steps is nearest to `until / wanted` (s), so instants do not
-    /// change the step. A run with fewer steps than `instants` has an instant after each step.
+    /// Creates a clock whose number of steps is nearest to `until / wanted`, where `wanted` is the
+    /// requested step (s). If there are fewer steps than `instants`, every step ends at an instant.
     /// `None` if `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`]
     /// steps would be needed.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {

@@ -8,7 +8,7 @@ use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Writes exact values at all labels, in the given number of dimensions and at a given time.
+/// Arguments: exact solution, number of dimensions, labels (m), time (s), and the output.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
 /// Properties of a judged quantity, except its name.
@@ -25,10 +25,10 @@ pub(super) struct Declaration {
     /// Writes exact values at all labels in D dimensions. Set only if the exact solution has a
     /// faster method for many labels.
     pub(super) exact_at_all: Option<ExactAtAll>,
-    /// Natural size of the exact values. Errors are divided by it.
+    /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Size of the numbers whose difference is the value, on a body of length L (m). NaN if it is
-    /// unknown.
+    /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
+    /// body of length L (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
     /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
     /// unknowns.
@@ -93,7 +93,7 @@ pub(super) enum SolutionSize {
 pub(super) enum TensorShape {
     /// One component.
     Scalar,
-    /// D * D components, stored row by row.
+    /// D components.
     Vector,
     /// D * D components, row by row.
     Tensor,

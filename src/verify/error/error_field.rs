@@ -7,7 +7,7 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of the body in a plane. It is the resolution of a drawing.
+/// Number of parts along the longer side of a plane body, as many as a drawing can show.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 

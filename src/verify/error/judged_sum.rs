@@ -11,7 +11,7 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2). Ratios are divided by them.
+    /// Exact second moments of the reference configuration (kg m2), the denominators of ratios.
     reference: [f64; 3],
     /// Axis and end of the face whose reaction is judged; `None` for the reaction of all faces.
     face: Option<(usize, bool)>,

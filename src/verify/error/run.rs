@@ -60,8 +60,8 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`]. Also records the judged quantity, in the form that a comparison in
-/// `norm` with other runs of the same level needs. The record of a failed run is empty.
+/// Runs `subject` like [`run`]. Also records the judged quantity, for a comparison in `norm` with
+/// other runs of the same level. The record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -240,7 +240,7 @@ impl<'a> RunMonitor<'a> {
     }
 }
 
-/// The samples whose errors are judged: those in the box of the comparison, if it has one.
+/// Returns the samples whose errors are judged: those in the box of the comparison, if any.
 fn judged_samples<'s>(comparison: &Comparison<'_>, samples: &'s Samples) -> Cow<'s, Samples> {
     match comparison.within {
         Some(within) => Cow::Owned(within.restrict(samples)),

@@ -38,7 +38,7 @@ pub struct Requirement {
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
     /// Bound on the errors of the suite's own methods, if no other bound is stated. Other methods
-    /// need not satisfy it if they have too few levels for an order.
+    /// need not satisfy this bound if they have too few levels for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -56,7 +56,7 @@ pub enum Acceptance {
 }
 
 impl Acceptance {
-    /// Returns the verdict as text. If the order was accepted, this is the verdict of the judge.
+    /// Returns the verdict as text: `converging` only if the judge confirms the order.
     pub(crate) fn verdict(self, judged: Verdict) -> String {
         match self {
             Self::Order if judged == Verdict::Converging => judged.to_string(),

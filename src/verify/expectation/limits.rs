@@ -1,4 +1,4 @@
-//! Bounds on measured values, for expectations without an order. They need only one level.
+//! Bounds on measured values, for expectations without an order. One level is sufficient.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};

@@ -1,4 +1,4 @@
-//! Proposes expectations for a suite that states none. They are based on the runs of the suite.
+//! Proposes expectations for a suite that states none, based on runs of the suite.
 //!
 //! Theory has priority: if the observed order agrees with the formal one, the formal order is
 //! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
