@@ -166,8 +166,8 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// The outcome of a case whose problem an external solver did not take. Only a problem that
-    /// the solver does not support is not applicable; a solver that fails fails the case.
+    /// Converts the outcome to that of a case that an external solver rejected. The case is not
+    /// applicable if the solver does not support the problem. It fails if the solver failed.
     #[must_use]
     pub(crate) fn not_run(self, error: &SubjectError) -> Self {
         match error {
@@ -178,7 +178,7 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that could not be set up.
+    /// Converts the outcome to that of a case that could not be set up.
     #[must_use]
     pub(crate) fn could_not_run(self, error: &SubjectError) -> Self {
         let unmet = vec![format!("the case could not be run: {error}")];
@@ -193,8 +193,8 @@ impl CaseOutcome {
         Self { reason, exemption: Some(Exemption::NotGated), ..self }
     }
 
-    /// The outcome after `run`, where `self` is the part that is known before it. A case does not
-    /// run if its `gating` is an exception, or if the solver lacks capabilities (`lacks`).
+    /// Completes the outcome by `run`. The case does not run if `gating` excepts it, or if the
+    /// solver lacks capabilities (`lacks`).
     #[must_use]
     pub(crate) fn after(
         self,

@@ -73,8 +73,7 @@ const LEAST_FALL: f64 = 0.05;
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
-/// that counts. `None` if it is not needed: the error has not stopped decreasing, and the suite
-/// expects no floor.
+/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor.
 ///
 /// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(

@@ -91,8 +91,8 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Samples, Subject};
 
-    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` is the step of the
-    /// third.
+    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` advances the third
+    /// number.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,

@@ -11,8 +11,8 @@ use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
-/// Number of initial steps that are all checked; later checks are equally spaced. Fast growth shows
-/// in the first steps. Growth that is relevant within ten thousand steps is slow.
+/// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
+/// growth appears in the first steps, and slow growth needs no frequent checks.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 named! {
     /// Verdict on a run.
     pub enum Stability {
-        /// The energy stayed within the range of exchange between its kinds.
+        /// The energy stayed within the bound for stable runs.
         Stable = "stable",
-        /// It grew beyond that, and not out of all bounds in the steps of the run.
+        /// The energy exceeded the bound for stable runs, but not the bound for unstable runs.
         BoundedGrowth = "bounded_growth",
-        /// It grew out of all bounds.
+        /// The energy exceeded the bound for unstable runs.
         Unstable = "unstable",
-        /// The subject failed, or a figure is not finite.
+        /// The subject failed, or a measured value is not finite.
         Failed = "failed",
     }
 }

@@ -5,8 +5,8 @@ use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum ratio of the finest error with a change to the finest error without it. A change that
-/// does not restore the order is reported only if its ratio is lower.
+/// A change that does not restore the order is reported only if it reduces the finest error at
+/// least to this fraction.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -18,8 +18,8 @@ const RISE: f64 = 0.25;
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// Maximum ratio of distances from the theoretical order, with the change to without it, for a
-/// change that restores the order.
+/// A change restores the order only if it reduces the distance from the theoretical order at least
+/// to this fraction.
 const CLOSER: f64 = 0.5;
 
 /// Effect by which a change reveals the cause.
