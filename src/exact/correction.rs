@@ -108,7 +108,6 @@ struct Line<'a> {
     h: f64,
     /// Reference positions of the nodes (m).
     labels: Vec<Vec<f64>>,
-    /// The motion at the nodes.
     motion: Box<dyn Places>,
 }
 

@@ -112,7 +112,6 @@ impl Density {
         Number::max(formula.eval(label), T::from(0.0))
     }
 
-    /// Returns the density (kg/m3) at `label` and its gradient (kg/m4).
     pub(super) fn with_slopes(&self, label: &[f64]) -> Slope<3> {
         let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
             let value = label.get(axis).copied().unwrap_or(0.0);
@@ -171,7 +170,6 @@ pub(super) mod tests {
         assert!(Density::of_place(cloud, &from, &to, Some(&disk)).is_ok());
     }
 
-    /// Checks the integrals of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and its left half.
     #[test]
     fn mass_is_the_integral_over_the_part_inside() {
         let density = Density { formula: Some(formula("1 + 2*X*Y^2", 2)), ..Density::from(1.0) };

@@ -57,7 +57,6 @@ impl Equation {
         }
     }
 
-    /// Computes Div P in D dimensions, from one evaluation of P with derivatives along all axes.
     fn divergence_in<const D: usize>(
         &self,
         grad: &Tensor<f64>,

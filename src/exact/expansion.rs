@@ -143,7 +143,6 @@ mod tests {
 
     const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.05, 0.03, 0.0], [0.0; 3]];
 
-    /// A body with theta = 1 does not expand.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]

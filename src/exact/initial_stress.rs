@@ -172,7 +172,6 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// An initial stress without a balancing force is refused.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

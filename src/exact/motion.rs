@@ -171,7 +171,6 @@ impl Truth for Motion {
         }
     }
 
-    /// Computes the displacements at all `labels` in batches of points.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))

@@ -89,7 +89,6 @@ impl Problem {
         self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
 
-    /// Returns the problem of the body that contains `label`.
     fn body_at(&self, label: &[f64]) -> &Self {
         let inside = |body: &&Self| {
             let ends = body.from.iter().zip(&body.to);
@@ -129,7 +128,6 @@ impl Problem {
         now
     }
 
-    /// Adds the out-of-plane derivatives to the in-plane derivatives of a motion.
     pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
         complete_in_plane(self.plane, &self.equation, label, now);
     }
@@ -167,7 +165,6 @@ impl Problem {
         self.manufactured || self.terms.iter().any(|term| term.resists_imbalance())
     }
 
-    /// Returns component i of the stated forces (m/s2).
     fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         self.uniform(i, t) + self.placed(i, label, t, u)
     }
@@ -374,7 +371,6 @@ impl SharedForces {
         })
     }
 
-    /// Returns the stored forces at time `t` (s), if any.
     pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
         let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         tables.forces.get(&(places, t.to_bits())).cloned()

@@ -224,7 +224,6 @@ fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
     problem.from.iter().copied().zip(problem.to.iter().copied()).collect()
 }
 
-/// Returns the positions and weights in the body.
 fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
     let charts = outline.charts().into_iter().enumerate();
@@ -238,7 +237,6 @@ fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     charts.flat_map(on_chart).collect()
 }
 
-/// Returns the positions and weights on a face of a box.
 fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let mut axes = intervals(problem);
     let (low, high) = axes.remove(face.axis);

@@ -135,7 +135,6 @@ impl JudgePlan<'_> {
     }
 }
 
-/// Collects the measured values that limits are compared with.
 fn measure(levels: &[LevelOutcome]) -> Measured {
     let drifts: Option<Vec<ConservationError>> =
         counted(levels).map(|level| level.run.drift).collect();

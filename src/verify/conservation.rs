@@ -72,7 +72,6 @@ impl ConservationError {
     }
 }
 
-/// Changes of the totals over the instants of a run.
 #[derive(Debug, Clone)]
 pub(super) struct Balance {
     start: Totals,

@@ -140,7 +140,6 @@ fn spread_remark(levels: &[LevelOutcome], axis: Axis) -> Option<String> {
     })
 }
 
-/// Formats a number with two digits.
 fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), |value| format_number(rounded(value, 2)))
 }

@@ -64,7 +64,6 @@ pub enum FigureNeed {
     StateOfRest,
 }
 
-/// Declares [`CaseFigure`] from the entries of `each_case_figure`.
 macro_rules! case_figures {
     ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
         $value:ident;)+) => {
@@ -128,7 +127,6 @@ fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
 }
 
-/// Returns the distance (m) between the observed point and its exact position, on the finest level.
 fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
@@ -140,7 +138,6 @@ fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
 }
 
-/// Returns the levels that count for the verdict.
 pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
     levels.iter().filter(|level| level.usable)
 }

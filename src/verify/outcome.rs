@@ -215,7 +215,6 @@ impl CaseOutcome {
         }
     }
 
-    /// Adds the judgement of the levels to the outcome.
     #[must_use]
     pub(crate) fn judged(self, judgement: CaseJudgement) -> Self {
         let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;

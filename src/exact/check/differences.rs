@@ -75,7 +75,6 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
     stress_differences(problem, event, &all, sizes)
 }
 
-/// Compares Div P from automatic differentiation with differences of P at neighbouring points.
 fn stress_differences(
     problem: &Problem,
     event: &Event,

@@ -3,7 +3,6 @@
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
-/// Component names for messages.
 pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
 
 #[derive(Debug, Clone)]
@@ -117,7 +116,6 @@ impl SpaceTimeBox<'_> {
     }
 }
 
-/// The two opposite corners of a face of a box.
 pub(crate) struct OnFace {
     from: Vec<f64>,
     to: Vec<f64>,
@@ -135,7 +133,6 @@ impl OnFace {
         Self { from, to }
     }
 
-    /// Returns the face as a space-time box with the start and end time of `body`.
     pub(crate) fn extent<'a>(&'a self, body: &SpaceTimeBox<'_>) -> SpaceTimeBox<'a> {
         SpaceTimeBox { from: &self.from, to: &self.to, start: body.start, end: body.end }
     }

@@ -42,7 +42,6 @@ pub(crate) struct InterfaceTraction {
     pub(crate) traction: [f64; 3],
     /// Velocity relative to the other surface (m/s).
     pub(crate) velocity: [f64; 3],
-    /// Pressure between the surfaces (Pa).
     pub(crate) pressure: f64,
     pub(crate) coefficient: f64,
 }

@@ -86,7 +86,6 @@ impl BodyPair<'_> {
         format!("where two bodies meet along {}, {what}", AXES[self.axis])
     }
 
-    /// Returns the motion of both bodies on their faces.
     fn both(&self, event: &Event) -> [Derivatives; 2] {
         let Self { one, other, axis, .. } = *self;
         let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);

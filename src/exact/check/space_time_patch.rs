@@ -73,7 +73,6 @@ impl SpaceTimePatch {
         self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
     }
 
-    /// Returns the part of the patch around `place` with half the length on every axis.
     pub(super) fn half_about(&self, place: &[f64]) -> Self {
         self.part(place, 0.5)
     }
@@ -132,7 +131,6 @@ impl SpaceTimePatch {
     }
 }
 
-/// Midpoint-rule points of a patch.
 pub(crate) struct Raster {
     /// Points in space, one coordinate per axis; the first axis varies fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
@@ -148,7 +146,6 @@ pub(crate) struct AxisPoint {
     slope: f64,
 }
 
-/// Returns the positions of a raster's points (m).
 pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
     points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
 }

@@ -13,7 +13,6 @@ use crate::exact::random::Random;
 /// Number of rounds that add events close to the largest terms.
 const ROUNDS: usize = 8;
 
-/// Number of events added per round.
 const ADDED: usize = 16;
 
 /// The events resolve a magnitude if at least this share of the evenly distributed events has at
@@ -27,13 +26,9 @@ const REACH: f64 = 1.0 / 32.0;
 /// The largest magnitudes of a motion and of the terms in its equation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Magnitudes {
-    /// Displacement (m).
     pub(crate) displacement: f64,
-    /// Velocity (m/s).
     pub(crate) velocity: f64,
-    /// Acceleration (m/s2).
     pub(crate) acceleration: f64,
-    /// Displacement gradient.
     pub(crate) gradient: f64,
     /// Second derivatives of the displacement along each axis (1/m).
     pub(crate) curvature: f64,
@@ -195,7 +190,6 @@ pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Ve
     (0..count).map(event).collect()
 }
 
-/// Returns the bounding box of the body, and the times of the run.
 pub(crate) fn extent(problem: &Problem) -> SpaceTimeBox<'_> {
     let Problem { from, to, until, .. } = problem;
     SpaceTimeBox { from, to, start: problem.loaded(0.0), end: *until }

@@ -130,7 +130,6 @@ pub(crate) struct Sums {
     pub(crate) gain: f64,
     pub(crate) loss: f64,
     pub(crate) size: f64,
-    /// Minimum scale of an imbalance.
     pub(crate) smallest: f64,
     /// The largest `size` at a point; `place` is the position and time of this point.
     peak: f64,
@@ -214,8 +213,7 @@ fn balance(
     })
 }
 
-/// Computes the balance of each component on a raster of a patch. With `only_first`, only first
-/// derivatives of the motion are computed.
+/// With `only_first`, only first derivatives of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;

@@ -53,7 +53,6 @@ impl Binary {
 pub(super) const PI: &str = "pi";
 const SUM: &str = "sum";
 
-/// Meaning of a builtin name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Builtin {
     Unary(Unary),

@@ -244,7 +244,6 @@ impl<'a> Parser<'a> {
         Err(FormulaError::new(self.since(span.start), message))
     }
 
-    /// Parses the arguments of a call, including the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.peek() == Token::Symbol(')') {

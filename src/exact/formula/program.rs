@@ -50,7 +50,6 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// Returns the action with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),

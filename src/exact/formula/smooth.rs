@@ -44,7 +44,6 @@ impl Formula {
     }
 }
 
-/// Whether an operand depends on a variable, given the `varying` registers.
 fn varies(operand: Operand, varying: &[bool]) -> bool {
     match operand {
         Operand::Constant(_) => false,
@@ -54,7 +53,6 @@ fn varies(operand: Operand, varying: &[bool]) -> bool {
 }
 
 impl Unary {
-    /// Whether the function is analytic on the whole real line.
     fn is_analytic(self) -> bool {
         matches!(
             self,

@@ -78,7 +78,6 @@ fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// Checks every face of the body at random points and times.
 fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violation> {
     let mut random = Random::new(3);
     for face in &problem.faces {
@@ -274,7 +273,6 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
 
 pub(super) type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
-/// Returns the bounding box of the body, and the times of the run.
 pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
     SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
 }
@@ -291,15 +289,11 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
 
 /// The largest magnitudes of a temperature and of its equation's terms; NaN if any is NaN.
 pub(super) struct HeatMagnitudes {
-    /// Temperature (K).
     pub(super) value: f64,
     /// Difference between highest and lowest temperature (K).
     pub(super) range: f64,
-    /// Rate (K/s).
     pub(super) rate: f64,
-    /// Gradient (K/m).
     pub(super) gradient: f64,
-    /// Second derivatives (K/m2).
     pub(super) curvature: f64,
     /// Heat flow (W/m^(D-1)).
     pub(super) inflow: f64,

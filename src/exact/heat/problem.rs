@@ -60,7 +60,6 @@ impl Conduction {
         self.from.len()
     }
 
-    /// Computes the motion and the temperature at one point and time.
     pub(super) fn now(&self, label: &[f64], t: f64) -> (Derivatives, TemperatureDerivatives) {
         let still = Derivatives::default;
         let motion = self.motion.as_ref().map_or_else(still, |motion| motion.derivatives(label, t));
@@ -79,7 +78,6 @@ impl Conduction {
         self.balance(&motion, &now)
     }
 
-    /// Returns the source of the problem (W/kg), manufactured or stated.
     pub(super) fn source(
         &self,
         label: &[f64],

@@ -122,7 +122,6 @@ fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension
     refused(&fin("-12*(t - 5)"), "heat equation");
 }
 
-/// Heat that leaves on one side enters on the opposite side.
 #[test]
 fn heat_flows_through_a_periodic_face() {
     let ring = |temperature: &str| Conduction {

@@ -125,7 +125,6 @@ impl CamClayLaw {
         [0.5 * imaginary / m, real / m]
     }
 
-    /// Returns the ratio at yield in compression.
     fn ratio_at_yield(&self) -> f64 {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }

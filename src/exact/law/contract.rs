@@ -74,7 +74,6 @@ pub(crate) struct Lame {
 }
 
 impl Lame {
-    /// Computes Lame's parameters from Young's modulus (Pa) and Poisson's ratio.
     pub(crate) fn new(young: f64, poisson: f64) -> Self {
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         Self { lambda, mu: young / (2.0 * (1.0 + poisson)) }

@@ -86,7 +86,6 @@ mod tests {
         }
     }
 
-    /// The shear vanishes at this point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];

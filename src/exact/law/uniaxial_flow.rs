@@ -61,7 +61,6 @@ pub(super) struct UniaxialFlow {
 }
 
 impl UniaxialFlow {
-    /// A body that never yields.
     pub(super) const NONE: Self =
         Self { strain: f64::INFINITY, modulus: 0.0, to_apex: f64::INFINITY };
 }
@@ -79,7 +78,6 @@ impl UniaxialLaw {
         if strain < 0.0 { (-1.0, &self.compression) } else { (1.0, &self.extension) }
     }
 
-    /// Computes the Kirchhoff stress (Pa) at the logarithmic strain `strain`.
     fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let (sign, flow) = self.sense(strain.value());
         let elastic = self.lame.modulus();

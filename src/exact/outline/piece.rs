@@ -33,7 +33,6 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Creates the piece that is a whole lattice cell.
     pub(super) fn whole(place: [f64; 2], half: [f64; 2]) -> Self {
         let [width, height] = half.map(|half| 2.0 * half);
         let spread = [width * width / 12.0, 0.0, height * height / 12.0];
@@ -57,7 +56,6 @@ impl Piece {
         [xx + root, xy, xy, yy + root].map(|entry| scale * entry)
     }
 
-    /// Returns the union of this piece and `other`.
     fn with(&self, other: &Self) -> Self {
         let volume = self.volume + other.volume;
         let shares = [self.volume / volume, other.volume / volume];
@@ -136,7 +134,6 @@ pub fn join_small(
 mod tests {
     use super::*;
 
-    /// Two halves of a rectangle merge to the rectangle: volume, centroid, moments and domain.
     #[test]
     fn halves_make_a_whole() {
         let half = |x: f64| Piece::whole([x, 0.5], [1.0, 0.5]);

@@ -220,7 +220,6 @@ impl Outline for Polygon {
     }
 }
 
-/// Returns the part of a triangle in a box.
 fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
     [0, 1].into_iter().fold(corners.to_vec(), |left, axis| {
         clip(&clip(&left, |p| p[axis] - from[axis]), |p| to[axis] - p[axis])
@@ -230,7 +229,6 @@ fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
 /// Area, first and second moments of convex polygons.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct AreaMoments {
-    /// Area (m2).
     pub(super) area: f64,
     /// Integral of the position (m3).
     pub(super) first: Point,
@@ -311,7 +309,6 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     !(apart(a, b, c, d) || apart(c, d, a, b) || beside(0) || beside(1))
 }
 
-/// Returns the distance of `p` from the segment between `a` and `b` (m).
 pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
     let (along, to) = (side(a, b), side(a, p));
     let square = along[0] * along[0] + along[1] * along[1];

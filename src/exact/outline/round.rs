@@ -37,7 +37,6 @@ pub struct Circle {
     pub outwards: f64,
 }
 
-/// A rim of a round body.
 struct Rim {
     /// Name in messages.
     title: &'static str,
@@ -168,7 +167,6 @@ impl Outline for Round {
         self.along(&direction, radius.clamp(self.inner, self.outer))
     }
 
-    /// Returns a box between the rims.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
         let away = |rim: Rim| (rim.radius - radius).abs();

@@ -200,7 +200,6 @@ fn no_sliver_stays() {
     }
 }
 
-/// The share of random points in a part of the body equals its share of the area.
 #[test]
 fn points_are_spread_evenly() {
     let (body, half) = (polygon(ANGLE), polygon(&[[0.1, 0.1], [0.4, 0.1], [0.4, 0.9], [0.1, 0.9]]));

@@ -291,7 +291,6 @@ proptest! {
         }
     }
 
-    /// Units of work and spacing do not change the result.
     #[test]
     fn units_do_not_matter(samples in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
         let other: Vec<Sample> = samples

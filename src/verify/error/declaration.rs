@@ -30,8 +30,7 @@ pub(super) struct Declaration {
     /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
     /// body of length L (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
-    /// unknowns.
+    /// Whether the quantity is a primary unknown of a subject, whose errors tables show.
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
@@ -39,11 +38,10 @@ pub(super) struct Declaration {
     pub(super) is_of_motion: bool,
     /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
-    /// Declaration of a sum over the body. A sum has no values at labels. `None` for a field.
+    /// Declaration of a sum over the body; `None` for a field, which has values at labels.
     pub(super) sum: Option<SumDeclaration>,
 }
 
-/// A sum over the body or its walls.
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
     /// How the value of a subject is computed; components above the dimension are zero.
@@ -56,7 +54,6 @@ pub(super) struct SumDeclaration {
 /// How a subject's value of a sum is computed.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
-    /// Computed from the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
     /// Computed by a function of the second moments (kg m2) of the body and of its reference
     /// configuration, one for each axis. The same function gives the exact value from the exact
@@ -69,7 +66,6 @@ pub(super) enum ComputedSum {
 /// Property of the problem that a sum requires, in addition to a moving body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SumNeed {
-    /// Nothing.
     Nothing,
     /// A law that stores energy.
     StoredEnergy,
@@ -79,7 +75,6 @@ pub(crate) enum SumNeed {
     Wall,
 }
 
-/// Natural size of a field.
 pub(super) enum SolutionSize {
     /// Largest magnitude of the values.
     Magnitude,
@@ -91,16 +86,13 @@ pub(super) enum SolutionSize {
 
 /// Tensor order of a field's value at a label, in D dimensions.
 pub(super) enum TensorShape {
-    /// One component.
     Scalar,
-    /// D components.
     Vector,
     /// D * D components, row by row.
     Tensor,
 }
 
 impl TensorShape {
-    /// Returns the number of components at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
             // In zero dimensions there is nothing to compare, not even a scalar.

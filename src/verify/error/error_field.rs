@@ -80,7 +80,6 @@ pub(super) mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// Exact solution of a body that does not move.
     pub(in crate::verify::error) struct AtRest;
 
     impl Truth for AtRest {

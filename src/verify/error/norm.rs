@@ -174,7 +174,6 @@ impl RunErrors {
     }
 }
 
-/// Returns the Euclidean length of a vector.
 pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
 }

@@ -38,7 +38,6 @@ pub struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Whether a quantity other than the displacement is compared.
     fn is_of_another(&self) -> bool {
         self.sum.is_some() || self.of != Quantity::default()
     }

@@ -29,7 +29,6 @@ pub(crate) fn range(order: f64) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Returns the levels that count for the verdict.
 pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
     study.levels.iter().filter(|level| level.usable)
 }

@@ -82,7 +82,6 @@ pub struct GateResult {
 }
 
 impl Requirement {
-    /// Returns the lowest order that is accepted.
     fn lowest(&self) -> Option<f64> {
         self.order.map(|order| order - OrderHypothesis::TOLERANCE)
     }
@@ -95,7 +94,6 @@ impl Requirement {
         parts.join(", or ")
     }
 
-    /// Returns the bound at which errors are accepted without an order.
     fn bound(&self) -> Option<f64> {
         self.error_below.or(self.own_error_below)
     }
@@ -167,7 +165,6 @@ impl Requirement {
         Err(UnmetRequirement(self.unmet(judgement, &counted)))
     }
 
-    /// Creates the hypothesis that the judge tests.
     pub(crate) fn hypothesis(&self, axis: Axis) -> OrderHypothesis {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }

@@ -39,7 +39,6 @@ pub(crate) const FLAT_ORDER: f64 = 0.2;
 /// On a floor, the order is below this fraction of the previous order and of the formal order.
 const FLOOR_FRACTION: f64 = 0.5;
 
-/// A contiguous range of points and the line through it.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) range: Range<usize>,

@@ -371,7 +371,6 @@ mod tests_of_checkerboard {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Creates a row of particles with the given stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {

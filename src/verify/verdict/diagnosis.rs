@@ -249,7 +249,6 @@ mod tests {
     use crate::verify::order::level::Level;
     use crate::verify::verdict::judge::judge;
 
-    /// Creates a judgement with the given verdict and order.
     fn found(verdict: Verdict, order: Interval) -> Judgement {
         let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
         Judgement { verdict, order: Some(order), ..none }
@@ -372,7 +371,6 @@ mod tests {
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
-    /// Finer levels have a smaller error regardless of the cause.
     #[test]
     fn a_smaller_error_of_finer_levels_is_no_evidence() {
         let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));

@@ -92,7 +92,6 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict, and the points of its window.
 struct Finding {
     verdict: Verdict,
     reason: Reason,

@@ -268,7 +268,6 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Maximum number of terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;
 
 impl<'a> ProgramBuilder<'a> {
