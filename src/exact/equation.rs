@@ -22,9 +22,9 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Returns the current area vector of a unit area on a reference face with its normal along
-    /// `axis`, pointing outwards from the `high` or low side: `J F^-T N` (Nanson's formula). In
-    /// small-strain theory, this is N.
+    /// Returns `J F^-T N` (Nanson's formula): the current area vector per unit area of a reference
+    /// face. N is the outward normal of the `high` or low face along `axis`. In small-strain
+    /// theory, the result is N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {

@@ -11,7 +11,7 @@ pub struct Motion {
     components: Vec<Formula>,
 }
 
-/// Derivatives of a motion at one point and time; zero for components on missing axes.
+/// Derivatives of a motion at one point and time; zero on axes that the body does not have.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Derivatives {
     /// u (m).

@@ -63,7 +63,7 @@ pub struct Problem {
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
     pub until: f64,
-    /// The stated solution, which must be checked.
+    /// The stated solution, which [`Problem::check`] verifies.
     pub motion: Motion,
     /// Maximum residual of a condition, relative to its terms.
     pub tolerance: f64,
@@ -84,7 +84,7 @@ impl Problem {
         self.linearised.as_ref().map_or(self.tolerance, |linearised| linearised.tolerance)
     }
 
-    /// Whether the body contains a point of its bounding box.
+    /// Whether the body contains `label`, a position (m) in the bounding box.
     pub fn holds(&self, label: &[f64]) -> bool {
         self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
@@ -97,8 +97,7 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// Returns the largest modulus at rest in the body (Pa): a bound on the stress for a given
-    /// strain.
+    /// Returns the scale of stress per strain (Pa): the largest modulus at rest in the body.
     pub fn modulus(&self) -> f64 {
         self.equation.modulus() * self.equation.density_factor(self.density.largest())
     }

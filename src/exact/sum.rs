@@ -11,7 +11,7 @@ type ValueAndSize = ([f64; 3], f64);
 /// Returns a quantity per unit of reference volume or face area, and the scale of its errors.
 pub type SumDensity = fn(&SumPoint<'_>) -> ([f64; 3], f64);
 
-/// A point at one time.
+/// A point of the body or of a face, at one time.
 pub struct SumPoint<'a> {
     problem: &'a Problem,
     face: Option<&'a Face>,
@@ -164,7 +164,7 @@ impl BodySum {
         Err(SumError::NotConverged)
     }
 
-    /// Returns the largest size of the sum during the run.
+    /// Returns the scale of errors: the largest size of the sum during the run.
     pub fn size(&self) -> f64 {
         self.size
     }

@@ -87,7 +87,7 @@ pub struct LevelOutcome {
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,
-    /// Largest difference between repeated runs, in the norm and relative to the scale of the
+    /// Largest difference between repeated runs, in the judged norm and divided by the scale of the
     /// error. NaN if the runs cannot be compared; `None` if the level ran once.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.

@@ -31,8 +31,8 @@ impl Condition for Interface {
 const INSIDE: f64 = 1e-9;
 
 /// Checks the high face of `one` against the opposite low face of `other` along `axis`. With a
-/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. Residuals are
-/// relative to the largest magnitudes of all bodies.
+/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. `largest`
+/// contains the scales of the residuals over all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -233,8 +233,8 @@ mod tests {
         }
     }
 
-    /// The plates are pressed together by 1/100 and slide along their common face with different
-    /// velocities. For mu = 0.3, friction shears them by 3/500.
+    /// The plates are compressed by a strain of 1/100. If they slide, friction with mu = 0.3 causes
+    /// a shear strain of 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
     #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]

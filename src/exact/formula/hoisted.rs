@@ -31,8 +31,8 @@ pub struct Hoisted<T> {
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas of `variables` variables. Sums are unrolled; [`Formula::operations`] gives
-    /// the resulting length.
+    /// Splits formulas that have the given number of `variables`. Sums are unrolled, which gives
+    /// [`Formula::operations`] steps.
     ///
     /// # Panics
     /// If a formula has a different number of variables.

@@ -127,7 +127,7 @@ impl Scope {
         Ok(())
     }
 
-    /// Refuses an invalid `name`.
+    /// Checks that `name` is a valid name.
     ///
     /// # Errors
     /// When `name` contains characters other than ASCII letters, digits and `_`, or begins with a

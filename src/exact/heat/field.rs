@@ -18,7 +18,7 @@ pub struct Temperature {
     dimension: usize,
 }
 
-/// Temperature and its derivatives at one point and time; zero along missing axes.
+/// Temperature and its derivatives at one point and time; zero on axes that the body does not have.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TemperatureDerivatives {
     /// T (K).

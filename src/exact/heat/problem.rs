@@ -32,7 +32,7 @@ pub struct Conduction {
     pub to: Vec<f64>,
     /// Reference density (kg/m3).
     pub density: f64,
-    /// Conductivity k (W/(m K), per m^(3-D)).
+    /// Conductivity k (W m^(2-D)/K).
     pub conductivity: f64,
     /// Heat capacity c (J/(kg K)).
     pub capacity: f64,
@@ -42,7 +42,7 @@ pub struct Conduction {
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
-    /// The exact solution, which must be checked.
+    /// The stated solution, which [`Conduction::check`] verifies.
     pub temperature: Temperature,
     /// Deformation of the body; `None` if the body is at rest or strains are neglected.
     pub motion: Option<Motion>,

@@ -1,6 +1,6 @@
 //! Round bodies: annuli and disks in the plane, balls in space.
 //!
-//! Also the common volume of a box and a ball around the origin, in any dimension.
+//! The module also computes the common volume of a box and a ball around the origin.
 
 use super::{Cut, Outline};
 use crate::exact::gauss::points;

@@ -25,9 +25,9 @@ pub struct Machine {
     pub cores: usize,
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Fraction of the time during which the measuring thread waited for a core. This time is
-    /// excluded from all measured seconds. `None` if the system does not report it; it is then
-    /// included.
+    /// Fraction of the time during which the measuring thread waited for a core. All measured
+    /// seconds exclude this time. `None` if the system does not report this time; the measured
+    /// seconds then include it.
     pub waited: Option<f64>,
     /// Time (s) of a constant loop that runs between all other measurements. Its spread is the
     /// noise due to the clock frequency and other processes.
@@ -62,8 +62,8 @@ impl Timing {
 pub struct TimedSuite {
     /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
-    /// Workload and time of each level of each case. The time is `None` if the set-up failed; for a
-    /// failed run it ends at the failure.
+    /// Workload and time of each level of each case. The time is `None` if the set-up failed. The
+    /// time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,

@@ -25,8 +25,8 @@ pub enum StepKind {
 /// Maximum number of steps of a run. It prevents endless runs due to a mistyped dt.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Maximum relative difference between the requested and the actual step. From level to level, an
-/// error of second order in the step then changes by at most 2 %, and an order by at most 0.03.
+/// Maximum relative difference between the requested and the actual step. An error of second order
+/// in the step then changes by at most 2 %, and an observed order by at most 0.03.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {

@@ -198,8 +198,8 @@ pub struct ErrorScale {
     /// error: the largest exact magnitude, or NaN if there is none. If the suite states a scale,
     /// that scale is already applied, and the divisor is 1.
     pub size: f64,
-    /// Exponent g of the work, which grows like spacing^-g: one for each refined axis of the body,
-    /// and one for the time step.
+    /// Exponent g of the work, which grows like spacing^-g: the number of refined axes of the body,
+    /// plus the exponent of the number of steps.
     pub growth: f64,
 }
 

@@ -22,7 +22,7 @@ impl OrderHypothesis {
     /// Maximum width of a range. A wider range could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
-    /// Creates the hypothesis of a formal order with the usual tolerance.
+    /// Creates the hypothesis of a formal order with the default tolerance.
     pub const fn formal(order: f64) -> Self {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }

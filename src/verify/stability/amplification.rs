@@ -1,10 +1,10 @@
 //! The amplification matrix: one step of a frozen subject as a matrix.
 //!
 //! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
-//! is computed by running the subject from a unit perturbation of number j of its state, so no
-//! second implementation is needed. Central differences eliminate quadratic terms (volume times
-//! stress). Numbers are scaled by their natural sizes. This scaling is a similarity transformation
-//! and does not change eigenvalues.
+//! is computed by running the subject from a state whose number j is perturbed, so the step is not
+//! implemented twice. Central differences eliminate quadratic terms (volume times stress). Numbers
+//! are scaled by their natural sizes. This scaling is a similarity transformation and does not
+//! change eigenvalues.
 
 use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;

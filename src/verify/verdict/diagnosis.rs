@@ -5,8 +5,8 @@ use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// A change that does not restore the order is reported only if it reduces the finest error at
-/// least to this fraction.
+/// A change that does not restore the order is reported only if it reduces the finest error to this
+/// fraction or less.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -18,8 +18,8 @@ const RISE: f64 = 0.25;
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// A change restores the order only if it reduces the distance from the theoretical order at least
-/// to this fraction.
+/// A change restores the order only if it reduces the distance from the theoretical order to this
+/// fraction or less.
 const CLOSER: f64 = 0.5;
 
 /// Effect by which a change reveals the cause.
@@ -183,8 +183,8 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        // If a change raises the order, the exact solution did not limit it before, although it may
-        // limit the raised order.
+        // If a change raises the order, the exact solution did not limit the original order,
+        // although it may limit the raised order.
         let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
         let limit = self.finding(NotSmooth);
         let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
