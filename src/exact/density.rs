@@ -228,8 +228,8 @@ pub(super) mod tests {
         assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
-    /// Checks kinetic and stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2
-    /// and C I/(2 a^2), where C = 1 and I = pi/6.
+    /// A plane cloud with K = 1/4 and rho0 = 1 - R^2 has the motion x = a X. Its energies are I
+    /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
     #[test]
     fn energies_of_a_round_cloud_have_their_closed_forms() {
         let plane = |text: &str| {

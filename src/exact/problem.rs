@@ -114,8 +114,8 @@ impl Problem {
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// Returns the time (s) of the loads at time `t`, which is the end of the run for an
-    /// equilibrium.
+    /// Returns the time (s) at which loads are evaluated: the end of the run for an equilibrium,
+    /// otherwise `t`.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }

@@ -197,7 +197,8 @@ impl Term for Given {
     }
 }
 
-/// A run evaluates all positions for one time after another, bit-identical to single evaluations.
+/// [`Forcing`] evaluates all positions at one time. The forces are bit-identical to those at single
+/// points.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
@@ -318,7 +319,7 @@ fn a_traction_may_depend_on_the_place() {
 }
 
 /// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
-/// of s, its faces have s^2 of their area, which a dead load ignores.
+/// s, the area of a face is s^2 times the reference area. A dead load ignores this.
 #[test]
 fn a_pressure_acts_on_the_present_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -413,8 +414,8 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The
-/// residual traction on the inner rim counts, although the outer rim has none.
+/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`.
+/// Only the inner rim has a residual traction.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];

@@ -31,7 +31,8 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` runs levels again with other settings to find the cause of a floor.
+/// Judges a case. `reruns` runs levels again to find the cause of an error floor, or with shorter
+/// time steps for the gate.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -149,8 +150,8 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// Returns the verdict and its reason. For a case with limits only, the reason starts with the
-/// limited values. The judgement follows if there are enough levels.
+/// Returns the verdict and its reason. For a case with bounds only, the verdict is `within bounds`
+/// or `out of bounds`, and the reason starts with the bounded values.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,

@@ -19,7 +19,7 @@ pub struct SuiteOutcome {
     pub group: String,
     /// Headline: the one-line title of the suite.
     pub title: String,
-    /// Reference for the problem.
+    /// Literature reference for the problem.
     pub source: String,
     /// Introduction by the suite's author.
     pub about: String,

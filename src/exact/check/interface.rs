@@ -6,7 +6,8 @@
 //! sliding.
 //!
 //! One formula may describe several bodies and jump at their interface. The motion at the face is
-//! therefore a one-sided limit: an expansion about a point that is 1e-9 of the body length inside.
+//! therefore a one-sided limit: an expansion about a point inside the body, at a distance of 1e-9
+//! body lengths from the face.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};

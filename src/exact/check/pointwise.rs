@@ -59,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Returns component i of an initial condition: the `stated` value, if any. Otherwise the value of
-/// the `motion` if the problem follows the motion, or zero.
+/// Returns component i of an initial condition: the `stated` value if there is one, otherwise the
+/// value of the `motion` if the problem follows the motion, otherwise zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;

@@ -19,8 +19,8 @@ const ADDED: usize = 16;
 /// least half of the maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
-/// Maximum distance of an added event in the first round, relative to the body and the run. Each
-/// round halves this distance.
+/// Maximum distance of an added event in the first round, relative to the size of the body and the
+/// duration of the run. Each round halves this distance.
 const REACH: f64 = 1.0 / 32.0;
 
 /// The largest magnitudes of a motion and of the terms in its equation.
@@ -100,7 +100,7 @@ impl Magnitudes {
     }
 }
 
-/// An event in the interior of the body, with the motion at that event.
+/// The motion and the forces at an event inside the body.
 #[derive(Debug)]
 pub(crate) struct SurveyPoint {
     pub(crate) event: Event,
@@ -158,7 +158,7 @@ impl Survey {
         all
     }
 
-    /// Returns all reference positions, each with the motion there.
+    /// Returns the reference position and the motion at every event.
     pub(crate) fn motion(&self) -> impl Iterator<Item = (&[f64], &Derivatives)> {
         self.points.iter().map(|point| (point.event.label.as_slice(), &point.now))
     }

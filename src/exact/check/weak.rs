@@ -86,7 +86,7 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
 /// changes with twice and four times as many points per axis. Otherwise the points do not resolve
 /// the fields, and the check is repeated on the half patch around the largest term.
 ///
-/// `condition` must end with the name of the equation.
+/// `condition` is the beginning of a message and must end with the name of the equation.
 pub(crate) fn balances<const N: usize>(
     mut patch: SpaceTimePatch,
     condition: &str,

@@ -203,7 +203,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
 /// The parts and registers in which each node is computed.
 struct Homes {
     dependence: Vec<Dependence>,
-    /// For each part, the register of each node that it computes.
+    /// For each part, the registers of the nodes that the part computes.
     registers: [Vec<Option<usize>>; 4],
     kept: [usize; 4],
 }

@@ -142,7 +142,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Numbers per batch. With this many, decoding an instruction costs little compared with its
+/// Numbers per batch. With so many numbers, decoding an instruction costs little compared with the
 /// operations.
 const MANY: usize = 8;
 

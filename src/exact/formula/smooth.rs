@@ -9,8 +9,8 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
     /// impossible. This holds for compositions of analytic functions.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because `tanh(1/x)` and other
-    /// functions of a pole jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
+    /// A quotient counts as smooth only if its divisor is constant, because functions of a pole,
+    /// such as `tanh(1/x)`, jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
     /// smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();

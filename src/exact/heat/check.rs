@@ -226,8 +226,8 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature stores no heat, so it is subtracted. Otherwise it would increase
-        // the scale of the imbalance.
+        // Subtract a constant temperature, which stores no heat but would increase the scale of the
+        // imbalance.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {

@@ -4,7 +4,7 @@ use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
 /// A law between the displacement gradient and the first Piola-Kirchhoff stress, generic over
-/// [`Number`]. Evaluated with slopes, it gives the divergence of P by automatic differentiation.
+/// [`Number`]. Evaluation with slopes gives the divergence of P by automatic differentiation.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;
@@ -12,7 +12,7 @@ pub(super) trait ConstitutiveLaw {
     /// Equation of motion in reports.
     const EQUATION: &'static str;
 
-    /// Whether stress depends on the history of the motion unless the loading is monotonic.
+    /// Whether the stress depends on the history of the motion, except under monotonic loading.
     const HAS_HISTORY: bool = false;
 
     /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends

@@ -103,7 +103,8 @@ mod tests {
 
     #[test]
     fn a_large_friction_angle_is_elastic_in_compression() {
-        // nu/(1 - nu) = 1/4 is greater than (1 - s)/(1 + s) = 0.17.
+        // The body never yields in compression: the elastic ratio of lateral to axial stress, nu/(1
+        // - nu) = 1/4, is above the ratio at yield, (1 - s)/(1 + s) = 0.17.
         let law = MohrCoulombLaw::new(18e3, 0.2, 45.0, 0.0, 10.0);
         assert!(!law.flows(-0.5) && law.flows(0.5));
     }

@@ -16,7 +16,7 @@ impl NeoHookeanLaw {
     }
 }
 
-/// Maximum number of Newton steps for the stretch across a plate; strains of 100 % need about five.
+/// Maximum number of Newton steps for the thickness of a plate; strains of 100 % need about five.
 const MOST_STEPS: usize = 100;
 
 /// Performs one Newton step from `eps` towards the logarithmic thickness strain of a plate whose

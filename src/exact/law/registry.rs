@@ -62,8 +62,8 @@ macro_rules! laws {
                 }
             }
 
-            /// Whether the stress depends on the history of the motion unless the loading is
-            /// monotonic.
+            /// Whether the stress depends on the history of the motion, except under monotonic
+            /// loading.
             pub(super) fn has_history(&self) -> bool {
                 match self {
                     $($(Self::$law(_) => $law::HAS_HISTORY,)?)+

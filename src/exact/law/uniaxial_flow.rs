@@ -9,7 +9,7 @@ use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// A plasticity law that is implemented in uniaxial strain.
+/// A plasticity law that is implemented for uniaxial strain only.
 pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::NAME`].
     const MATERIAL: &'static str;

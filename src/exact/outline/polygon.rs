@@ -123,11 +123,11 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// Returns the exact intersection of cell and body, with a particle at its centroid. The
-    /// particles have the volume and the first moment of the body, up to rounding. The sum of V
-    /// f(X) over the particles approximates the integral of f to second order in the spacing, also
-    /// at the rim. If the centroid is outside the body, for example in a notch, each convex piece
-    /// becomes a particle.
+    /// Returns the exact intersection of cell and body, with a particle at the centroid of the
+    /// intersection. The particles have the volume and the first moment of the body, up to
+    /// rounding. The sum of V f(X) over the particles approximates the integral of f to second
+    /// order in the spacing, also at the rim. If the centroid is outside the body, for example in a
+    /// notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {

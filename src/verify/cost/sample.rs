@@ -170,8 +170,8 @@ pub enum Reach {
         /// Interpolated spacing.
         spacing: f64,
     },
-    /// The coarsest level of the converging part already reaches the error. Its work is an upper
-    /// bound.
+    /// The coarsest level of the converging part already reaches the error. The work of this level
+    /// is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,

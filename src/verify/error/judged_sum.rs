@@ -45,7 +45,7 @@ impl JudgedSum {
         Ok(Self { of, exact, reference, face })
     }
 
-    /// Returns the largest size of the exact sum during the run. Errors are relative to it.
+    /// Returns the scale of errors: the largest size of the exact sum during the run.
     pub fn size(&self) -> f64 {
         let size = self.exact.size();
         match self.of.sum().map(|sum| sum.computed) {
