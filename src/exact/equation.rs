@@ -109,7 +109,6 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A problem in one or two dimensions equals a three-dimensional one with zeros.
     #[rstest]
     fn plane_and_uniaxial_strain_are_special_cases(
         #[values(
@@ -144,8 +143,6 @@ mod tests {
         assert_eq!(small.present_area(&grad, 0, true), [1.0, 0.0, 0.0]);
     }
 
-    /// The out-of-plane stress of a plate is zero, and the derivative of its stretch agrees with a
-    /// finite difference.
     #[rstest]
     fn a_plate_is_free_across(
         #[values(

@@ -64,7 +64,6 @@ mod tests {
         assert_eq!(share(1.0, 0.0), f64::INFINITY);
     }
 
-    /// The traction on a compressed rod equals its stress, for both signs.
     #[test]
     fn a_traction_that_presses_is_left_over_too() {
         let left = |u| {

@@ -228,7 +228,6 @@ mod tests {
         assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
     }
 
-    /// The case has a bound on its error and no expected verdict.
     #[test]
     fn bounds_alone_make_the_headline() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];

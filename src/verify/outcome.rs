@@ -178,7 +178,6 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that could not be set up.
     #[must_use]
     pub(crate) fn could_not_run(self, error: &SubjectError) -> Self {
         let unmet = vec![format!("the case could not be run: {error}")];

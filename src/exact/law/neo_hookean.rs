@@ -80,7 +80,6 @@ mod tests {
     use crate::exact::law::energy::assert_stress_is_derivative;
     use approx::assert_relative_eq;
 
-    /// Closed forms of the Cauchy stress in simple shear by gamma and in a uniform stretch.
     #[test]
     fn cauchy_stress_has_its_closed_forms() {
         let law = NeoHookeanLaw::new(100.0, 0.3);

@@ -62,8 +62,6 @@ macro_rules! laws {
                 }
             }
 
-            /// Whether the stress depends on the history of the motion, except under monotonic
-            /// loading.
             pub(super) fn has_history(&self) -> bool {
                 match self {
                     $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
@@ -104,22 +102,18 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns `3 lambda + 2 mu` (Pa); `None` for a finite-strain law.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
-            /// Computes `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane
-            /// displacement gradient; `None` if the law does not implement plane stress.
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
                     $($(Self::$law(law) => law.free_gradient(grad),)?)+
                 }
             }
 
-            /// Whether a body in uniaxial strain yields at the displacement gradient `grad`.
             pub(super) fn flows(&self, grad: f64) -> bool {
                 match self {
                     $($(Self::$law(law) => law.flows(grad),)?)+

@@ -59,7 +59,6 @@ impl Polygon {
         self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
     }
 
-    /// Returns the end points of all sides.
     fn sides(&self) -> impl Iterator<Item = (&Point, &Point)> {
         self.corners.iter().zip(self.corners.iter().cycle().skip(1))
     }
@@ -265,7 +264,6 @@ impl AreaMoments {
     }
 }
 
-/// A point in the plane (m).
 pub(super) type Point = [f64; 2];
 
 /// Returns the vector from `a` to `b` (m).

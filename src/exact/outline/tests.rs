@@ -171,7 +171,6 @@ proptest! {
     }
 }
 
-/// The sum of V f(X) converges to the integral of f with second order in the spacing.
 #[rstest]
 #[case::of_a_triangle(TRIANGLE)]
 #[case::of_an_angle(ANGLE)]

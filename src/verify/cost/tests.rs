@@ -261,7 +261,6 @@ proptest! {
         }
     }
 
-    /// If a coarser target is not reached, a finer one is not reached either.
     #[test]
     fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
         let fine = reach(&samples, target);

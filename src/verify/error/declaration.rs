@@ -30,13 +30,11 @@ pub(super) struct Declaration {
     /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
     /// body of length L (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether the quantity is a primary unknown of a subject, whose errors tables show.
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
     /// Whether only moving bodies have the quantity; heat conduction does not.
     pub(super) is_of_motion: bool,
-    /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
     /// Declaration of a sum over the body; `None` for a field, which has values at labels.
     pub(super) sum: Option<SumDeclaration>,

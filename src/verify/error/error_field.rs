@@ -142,8 +142,6 @@ pub(super) mod tests {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 
-    /// Of four particles, two are in one part. The part has the larger of their errors, and its
-    /// position is the middle of the part.
     #[test]
     fn a_part_shows_its_largest_error_in_its_middle() {
         let mut samples = Samples::default();

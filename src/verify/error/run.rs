@@ -112,7 +112,6 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Runs until the end of the clock or until the first failure.
     fn run(mut self, subject: &mut dyn Subject, clock: &Clock) -> (RunResult, RunRecord) {
         for step in 1..=clock.steps {
             if let Err(failure) = subject.step(clock.dt()) {

@@ -145,7 +145,6 @@ mod tests {
         assert!(advice(&uncertain()).contains(&expected), "{:?}", advice(&uncertain()));
     }
 
-    /// A norm must not be suggested if its order is wrong, even if its interval is the narrowest.
     #[test]
     fn a_norm_is_advised_only_if_it_converges() {
         let mut study = uncertain();

@@ -319,7 +319,6 @@ mod tests {
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    /// A run with bounded growth confirms no prediction, neither a stable nor an unstable one.
     #[test]
     fn bounded_growth_is_neither_stable_nor_unstable() {
         let trial = watched(&[3.0, 11.0, 1.0], false);

@@ -311,8 +311,6 @@ mod tests {
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
     }
 
-    /// The order 1.81 passes a threshold that 1.79 fails, but the small difference explains
-    /// nothing.
     #[test]
     fn an_order_that_hardly_moves_is_not_restored() {
         let low = (TooLow, order(1.79, 0.05));
@@ -346,8 +344,6 @@ mod tests {
         }
     }
 
-    /// If a change restores the order, the exact solution does not limit it. A smaller error alone
-    /// proves nothing.
     #[test]
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
         let low = (TooLow, order(1.0, 0.05));
@@ -359,8 +355,6 @@ mod tests {
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause. The same holds if a change raises
-    /// the order.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
         let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));
