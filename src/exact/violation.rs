@@ -15,8 +15,8 @@ pub struct Violation {
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
-    /// Difference that the tolerance of the problem allows; `None` if the tolerance does not
-    /// matter.
+    /// Difference that the tolerance of the problem allows; `None` for a condition without
+    /// tolerance.
     pub allowed: Option<f64>,
     /// Unit of the values.
     pub unit: &'static str,
@@ -52,7 +52,7 @@ impl Violation {
     }
 
     /// Returns the smallest tolerance with which the solution would be accepted, if its problem has
-    /// the given `tolerance`. `None` if the tolerance does not matter.
+    /// the given `tolerance`. `None` for a condition without tolerance.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }

@@ -25,7 +25,7 @@ pub struct CaseJudgement {
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
-    /// Reason why the gate requires nothing of the case; `None` if it requires something.
+    /// Reason why the gate has no requirement for the case; `None` if it has one.
     pub exemption: Option<String>,
     /// Levels, orders and measured values.
     pub study: Convergence,

@@ -40,7 +40,7 @@ pub struct Convergence {
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the case has bounds on measured values only. It then has no expected order, and
+    /// Whether the case has bounds on measured values only. Such a case has no expected order, and
     /// every usable level counts.
     pub bounded: bool,
     /// Reason why an external solver passes the gate, if it does.
@@ -110,7 +110,7 @@ impl LevelOutcome {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// Converts the level, with its failure, to input of the judge. Unusable levels are included.
+    /// Converts the level to input of the judge, including the reason of a failure.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {

@@ -196,7 +196,7 @@ run_figures! {
     /// Part of the stress at the end that alternates between neighbouring particles, divided by the
     /// mean magnitude of the stress.
     Checkerboard = "checkerboard", "checkerboard", |trial| trial.checkerboard;
-    /// Largest minus smallest mean normal stress at the end, divided by the largest.
+    /// Largest minus smallest mean normal stress at the end, divided by the largest magnitude.
     StressSpread = "stress_spread", "stress spread", |trial| trial.stress_spread;
     /// Largest stress at the end, divided by the modulus.
     Stress = "stress", "stress/M", |trial| trial.stress;
@@ -239,7 +239,7 @@ run_figures! {
         |trial| ledger_entry(trial, LedgerStage::Effects);
     /// Energy (J) gained as particles move and the inertia of their affine fields changes.
     Motion = "motion", "motion (J)", |trial| ledger_entry(trial, LedgerStage::Motion);
-    /// Energy (J) gained by the stored energy of the material.
+    /// Gain of the stored energy of the material (J).
     StoredEnergy = "stored_energy", "stored energy (J)",
         |trial| ledger_entry(trial, LedgerStage::Stored);
 }

@@ -66,14 +66,14 @@ pub struct CaseOutcome {
     pub unmet: Vec<String>,
     /// Missing capabilities of the solver; empty if the case applies.
     pub lacks: Vec<String>,
-    /// Reason why `run --gate` requires nothing of the case; `None` if it requires something.
+    /// Reason why `run --gate` has no requirement for the case; `None` if it has one.
     pub exemption: Option<Exemption>,
     /// Results of the study. `None` if the case could not be set up; `reason` then has the
     /// explanation.
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Reason why `run --gate` requires nothing of a case. The explanation is in
+/// Reason why `run --gate` has no requirement for a case. The explanation is in
 /// [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {

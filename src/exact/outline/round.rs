@@ -354,7 +354,7 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// Splits the box at a point with faces, edges and corners inside and outside the ball.
+        /// Splits a box at a point. Faces, edges and corners lie inside or outside the ball.
         #[test]
         fn the_parts_of_a_box_have_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),

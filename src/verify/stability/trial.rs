@@ -1,10 +1,10 @@
 //! Runs a subject and observes whether its energy grows.
 //!
-//! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is
-//! the stiffness against uniaxial strain. In 1-D and at small strain the second term is the strain
-//! energy. Otherwise it measures the size of the stress, which is sufficient to detect growth. The
-//! energy is divided by its initial value. If the body starts at rest, it is divided by the energy
-//! of a unit strain.
+//! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
+//! uniaxial strain. In 1-D and at small strain the second term is the strain energy. Otherwise this
+//! term measures the size of the stress, which is sufficient to detect growth. The energy is
+//! divided by its initial value. If the body starts at rest, it is divided by the energy of a unit
+//! strain.
 
 use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
