@@ -14,8 +14,7 @@ pub trait Condition: Debug + Send + Sync {
     fn check(&self, point: &dyn FacePoint) -> Result<(), Violation>;
 }
 
-/// A point of a face at one time, with the elementary requirements that make up conditions. There
-/// are only a few requirements, because each residual needs a scale from the whole motion.
+/// A point of a face at one time, with the elementary requirements that make up conditions.
 pub trait FacePoint {
     /// Returns the number of space dimensions.
     fn dimension(&self) -> usize;

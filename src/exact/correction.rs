@@ -108,7 +108,6 @@ struct Line<'a> {
     h: f64,
     /// Reference positions of the nodes (m).
     labels: Vec<Vec<f64>>,
-    /// The motion at the nodes.
     motion: Box<dyn Places>,
 }
 
@@ -126,7 +125,7 @@ impl<'a> Line<'a> {
         Self { problem, axis, elements, h, labels, motion }
     }
 
-    /// Writes the motion at a node, at the present time.
+    /// Writes the motion of a node at the current time to `now`.
     fn at_node(&mut self, node: usize, now: &mut Derivatives) {
         self.motion.derivatives(node, now);
         self.problem.complete(&self.labels[node], now);
@@ -155,6 +154,7 @@ impl<'a> Line<'a> {
     }
 
     /// Computes the nodal forces (Pa) of the residual at time `t`, and whether each end is held.
+    /// Returns `None` if a condition has no correction.
     fn forces(&mut self, t: f64) -> Option<(Vec<f64>, [bool; 2])> {
         let last = self.elements;
         let weight = |node: usize| if node == 0 || node == last { 0.5 } else { 1.0 };
@@ -224,7 +224,7 @@ impl<'a> Line<'a> {
             }
             let rates = problem.terms.iter().map(|term| term.resistance(t, 1.0, &|| 0.0));
             let damping = -rates.sum::<f64>();
-            // Velocities start with half a step.
+            // Leapfrog: the first step advances velocities by half a step.
             let share = if step == 0 { 0.5 } else { 1.0 };
             for node in 0..=last {
                 let is_held = (node == 0 && held[0]) || (node == last && held[1]);

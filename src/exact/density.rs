@@ -24,7 +24,7 @@ const PANELS: usize = 4;
 /// exactly zero on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
-/// A position in the body where the density is not positive, with its value (kg/m3).
+/// A position in the body where the density is not positive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NoDensity {
     /// The position (m).
@@ -112,7 +112,6 @@ impl Density {
         Number::max(formula.eval(label), T::from(0.0))
     }
 
-    /// Returns the density (kg/m3) at `label` and its gradient (kg/m4).
     pub(super) fn with_slopes(&self, label: &[f64]) -> Slope<3> {
         let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
             let value = label.get(axis).copied().unwrap_or(0.0);
@@ -171,7 +170,6 @@ pub(super) mod tests {
         assert!(Density::of_place(cloud, &from, &to, Some(&disk)).is_ok());
     }
 
-    /// Checks the integrals of 1 + 2 X Y^2 over the box from (0, 1) to (1, 3), and its left half.
     #[test]
     fn mass_is_the_integral_over_the_part_inside() {
         let density = Density { formula: Some(formula("1 + 2*X*Y^2", 2)), ..Density::from(1.0) };
@@ -193,8 +191,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The acceleration constant is 3/4. Without the density gradient no force accelerates the gas;
-    /// an error of 1 % in a factor leaves a residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor leaves a
+    /// residual.
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -211,8 +209,8 @@ pub(super) mod tests {
         }
     }
 
-    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The force at fixed
-    /// positions equals the force at single points, and passes the check in weak form.
+    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The forces at
+    /// fixed positions and at single points are equal, and the force passes the check in weak form.
     #[test]
     fn manufactured_force_has_the_density_of_the_place() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
@@ -230,8 +228,8 @@ pub(super) mod tests {
         assert_relative_eq!(force[0] - uniform[0], change, max_relative = 1e-10);
     }
 
-    /// Checks kinetic and stored energy of a cloud with K = 1/4 and A = 1 in the plane: I a'^2/2
-    /// and C I/(2 a^2), where C = 1 and I = pi/6.
+    /// A plane cloud with K = 1/4 and rho0 = 1 - R^2 has the motion x = a X. Its energies are I
+    /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
     #[test]
     fn energies_of_a_round_cloud_have_their_closed_forms() {
         let plane = |text: &str| {
@@ -267,7 +265,7 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// Checks d/dX and d/dY of X^2 Y. On the rim, a negative density has zero value and slope.
+    /// Checks d/dX and d/dY of X^2 Y. A rounded density below zero has zero value and slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

@@ -1,5 +1,4 @@
-//! Stresses and forces of an [`Equation`] for any law. Also completes the derivatives of a plane
-//! motion by the out-of-plane state.
+//! Stresses and forces of an [`Equation`], and the out-of-plane derivatives of plane motions.
 
 use super::formula::{Number, Slope};
 use super::law::Equation;
@@ -8,7 +7,8 @@ use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
 use crate::subject::PlaneState;
 
 impl Equation {
-    /// Whether the law is for finite strains. A small-strain law has no deformed configuration.
+    /// Whether the law is for finite strains. Small-strain laws neglect the change of
+    /// configuration.
     pub fn is_finite(&self) -> bool {
         self.small_strain_modulus().is_none()
     }
@@ -22,9 +22,9 @@ impl Equation {
         pushed_forward(&piola, grad)
     }
 
-    /// Returns the current area vector of a unit area on a reference face with its normal along
-    /// `axis`, pointing outwards from the `high` or low side: `J F^-T N` (Nanson's formula). In
-    /// small-strain theory, this is N.
+    /// Returns `J F^-T N` (Nanson's formula): the current area vector per unit area of a reference
+    /// face. N is the outward normal of the `high` or low face along `axis`. In small-strain
+    /// theory, the result is N.
     pub fn present_area(&self, grad: &Tensor<f64>, axis: usize, high: bool) -> [f64; 3] {
         let outwards = if high { 1.0 } else { -1.0 };
         let f: Tensor<f64> = if self.is_finite() {
@@ -57,7 +57,6 @@ impl Equation {
         }
     }
 
-    /// Computes Div P in D dimensions, from one evaluation of P with derivatives along all axes.
     fn divergence_in<const D: usize>(
         &self,
         grad: &Tensor<f64>,
@@ -110,7 +109,6 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// A problem in one or two dimensions equals a three-dimensional one with zeros.
     #[rstest]
     fn plane_and_uniaxial_strain_are_special_cases(
         #[values(
@@ -145,8 +143,6 @@ mod tests {
         assert_eq!(small.present_area(&grad, 0, true), [1.0, 0.0, 0.0]);
     }
 
-    /// The out-of-plane stress of a plate is zero, and the derivative of its stretch agrees with a
-    /// finite difference.
     #[rstest]
     fn a_plate_is_free_across(
         #[values(

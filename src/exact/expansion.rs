@@ -12,7 +12,7 @@ use super::tensor::{Tensor, sum, tensor, unit};
 /// Thermal expansion, linear in the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expansion {
-    /// alpha (1/K).
+    /// Coefficient of thermal expansion alpha (1/K).
     pub coefficient: f64,
     /// Reference temperature T0 (K), at which an undeformed body is stress-free.
     pub reference: f64,
@@ -26,7 +26,6 @@ pub(super) struct Swelling {
 }
 
 impl Expansion {
-    /// Returns the thermal stretch at a temperature, and its gradient.
     pub(super) fn swelling(&self, now: &TemperatureDerivatives) -> Swelling {
         Swelling {
             theta: 1.0 + self.coefficient * (now.value - self.reference),
@@ -35,7 +34,7 @@ impl Expansion {
     }
 }
 
-/// Computes P (Pa) in D dimensions.
+/// Computes P (Pa) in D dimensions at the thermal stretch `theta`.
 fn piola<T: Number, const D: usize>(
     equation: &Equation,
     grad: &Tensor<T, D>,
@@ -144,7 +143,6 @@ mod tests {
 
     const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.05, 0.03, 0.0], [0.0; 3]];
 
-    /// A body with theta = 1 does not expand.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]

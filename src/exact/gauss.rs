@@ -25,7 +25,7 @@ fn rule() -> [(f64, f64); POINTS] {
 }
 
 /// Returns points and weights on the box with the intervals `axes`, each divided into `panels`.
-/// Without axes, a single point of weight 1.
+/// Without axes, returns a single point of weight 1.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
     let rule = rule();
     let mut all = vec![(Vec::new(), 1.0)];

@@ -49,13 +49,13 @@ impl InitialStress {
         stress
     }
 
-    /// Computes the contribution to P (Pa), for finite or small strains.
+    /// Computes the contribution of S0 to P (Pa), for finite or small strains.
     pub(super) fn piola(&self, label: &[f64], grad: &Tensor<f64>, is_finite: bool) -> Tensor<f64> {
         let stress = self.at(label);
         if is_finite { pulled(grad, &stress) } else { stress }
     }
 
-    /// Computes the contribution to the Cauchy stress (Pa), `F S0 F^T/J`.
+    /// Computes the contribution of S0 to the Cauchy stress (Pa), `F S0 F^T/J`.
     pub(crate) fn cauchy(
         &self,
         label: &[f64],
@@ -69,7 +69,7 @@ impl InitialStress {
         pushed_forward(&piola, grad)
     }
 
-    /// Computes the contribution to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
+    /// Computes the contribution of S0 to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
     pub(super) fn divergence(
         &self,
         label: &[f64],
@@ -159,7 +159,7 @@ mod tests {
         Problem { initial_stress, ..held(dimension) }
     }
 
-    /// The manufactured force contains the stress, which enters the weak form differently.
+    /// The manufactured force contains Div(F S0), which the weak form checks independently.
     #[rstest]
     fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
         let (problem, bare) = (prestressed(dimension), held(dimension));
@@ -172,7 +172,6 @@ mod tests {
         assert_eq!(found[0], force);
     }
 
-    /// An initial stress without a balancing force is refused.
     #[test]
     fn a_truth_without_its_force_is_none() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();

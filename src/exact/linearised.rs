@@ -47,7 +47,7 @@ mod tests {
         }
     }
 
-    /// A linear law leaves only rounding errors, and conditions without the law have no residual.
+    /// A linear law leaves only rounding errors. A violated condition without the law gives NaN.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";
@@ -64,7 +64,6 @@ mod tests {
         assert_eq!(share(1.0, 0.0), f64::INFINITY);
     }
 
-    /// The traction on a compressed rod equals its stress, for both signs.
     #[test]
     fn a_traction_that_presses_is_left_over_too() {
         let left = |u| {

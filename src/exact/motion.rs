@@ -11,7 +11,7 @@ pub struct Motion {
     components: Vec<Formula>,
 }
 
-/// Derivatives of a motion at one point and time; zero for components on missing axes.
+/// Derivatives of a motion at one point and time; zero on axes that the body does not have.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Derivatives {
     /// u (m).
@@ -171,7 +171,6 @@ impl Truth for Motion {
         }
     }
 
-    /// Computes the displacements at all `labels` in batches of points.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))

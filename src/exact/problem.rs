@@ -63,7 +63,7 @@ pub struct Problem {
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
     pub until: f64,
-    /// The stated solution, which must be checked.
+    /// The stated solution, which [`Problem::check`] verifies.
     pub motion: Motion,
     /// Maximum residual of a condition, relative to its terms.
     pub tolerance: f64,
@@ -84,12 +84,11 @@ impl Problem {
         self.linearised.as_ref().map_or(self.tolerance, |linearised| linearised.tolerance)
     }
 
-    /// Whether the body contains a point of its bounding box.
+    /// Whether the body contains `label`, a position (m) in the bounding box.
     pub fn holds(&self, label: &[f64]) -> bool {
         self.outline.as_ref().is_none_or(|outline| outline.holds(label))
     }
 
-    /// Returns the problem of the body that contains `label`.
     fn body_at(&self, label: &[f64]) -> &Self {
         let inside = |body: &&Self| {
             let ends = body.from.iter().zip(&body.to);
@@ -98,8 +97,7 @@ impl Problem {
         self.bodies.iter().find(inside).unwrap_or(self)
     }
 
-    /// Returns the largest modulus at rest in the body (Pa): a bound on the stress for a given
-    /// strain.
+    /// Returns the scale of stress per strain (Pa): the largest modulus at rest in the body.
     pub fn modulus(&self) -> f64 {
         self.equation.modulus() * self.equation.density_factor(self.density.largest())
     }
@@ -116,7 +114,8 @@ impl Problem {
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
-    /// Returns the time (s) of the loads that belong to the motion at time `t`.
+    /// Returns the time (s) at which loads are evaluated: the end of the run for an equilibrium,
+    /// otherwise `t`.
     pub(super) fn loaded(&self, t: f64) -> f64 {
         if self.at_rest { self.until } else { t }
     }
@@ -128,7 +127,6 @@ impl Problem {
         now
     }
 
-    /// Adds the out-of-plane derivatives to the in-plane derivatives of a motion.
     pub(super) fn complete(&self, label: &[f64], now: &mut Derivatives) {
         complete_in_plane(self.plane, &self.equation, label, now);
     }
@@ -166,7 +164,6 @@ impl Problem {
         self.manufactured || self.terms.iter().any(|term| term.resists_imbalance())
     }
 
-    /// Returns component i of the stated forces (m/s2).
     fn stated(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         self.uniform(i, t) + self.placed(i, label, t, u)
     }
@@ -200,7 +197,6 @@ impl Problem {
     }
 }
 
-/// The solution is the motion, with the stress from the law of the body at each position.
 impl Truth for Problem {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         self.motion.displacement(label, t, into);
@@ -237,7 +233,7 @@ impl Truth for Problem {
 }
 
 impl Problem {
-    /// Returns the thermal stretch at one point and time.
+    /// Returns the thermal stretch at one point and time; `None` without thermal expansion.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
         let expansion = self.terms.iter().find_map(|term| term.expansion())?;
@@ -331,8 +327,8 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Returns the ring length (m/rad) at `label`, which is 1 unless the body is one of revolution.
-    /// Also returns the hoop stress (Pa) that opposes each displacement component.
+    /// Returns the circumference per angle (m/rad) at `label`, which is 1 unless the body is one of
+    /// revolution. Also returns the hoop stress (Pa) in each component of the equation of motion.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
@@ -374,7 +370,6 @@ impl SharedForces {
         })
     }
 
-    /// Returns the stored forces at time `t` (s), if any.
     pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
         let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         tables.forces.get(&(places, t.to_bits())).cloned()
@@ -412,7 +407,7 @@ pub struct Forcing {
 }
 
 impl Forcing {
-    /// Prepares the force of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the force of `problem` at the reference positions `labels` (m).
     pub fn new<'a>(problem: &Problem, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let places = problem.motion.at_places(labels.iter().map(Vec::as_slice));
@@ -428,7 +423,7 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes the force (m/s2) at each position and time `t` (s), equal to
+    /// Writes the force (m/s2) at each position and time `t` (s), converted by `make`. Equals
     /// [`Problem::manufactured_force`]. Allocates only for shared forces.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
         let dimension = self.problem.dimension();

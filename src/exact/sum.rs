@@ -8,10 +8,10 @@ use super::problem::Problem;
 /// Up to three components of a sum, and the size to which an error of the sum is relative.
 type ValueAndSize = ([f64; 3], f64);
 
-/// A quantity and its size, per unit of reference volume or face area.
+/// Returns a quantity per unit of reference volume or face area, and the scale of its errors.
 pub type SumDensity = fn(&SumPoint<'_>) -> ([f64; 3], f64);
 
-/// A point at one time.
+/// A point of the body or of a face, at one time.
 pub struct SumPoint<'a> {
     problem: &'a Problem,
     face: Option<&'a Face>,
@@ -83,8 +83,8 @@ pub enum SumRegion {
 /// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change due to the last refinement, relative to the size of the sum. It is far below any
-/// judged discretisation error and far above rounding errors.
+/// Maximum change due to the last refinement, relative to the size of the sum. This tolerance is
+/// far below any judged discretisation error and far above rounding errors.
 const TOLERANCE: f64 = 1e-10;
 
 /// Number of intervals between the times at which sizes and quadrature errors are computed.
@@ -99,7 +99,6 @@ pub struct BodySum {
     size: f64,
 }
 
-/// A quadrature point.
 #[derive(Debug)]
 struct SumSite {
     body: usize,
@@ -165,7 +164,7 @@ impl BodySum {
         Err(SumError::NotConverged)
     }
 
-    /// Returns the largest size of the sum during the run.
+    /// Returns the scale of errors: the largest size of the sum during the run.
     pub fn size(&self) -> f64 {
         self.size
     }
@@ -225,7 +224,6 @@ fn intervals(problem: &Problem) -> Vec<(f64, f64)> {
     problem.from.iter().copied().zip(problem.to.iter().copied()).collect()
 }
 
-/// Returns the positions and weights in the body.
 fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let Some(outline) = &problem.outline else { return points(&intervals(problem), panels) };
     let charts = outline.charts().into_iter().enumerate();
@@ -239,7 +237,6 @@ fn inside(problem: &Problem, panels: usize) -> Vec<(Vec<f64>, f64)> {
     charts.flat_map(on_chart).collect()
 }
 
-/// Returns the positions and weights on a face of a box.
 fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)> {
     let mut axes = intervals(problem);
     let (low, high) = axes.remove(face.axis);

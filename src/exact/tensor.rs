@@ -23,7 +23,6 @@ pub(super) fn tensor<T: Number, const D: usize>(
     tensor
 }
 
-/// Returns the sum of `term` over all axes.
 #[inline]
 pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
     (1..D).fold(term(0), |sum, i| sum + term(i))

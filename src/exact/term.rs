@@ -13,13 +13,13 @@ pub trait Term: Debug + Send + Sync {
         0.0
     }
 
-    /// Whether the stated force depends neither on position nor on displacement. It is then
+    /// Whether the stated force depends neither on position nor on displacement. Such a force is
     /// evaluated once per time.
     fn is_uniform(&self) -> bool {
         false
     }
 
-    /// Whether the stated force does not depend on time either.
+    /// Whether the stated force depends on neither position, displacement nor time.
     fn is_constant(&self) -> bool {
         false
     }

@@ -94,12 +94,10 @@ where
     }
 }
 
-/// Creates the condition of a face that does not move.
 pub(super) fn fixed() -> Arc<dyn Condition> {
     Demands::condition(|point| (0..point.dimension()).try_for_each(|i| point.held(i, "fixed")))
 }
 
-/// Creates the condition of a free face.
 pub(super) fn free() -> Arc<dyn Condition> {
     Demands::condition(|point| {
         (0..point.dimension()).try_for_each(|i| point.traction(i, "free", 0.0))
@@ -176,7 +174,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// The weak form on its own detects a force for plane strain instead of the given state.
+/// The weak form on its own detects a force that was computed for plane strain.
 #[rstest]
 fn the_weak_form_sees_what_happens_across(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
@@ -199,7 +197,8 @@ impl Term for Given {
     }
 }
 
-/// A run evaluates all positions for one time after another, bit-identical to single evaluations.
+/// [`Forcing`] evaluates all positions at one time. The forces are bit-identical to those at single
+/// points.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
@@ -320,7 +319,7 @@ fn a_traction_may_depend_on_the_place() {
 }
 
 /// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
-/// of s, its faces have s^2 of their area, which a dead load ignores.
+/// s, the area of a face is s^2 times the reference area. A dead load ignores this.
 #[test]
 fn a_pressure_acts_on_the_present_area() {
     let names = ["X", "Y", "Z", "t"];
@@ -365,8 +364,8 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
 }
 
-/// The first half period of a bar with c = 1. Local damping makes the bar stiffer on its way out,
-/// to `pi sqrt(1.6)`, and softer on its way back, to half of that.
+/// The first half period of a bar with c = 1. Local damping raises the frequency on the way out to
+/// `pi sqrt(1.6)`, and halves it on the way back.
 #[test]
 fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let swing = |out: &str, back: &str| {
@@ -415,8 +414,8 @@ fn an_equilibrium_is_one_with_the_loads_at_the_end() {
     assert!(found.condition.starts_with("momentum balance"), "{found}");
 }
 
-/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`. The
-/// residual traction on the inner rim counts, although the outer rim has none.
+/// A pipe under internal pressure is free outside: `sigma_rr = 2 (lambda + mu) A - 2 mu B/r^2`.
+/// Only the inner rim has a residual traction.
 #[test]
 fn what_is_left_is_the_largest_of_all_rims() {
     let names = ["X", "Y", "t"];

@@ -1,20 +1,20 @@
-//! Truth: a known solution with which the judge compares results.
+//! Trait of the known solutions with which computed results are compared.
 
 /// A known solution: closed form, manufactured, or a much finer computation.
 pub trait Truth: Send + Sync {
-    /// Writes the displacement (m) of the point with reference position `label` at time `t` (s), D
-    /// numbers.
+    /// Writes the D components of the displacement (m) of the point with reference position `label`
+    /// at time `t` (s).
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]);
 
-    /// Writes the displacements (m) of the points with reference positions `labels`, D numbers
-    /// each.
+    /// Writes the displacements (m) of all points with reference positions `labels`. `labels` and
+    /// `into` contain `d` numbers for each point.
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
         for (label, into) in labels.chunks(d).zip(into.chunks_mut(d)) {
             self.displacement(label, t, into);
         }
     }
 
-    /// Writes the velocity (m/s) of the point with reference position `label`, D numbers.
+    /// Writes the D components of the velocity (m/s) of the point with reference position `label`.
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]);
 
     /// Writes the deformation gradient F, D * D numbers, row by row. If the solution does not

@@ -1,4 +1,4 @@
-//! A condition that a wrong exact solution violates.
+//! Violated conditions of an exact solution.
 
 use std::fmt;
 
@@ -15,7 +15,8 @@ pub struct Violation {
     pub expected: Option<f64>,
     /// Value of the solution.
     pub found: f64,
-    /// Maximum difference that the tolerance of the problem allows, if the tolerance is decisive.
+    /// Difference that the tolerance of the problem allows; `None` for a condition without
+    /// tolerance.
     pub allowed: Option<f64>,
     /// Unit of the values.
     pub unit: &'static str,
@@ -26,7 +27,6 @@ pub struct Violation {
 pub(super) struct LargestViolation(Option<Violation>);
 
 impl LargestViolation {
-    /// Adds the result at one position and time.
     pub(super) fn add(&mut self, found: Result<(), Violation>) {
         let Err(found) = found else { return };
         // An infinite or NaN excess counts as the largest.
@@ -39,10 +39,7 @@ impl LargestViolation {
         }
     }
 
-    /// Returns success if no condition is violated.
-    ///
-    /// # Errors
-    /// The largest violation.
+    /// Returns the largest violation as an error, if there is one.
     pub(super) fn into_result(self) -> Result<(), Violation> {
         self.0.map_or(Ok(()), Err)
     }
@@ -54,8 +51,8 @@ impl Violation {
         self.accepted_by(1.0).unwrap_or(0.0)
     }
 
-    /// Returns the tolerance with which the solution of a problem with this `tolerance` would be
-    /// accepted, if the tolerance is decisive.
+    /// Returns the smallest tolerance with which the solution would be accepted, if its problem has
+    /// the given `tolerance`. `None` for a condition without tolerance.
     pub fn accepted_by(&self, tolerance: f64) -> Option<f64> {
         Some(tolerance * ((self.found - self.expected?).abs() / self.allowed?))
     }

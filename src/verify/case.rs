@@ -1,5 +1,4 @@
-//! Judges a case of a convergence study: its levels and a plan determine the contents of its
-//! report.
+//! Judges a case of a convergence study from its levels and the judge plan.
 
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
@@ -17,7 +16,7 @@ use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
 
-/// Judgement of a case: the part of its outcome that its levels determine.
+/// Judgement of a case, computed from its levels.
 #[derive(Debug, Clone)]
 pub struct CaseJudgement {
     /// Verdict, as text.
@@ -26,13 +25,14 @@ pub struct CaseJudgement {
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
-    /// Reason why the gate requires nothing of the case; `None` if it requires something.
+    /// Reason why the gate has no requirement for the case; `None` if it has one.
     pub exemption: Option<String>,
     /// Levels, orders and measured values.
     pub study: Convergence,
 }
 
-/// Judges a case. If the verdict depends on it, `reruns` runs levels again with other settings.
+/// Judges a case. `reruns` runs levels again to find the cause of an error floor, or with shorter
+/// time steps for the gate.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -136,7 +136,6 @@ impl JudgePlan<'_> {
     }
 }
 
-/// Collects the measured values that limits are compared with.
 fn measure(levels: &[LevelOutcome]) -> Measured {
     let drifts: Option<Vec<ConservationError>> =
         counted(levels).map(|level| level.run.drift).collect();
@@ -151,8 +150,8 @@ fn measure(levels: &[LevelOutcome]) -> Measured {
     }
 }
 
-/// Returns the verdict and its reason. For a case with limits only, the reason starts with the
-/// limited values. The judgement follows if there are enough levels.
+/// Returns the verdict and its reason. For a case with bounds only, the verdict is `within bounds`
+/// or `out of bounds`, and the reason starts with the bounded values.
 fn headline(
     expectation: &Expectation,
     judgement: &Judgement,
@@ -229,7 +228,6 @@ mod tests {
         assert!(alone.drift.unwrap().of(Conserved::Mass).is_nan());
     }
 
-    /// The case has a bound on its error and no expected verdict.
     #[test]
     fn bounds_alone_make_the_headline() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];

@@ -21,8 +21,8 @@ named! {
         AngularMomentum = "angular_momentum",
         /// Kinetic energy, which is conserved only in a motion without stress.
         KineticEnergy = "kinetic_energy",
-        /// Gain of kinetic energy since the start. It must be zero if the body only stores energy
-        /// in stress and releases it.
+        /// Gain of kinetic energy since the start. The gain must be zero if the body only stores
+        /// energy in stress and releases it.
         KineticEnergyGain = "kinetic_energy_gain",
         /// Kinetic energy plus stored energy, if the law stores energy.
         Energy = "energy",
@@ -72,7 +72,6 @@ impl ConservationError {
     }
 }
 
-/// Changes of the totals over the instants of a run.
 #[derive(Debug, Clone)]
 pub(super) struct Balance {
     start: Totals,

@@ -40,7 +40,7 @@ pub struct Convergence {
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the case has bounds on measured values only. It then has no expected order, and
+    /// Whether the case has bounds on measured values only. Such a case has no expected order, and
     /// every usable level counts.
     pub bounded: bool,
     /// Reason why an external solver passes the gate, if it does.
@@ -87,7 +87,7 @@ pub struct LevelOutcome {
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,
-    /// Largest difference between repeated runs, in the norm and relative to the scale of the
+    /// Largest difference between repeated runs, in the judged norm and divided by the scale of the
     /// error. NaN if the runs cannot be compared; `None` if the level ran once.
     pub spread: Option<f64>,
     /// Order between the next coarser level and this one.
@@ -110,7 +110,7 @@ impl LevelOutcome {
         self.stable_time_step.is_some_and(|stable| self.dt > stable)
     }
 
-    /// Converts the level, with its failure, to input of the judge. Unusable levels are included.
+    /// Converts the level to input of the judge, including the reason of a failure.
     pub(crate) fn to_level(&self) -> Level {
         let judged = Level::new(self.spacing, self.error);
         match &self.run.failure {

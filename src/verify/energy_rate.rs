@@ -14,7 +14,6 @@
 use super::order::fit::{FittedLine, Interval, LogPoint};
 use crate::subject::Totals;
 
-/// Number of parts into which a run is divided.
 const PARTS: usize = 10;
 
 /// Minimum number of instants per part.

@@ -74,7 +74,6 @@ impl LevelOutcome {
     }
 }
 
-/// Returns the levels that are excluded for the reason `by`.
 fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
@@ -141,7 +140,6 @@ fn spread_remark(levels: &[LevelOutcome], axis: Axis) -> Option<String> {
     })
 }
 
-/// Formats a number with two digits.
 fn shown(value: Option<f64>) -> String {
     value.map_or("none".to_owned(), |value| format_number(rounded(value, 2)))
 }

@@ -28,14 +28,15 @@ use crate::subject::LedgerStage;
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {
-        /// Bounds on the judged error of every level that counts.
+        /// Upper bound on the judged error of every level that counts.
         ErrorBelow = error_below, "largest error", Maximum, Nothing, largest_error;
         /// Lower bound on the judged error of every level that counts.
         ErrorAbove = error_above, "smallest error", Minimum, Nothing, smallest_error;
-        /// Distance (m) of the observed place from the exact one, at the end, on the finest level.
+        /// Distance (m) of the observed point from its exact position, at the end, on the finest
+        /// level.
         ObservedWithin = observed_within, "error at the observed point (m)", Maximum,
             ObservedPlace, observed_error;
-        /// Largest speed towards the end of every level that counts, over the wave speed.
+        /// Largest speed near the end on every level that counts, divided by the wave speed.
         RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,
             residual_speed;
         }
@@ -63,7 +64,6 @@ pub enum FigureNeed {
     StateOfRest,
 }
 
-/// Declares [`CaseFigure`] from the entries of `each_case_figure`.
 macro_rules! case_figures {
     ($($(#[$doc:meta])* $member:ident = $key:ident, $text:literal, $bound:ident, $need:ident,
         $value:ident;)+) => {
@@ -105,7 +105,8 @@ macro_rules! case_figures {
                 }
             }
 
-            /// Computes the value from the levels of a case; `None` if they do not have it.
+            /// Computes the value from the levels of a case; `None` if the levels do not have the
+            /// value.
             pub fn value(self, levels: &[LevelOutcome]) -> Option<f64> {
                 match self {
                     $(Self::$member => $value(levels),)+
@@ -126,7 +127,6 @@ fn smallest_error(levels: &[LevelOutcome]) -> Option<f64> {
     counted(levels).map(|level| level.error).reduce(|a, b| -larger(-a, -b))
 }
 
-/// Returns the distance (m) between the observed point and its exact position, on the finest level.
 fn observed_error(levels: &[LevelOutcome]) -> Option<f64> {
     levels.last().and_then(|level| level.run.observed_error)
 }
@@ -138,7 +138,6 @@ fn residual_speed(levels: &[LevelOutcome]) -> Option<f64> {
     speeds.and_then(|speeds| speeds.into_iter().reduce(larger))
 }
 
-/// Returns the levels that count for the verdict.
 pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOutcome> {
     levels.iter().filter(|level| level.usable)
 }
@@ -148,7 +147,7 @@ pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOut
 macro_rules! run_figures {
     ($($(#[$doc:meta])* $member:ident = $name:literal, $head:literal, $value:expr;)+) => {
         named! {
-            /// A figure of a run.
+            /// A measured value of a run that a stability study can bound.
             pub enum RunFigure {
                 $($(#[$doc])* $member = $name,)+
             }
@@ -174,39 +173,39 @@ macro_rules! run_figures {
 }
 
 run_figures! {
-    /// The largest energy over the energy at the start.
+    /// Largest energy, divided by the energy at the start.
     Energy = "energy", "largest energy", |trial| trial.energy;
-    /// The energy at the end over that at the start.
+    /// Energy at the end, divided by the energy at the start.
     EnergyKept = "energy_kept", "energy kept", |trial| trial.energy_kept;
-    /// Kinetic energy at the end over that at the start.
+    /// Kinetic energy at the end, divided by that at the start.
     KineticKept = "kinetic_kept", "kinetic kept", |trial| trial.kinetic_kept;
-    /// The largest relative change of the momentum.
+    /// Largest relative change of the momentum.
     Momentum = "momentum", "momentum", |trial| trial.momentum;
-    /// The largest relative change of the angular momentum.
+    /// Largest relative change of the angular momentum.
     AngularMomentum = "angular_momentum", "angular mom.", |trial| trial.angular_momentum;
-    /// The smallest J met.
+    /// Smallest determinant J of the deformation gradient during the run.
     LeastJ = "least_j", "least J", |trial| trial.least_j;
-    /// The largest speed met, over the wave speed.
+    /// Largest speed during the run, divided by the wave speed.
     Speed = "speed", "largest speed/c", |trial| trial.speed;
-    /// At the end, the kinetic energy in the null space of the map to the grid over the largest
+    /// Kinetic energy at the end in the null space of the map to the grid, divided by the largest
     /// kinetic energy of the run.
     NullShare = "null_share", "null share", |trial| trial.null_share;
-    /// The largest kinetic energy met in the null space over the largest kinetic energy of the
-    /// run.
+    /// Largest kinetic energy in the null space during the run, divided by the largest kinetic
+    /// energy of the run.
     LargestNullShare = "largest_null_share", "largest null share", |trial| trial.largest_null_share;
-    /// The part of the stress at the end that alternates between neighbouring particles, over its
-    /// mean size.
+    /// Part of the stress at the end that alternates between neighbouring particles, divided by the
+    /// mean magnitude of the stress.
     Checkerboard = "checkerboard", "checkerboard", |trial| trial.checkerboard;
-    /// The largest minus the smallest mean normal stress at the end, over the largest.
+    /// Largest minus smallest mean normal stress at the end, divided by the largest magnitude.
     StressSpread = "stress_spread", "stress spread", |trial| trial.stress_spread;
-    /// At the end, the largest stress over the modulus.
+    /// Largest stress at the end, divided by the modulus.
     Stress = "stress", "stress/M", |trial| trial.stress;
-    /// At the end, the largest displacement (m).
+    /// Largest displacement (m) at the end.
     Displacement = "displacement", "displacement", |trial| trial.displacement;
     /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
     /// Difference between the sum of the entries of the energy ledger and the change of the energy,
-    /// over the sum of the magnitudes of the entries.
+    /// divided by the sum of the magnitudes of the entries.
     LedgerGap = "ledger_gap", "ledger gap", |trial| trial.ledger.map_or(f64::NAN, |ledger| ledger.gap());
     /// Energy (J) gained by the maps between particles and grid, the mass matrix and walls.
     TransferGain = "transfer_gain", "transfer gain (J)",
@@ -240,18 +239,17 @@ run_figures! {
         |trial| ledger_entry(trial, LedgerStage::Effects);
     /// Energy (J) gained as particles move and the inertia of their affine fields changes.
     Motion = "motion", "motion (J)", |trial| ledger_entry(trial, LedgerStage::Motion);
-    /// Energy (J) gained by the stored energy of the material.
+    /// Gain of the stored energy of the material (J).
     StoredEnergy = "stored_energy", "stored energy (J)",
         |trial| ledger_entry(trial, LedgerStage::Stored);
 }
 
-/// Sum of the entries (J) of a stage in the ledger of a run; NaN without a ledger.
+/// Returns the sum of the entries (J) of a stage in the ledger of a run; NaN without a ledger.
 fn ledger_entry(trial: &Trial, stage: LedgerStage) -> f64 {
     trial.ledger.map_or(f64::NAN, |ledger| ledger.entry(stage))
 }
 
 impl RunFigure {
-    /// Finds the measured value with the key `name` in suites.
     pub(crate) fn by_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
@@ -262,7 +260,7 @@ impl RunFigure {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 
-    /// Whether the figure is part of the energy ledger, which is kept only on request.
+    /// Whether the value is part of the energy ledger, which is recorded only on request.
     pub fn is_of_ledger(self) -> bool {
         self as usize >= Self::LedgerGap as usize
     }

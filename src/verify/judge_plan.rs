@@ -95,7 +95,6 @@ impl JudgePlan<'_> {
         }
     }
 
-    /// Judges levels that have run.
     pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {
         let is_sound = levels.iter().all(|level| level.run.failure.is_none());
         if !self.is_compared && is_sound {
@@ -112,8 +111,8 @@ impl JudgePlan<'_> {
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Returns the reason why the gate requires nothing of a case with these levels; `None` if it
-    /// requires something.
+    /// Returns the reason why the gate has no requirement for a case with these levels; `None` if
+    /// it has one.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
@@ -132,8 +131,8 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// Converts levels to input of a comparison with an error bound. Levels that rounding or spread
-/// exclude from the order count here.
+/// Converts levels to input of the gate. Unlike [`series`], includes levels that are excluded from
+/// the order because of rounding or spread.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

@@ -19,7 +19,7 @@ pub struct SuiteOutcome {
     pub group: String,
     /// Headline: the one-line title of the suite.
     pub title: String,
-    /// Reference for the problem.
+    /// Literature reference for the problem.
     pub source: String,
     /// Introduction by the suite's author.
     pub about: String,
@@ -66,14 +66,14 @@ pub struct CaseOutcome {
     pub unmet: Vec<String>,
     /// Missing capabilities of the solver; empty if the case applies.
     pub lacks: Vec<String>,
-    /// Reason why `run --gate` requires nothing of the case; `None` if it requires something.
+    /// Reason why `run --gate` has no requirement for the case; `None` if it has one.
     pub exemption: Option<Exemption>,
     /// Results of the study. `None` if the case could not be set up; `reason` then has the
     /// explanation.
     pub study: Option<Arc<dyn StudyResults>>,
 }
 
-/// Reason why `run --gate` requires nothing of a case. The explanation is in
+/// Reason why `run --gate` has no requirement for a case. The explanation is in
 /// [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exemption {
@@ -166,8 +166,8 @@ impl CaseOutcome {
         Self { verdict, reason, lacks, ..self }
     }
 
-    /// The outcome of a case whose problem an external solver did not take. Only a problem that
-    /// the solver does not support is not applicable; a solver that fails fails the case.
+    /// Converts the outcome to that of a case that an external solver rejected. The case is not
+    /// applicable if the solver does not support the problem. It fails if the solver failed.
     #[must_use]
     pub(crate) fn not_run(self, error: &SubjectError) -> Self {
         match error {
@@ -178,7 +178,6 @@ impl CaseOutcome {
         }
     }
 
-    /// The outcome of a case that could not be set up.
     #[must_use]
     pub(crate) fn could_not_run(self, error: &SubjectError) -> Self {
         let unmet = vec![format!("the case could not be run: {error}")];
@@ -193,8 +192,8 @@ impl CaseOutcome {
         Self { reason, exemption: Some(Exemption::NotGated), ..self }
     }
 
-    /// The outcome after `run`, where `self` is the part that is known before it. A case does not
-    /// run if its `gating` is an exception, or if the solver lacks capabilities (`lacks`).
+    /// Completes the outcome by `run`. The case does not run if `gating` excepts it, or if the
+    /// solver lacks capabilities (`lacks`).
     #[must_use]
     pub(crate) fn after(
         self,
@@ -215,7 +214,6 @@ impl CaseOutcome {
         }
     }
 
-    /// Adds the judgement of the levels to the outcome.
     #[must_use]
     pub(crate) fn judged(self, judgement: CaseJudgement) -> Self {
         let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;

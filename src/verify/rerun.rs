@@ -69,12 +69,11 @@ const HALVINGS: i32 = 3;
 /// decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
-/// Minimum exponent of h in the time step for which the step counts as refined with the cells.
+/// The time step counts as refined with the cells if it decreases at least like this power of h.
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
-/// that counts. `None` if it is not needed: the error has not stopped decreasing, and the suite
-/// expects no floor.
+/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor.
 ///
 /// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(

@@ -1,4 +1,4 @@
-//! Checks boundary conditions at points of faces, and prescribed velocities at points of sets.
+//! Checks boundary conditions on faces, and prescribed velocities in regions of the body.
 
 use super::event::{AXES, Event, OnFace, SpaceTimeBox};
 use super::friction;
@@ -21,7 +21,8 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
-        // All axes are divided, because a load may vary along axes along which the motion does not.
+        // Sample all axes, because a load may vary along an axis along which the motion is
+        // constant.
         for event in extent.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             let (sizes, left) = (&survey.largest, &left);
@@ -33,7 +34,6 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     Ok(left.get())
 }
 
-/// A point of a face, with the motion at that point.
 struct MovingPoint<'a> {
     problem: &'a Problem,
     face: &'a Face,

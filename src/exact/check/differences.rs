@@ -13,21 +13,21 @@ pub(crate) const DIFFERENCE_TOLERANCE: f64 = 1e-4;
 /// Number of positions at which derivatives are compared.
 const PLACES: usize = 32;
 
-/// Maximum difference step, relative to the body or the run.
+/// Maximum difference step, relative to the size of the body or the duration of the run.
 const STEP: f64 = 1e-5;
 
 /// Maximum difference step, relative to the length or time over which the motion varies.
 const SHARE: f64 = 1e-3;
 
-/// Returns the difference step (s or m) over an `extent`. `largest` contains the largest values of
-/// a quantity and of its derivatives, in ascending order of differentiation.
+/// Returns the difference step (s or m) for a run or body of size `extent`. `largest` contains the
+/// largest magnitude of a quantity, of its first derivative and so on.
 pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     let scales = largest.windows(2).map(|pair| SHARE * (pair[0] / pair[1]));
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Runs `check` at some of `events`. A kink (a wave front) within one step of an event is not an
-/// error, so a violation counts only if it occurs at three successive events.
+/// Runs `check` at groups of three successive `events`. Reports a violation only if all three fail,
+/// because finite differences are wrong at a kink such as a wave front.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,
@@ -47,7 +47,6 @@ pub(crate) fn away_from_kinks<'a>(
     Ok(())
 }
 
-/// Compares automatic differentiation of the motion with central differences.
 pub(crate) fn differentiation(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let events = survey.points.iter().map(|point| &point.event);
     away_from_kinks(events, |event| differences(problem, event, &survey.largest))
@@ -65,8 +64,8 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference is inaccurate, because u is divided by step^2. The rounding error
-        // of u is 1e-16 times the terms of its formula, such as X*(cos(w*t) - 1).
+        // The second difference divides the rounding error of u by step^2. This error is about
+        // 1e-16 times the largest term in the formula of u, such as X in X*(cos(w*t) - 1).
         let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
         let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;
@@ -76,7 +75,6 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
     stress_differences(problem, event, &all, sizes)
 }
 
-/// Compares Div P from automatic differentiation with differences of P at neighbouring points.
 fn stress_differences(
     problem: &Problem,
     event: &Event,

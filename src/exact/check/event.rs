@@ -3,10 +3,8 @@
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
 
-/// Component names for messages.
 pub(crate) const AXES: [&str; 3] = ["X", "Y", "Z"];
 
-/// One position and time of a check.
 #[derive(Debug, Clone)]
 pub(crate) struct Event {
     pub(crate) label: Vec<f64>,
@@ -29,7 +27,7 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Refuses a value `found` that is greater than `most + allowed`, infinite or NaN.
+    /// Returns a violation if `found` is greater than `most + allowed`, infinite or NaN.
     pub(crate) fn judge_most(
         &self,
         allowed: f64,
@@ -67,17 +65,16 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Number of events over the whole body and run, if large terms occur only in a small part.
+/// Number of events for a body in which large terms are confined to a small part.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face or on another part with fewer dimensions, if large terms occur only
-/// in a small part of body and run.
+/// Number of events on a face, or on another part with fewer dimensions than the body, if large
+/// terms are confined to a small part of the body.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
-/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of body and run.
+/// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of the body.
 pub(crate) const BROAD: usize = 8;
 
-/// A box in space and time.
 pub(crate) struct SpaceTimeBox<'a> {
     pub(crate) from: &'a [f64],
     pub(crate) to: &'a [f64],
@@ -86,8 +83,8 @@ pub(crate) struct SpaceTimeBox<'a> {
 }
 
 impl SpaceTimeBox<'_> {
-    /// Returns at most `count` events, each at a random position in one cell of a regular raster.
-    /// Axes of zero length, and axes along which nothing `varies`, are not divided.
+    /// Divides the box into at most `count` cells and returns a random event in each cell. Axes of
+    /// zero length, and axes for which `varies` returns false, are not divided.
     pub(crate) fn spread(
         &self,
         count: usize,
@@ -119,14 +116,13 @@ impl SpaceTimeBox<'_> {
     }
 }
 
-/// The corners of a face of a box.
 pub(crate) struct OnFace {
     from: Vec<f64>,
     to: Vec<f64>,
 }
 
 impl OnFace {
-    /// Returns the corners of the low or `high` face of a box, whose normal is along `axis`.
+    /// Returns the face normal to `axis` of the box from `from` to `to`: the upper one if `high`.
     pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {
@@ -137,7 +133,6 @@ impl OnFace {
         Self { from, to }
     }
 
-    /// Returns the space-time box of the face, with the times of `body`.
     pub(crate) fn extent<'a>(&'a self, body: &SpaceTimeBox<'_>) -> SpaceTimeBox<'a> {
         SpaceTimeBox { from: &self.from, to: &self.to, start: body.start, end: body.end }
     }

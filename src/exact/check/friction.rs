@@ -9,11 +9,8 @@ use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::violation::Violation;
 
-/// Checks the motion `now` of a point of `face` at a frictional wall. Residuals are relative to the
-/// largest displacement (m), velocity (m/s) and stress (Pa).
-///
-/// # Errors
-/// The first violation.
+/// Checks the motion `now` of a point of `face` at a frictional wall. The last argument contains
+/// the scales of the residuals: the largest displacement (m), velocity (m/s) and stress (Pa).
 pub(crate) fn at_wall(
     problem: &Problem,
     face: &Face,
@@ -39,23 +36,18 @@ pub(crate) fn at_wall(
     coulomb(event, axis, d, &rub, [allowed, tolerance * velocity], &wall)
 }
 
-/// Traction of one surface on another at a point.
+/// Contact state at a point of the checked surface.
 pub(crate) struct InterfaceTraction {
-    /// Traction on the checked surface (Pa).
+    /// Traction that the other surface exerts (Pa).
     pub(crate) traction: [f64; 3],
-    /// Velocity of the checked surface relative to the other one (m/s).
+    /// Velocity relative to the other surface (m/s).
     pub(crate) velocity: [f64; 3],
-    /// Pressure between the surfaces (Pa).
     pub(crate) pressure: f64,
-    /// Coefficient of friction.
     pub(crate) coefficient: f64,
 }
 
 /// Checks Coulomb's law on a surface whose normal is along `axis`, up to tolerances for stress (Pa)
 /// and velocity (m/s).
-///
-/// # Errors
-/// If the tangential traction violates Coulomb's law.
 pub(crate) fn coulomb(
     event: &Event,
     axis: usize,

@@ -6,7 +6,8 @@
 //! sliding.
 //!
 //! One formula may describe several bodies and jump at their interface. The motion at the face is
-//! therefore a one-sided limit: an expansion about a point that is 1e-9 of the body length inside.
+//! therefore a one-sided limit: an expansion about a point inside the body, at a distance of 1e-9
+//! body lengths from the face.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -31,8 +32,8 @@ impl Condition for Interface {
 const INSIDE: f64 = 1e-9;
 
 /// Checks the high face of `one` against the opposite low face of `other` along `axis`. With a
-/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. Residuals are
-/// relative to the largest magnitudes of all bodies.
+/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. `largest`
+/// contains the scales of the residuals over all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.
@@ -57,8 +58,8 @@ pub fn meets(
     found.into_result()
 }
 
-/// Returns the motion on a face of `problem` at `event`, expanded about a point at the distance
-/// `inside` (m) from the face along `axis`.
+/// Returns the motion at a point on a face, expanded about a point inside the body. `inside` is the
+/// distance (m) between the two points along `axis`.
 fn on_face(problem: &Problem, event: &Event, axis: usize, inside: f64) -> Derivatives {
     let mut label = event.label.clone();
     label[axis] -= inside;
@@ -86,7 +87,6 @@ impl BodyPair<'_> {
         format!("where two bodies meet along {}, {what}", AXES[self.axis])
     }
 
-    /// Returns the motion of both bodies on their faces.
     fn both(&self, event: &Event) -> [Derivatives; 2] {
         let Self { one, other, axis, .. } = *self;
         let inside = |problem: &Problem| INSIDE * (problem.to[axis] - problem.from[axis]);
@@ -234,8 +234,8 @@ mod tests {
         }
     }
 
-    /// The plates are pressed together by 1/100 and slide along their common face with different
-    /// velocities. For mu = 0.3, friction shears them by 3/500.
+    /// The plates are compressed by a strain of 1/100. If they slide, friction with mu = 0.3 causes
+    /// a shear strain of 3/500.
     #[rstest]
     #[case::together(["t/10", "t/10"], "")]
     #[case::past_each_other(["X*3/500", "t/10 + X*3/500"], "")]

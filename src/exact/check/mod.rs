@@ -1,4 +1,4 @@
-//! All conditions that an exact motion must satisfy.
+//! Checks of an exact motion: equation of motion, boundary conditions and initial conditions.
 
 pub(crate) mod boundary;
 pub(crate) mod differences;
@@ -26,7 +26,7 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Like [`check`](Self::check), with a given `survey` whose magnitudes are those of all bodies.
+    /// Like [`check`](Self::check), with a `survey` whose magnitudes are maxima over all bodies.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -42,7 +42,7 @@ impl Problem {
         weak::momentum(self, survey)
     }
 
-    /// The violation of the condition on face number `face`; `None` if the motion satisfies it.
+    /// Returns the violation of the condition on face number `face`, or `None` if there is none.
     pub fn violation_on_face(&self, face: usize, survey: &Survey) -> Option<Violation> {
         let faces = self.faces.get(face).into_iter().cloned().collect();
         boundary::boundary(&Self { faces, ..self.clone() }, survey).err()

@@ -1,8 +1,8 @@
-//! Pointwise checks.
+//! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! On rims of a body that is not a box: P n = 0, or P n = -p J F^-T n under a pressure.
+//! On rims of a body that is not a box, P n = 0, or P n = -p J F^-T n under a pressure p.
 //!
-//! For laws with memory, exact solutions require monotonic loading, which is checked here.
+//! For laws with history, exact solutions are valid only under monotonic loading.
 
 use super::event::{AXES, Event};
 use super::survey;
@@ -14,8 +14,8 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Checks that the displacement is finite in the whole body and not identically zero. A zero
-/// displacement is allowed if the body is stressed without it.
+/// Checks that the displacement is finite in the whole body and not identically zero. Zero
+/// displacement is allowed in a body with initial stress or thermal expansion.
 pub(crate) fn presence(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let Some(first) = survey.points.first() else { return Ok(()) };
     for SurveyPoint { event, now, .. } in &survey.points {
@@ -59,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Returns component i of an initial condition: the `stated` value, if any. Otherwise the value of
-/// the `motion` if the problem follows the motion, or zero.
+/// Returns component i of an initial condition: the `stated` value if there is one, otherwise the
+/// value of the `motion` if the problem follows the motion, otherwise zero.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -73,8 +73,8 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// Rounding error of Div P, relative to the modulus times the largest second derivative. The terms
-/// of Div P can cancel everywhere, as in Lame's tube at rest.
+/// Rounding error of Div P, relative to the modulus times the largest second derivative. Needed
+/// because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the
@@ -110,7 +110,7 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Checks that the traction on every rim equals that of its pressure, which is zero on a free rim.
+/// Checks that the traction on every rim balances the pressure there, which is zero if free.
 /// Returns the largest difference, relative to the stress.
 pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let Some(outline) = &problem.outline else { return Ok(0.0) };
@@ -182,7 +182,7 @@ mod tests {
     use crate::exact::tests::{bar, free};
     use rstest::rstest;
 
-    /// The bar flows above a strain of 0.01, and reverses at half of the time.
+    /// The bar yields at a strain of 0.01. The last two motions reverse halfway through the run.
     #[rstest]
     #[case::pulled("0.05*X*t", true)]
     #[case::pressed("-0.05*X*t", true)]

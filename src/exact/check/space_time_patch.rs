@@ -1,15 +1,12 @@
-//! Space-time patches with a bump function, and their midpoint-rule points.
+//! Space-time patches with a bump function as test function, and their midpoint-rule points.
 
 use super::event::Event;
 use crate::exact::random::Random;
 
-/// The largest densities of the terms in a balance.
+/// Upper bounds on the densities of the terms in a balance.
 pub(crate) struct Densities {
-    /// Density of the stored quantity.
     pub(crate) stored: f64,
-    /// Density of the flux.
     pub(crate) flow: f64,
-    /// Density of the supply.
     pub(crate) supply: f64,
 }
 
@@ -23,13 +20,12 @@ pub(crate) struct SpaceTimePatch {
 }
 
 impl SpaceTimePatch {
-    /// Returns the number of space dimensions.
     pub(super) fn dimension(&self) -> usize {
         self.centre.len() - 1
     }
 
-    /// Creates a random patch in a box. The time interval of the patch lies in a run until `until`
-    /// (s) and is at most `longest` (s) long.
+    /// Creates a random patch in a box. The time interval is a part of the run from 0 to `until`
+    /// (s), at most `longest` (s) long.
     pub(crate) fn in_box(
         random: &mut Random,
         from: &[f64],
@@ -43,8 +39,8 @@ impl SpaceTimePatch {
         Self::over(random, centre, half, until, longest)
     }
 
-    /// Creates a patch with the given centre and half-lengths (m) in space. The time interval is
-    /// random, lies in a run until `until` (s), and is at most `longest` (s) long.
+    /// Creates a patch with the given centre and half-lengths (m) in space. The random time
+    /// interval is a part of the run from 0 to `until` (s), at most `longest` (s) long.
     pub(super) fn over(
         random: &mut Random,
         mut centre: Vec<f64>,
@@ -58,8 +54,8 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// Creates a patch of the whole box around the time `t` (s). The time interval lies in a run
-    /// until `until` (s) and is at most `longest` (s) long.
+    /// Creates a patch of the whole box around the time `t` (s). The time interval is a part of the
+    /// run from 0 to `until` (s), at most `longest` (s) long.
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
@@ -77,7 +73,6 @@ impl SpaceTimePatch {
         self.part(&place, 0.5 * libm::exp2(-5.0 * random.unit()))
     }
 
-    /// Returns the part of the patch around `place` with half the length on every axis.
     pub(super) fn half_about(&self, place: &[f64]) -> Self {
         self.part(place, 0.5)
     }
@@ -136,16 +131,14 @@ impl SpaceTimePatch {
     }
 }
 
-/// Midpoint-rule points of a patch.
 pub(crate) struct Raster {
     /// Points in space, one coordinate per axis; the first axis varies fastest.
     pub(crate) points: Vec<Vec<AxisPoint>>,
-    /// Points in time, equal for all points in space.
+    /// Points in time, shared by all points in space.
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A point on one axis of a patch: its position, and the factor of phi for this axis with the
-/// derivative of this factor.
+/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and its derivative.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
     pub(crate) at: f64,
@@ -153,7 +146,6 @@ pub(crate) struct AxisPoint {
     slope: f64,
 }
 
-/// Returns the positions of a raster's points (m).
 pub(crate) fn labels(points: &[Vec<AxisPoint>]) -> Vec<Vec<f64>> {
     points.iter().map(|point| point.iter().map(|on_axis| on_axis.at).collect()).collect()
 }
@@ -171,7 +163,7 @@ pub(crate) fn bump(points: &[AxisPoint]) -> (f64, [f64; 4]) {
     (factors(points.len()), slope)
 }
 
-/// Returns centre and half-length of a random part, at most `longest` long, of an interval.
+/// Returns centre and half-length of a random subinterval that is at most `longest` long.
 fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64) {
     let width = (high - low).min(longest) * random.between(0.2, 1.0);
     let start = low + (high - low - width) * random.unit();

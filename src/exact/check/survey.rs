@@ -1,9 +1,9 @@
 //! Samples a problem: positions and times of the checks, and the largest terms.
 //!
 //! Events are distributed evenly over the body and the run. If terms are large only in a small
-//! part, there are more events, and additional ones close to the largest terms. This resolves
-//! pulses that are much narrower than the body. Residuals are relative to the largest term of the
-//! whole survey, because all terms far from a pulse are rounding errors.
+//! part, more events are used, and further events are placed close to the largest terms. This
+//! resolves pulses that are much narrower than the body. Residuals are relative to the largest term
+//! of the whole survey, because all terms far from a pulse are rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
@@ -13,27 +13,22 @@ use crate::exact::random::Random;
 /// Number of rounds that add events close to the largest terms.
 const ROUNDS: usize = 8;
 
-/// Number of events added per round.
 const ADDED: usize = 16;
 
-/// Minimum share of the evenly distributed events at which a magnitude must be at least half of its
-/// maximum. With a smaller share, the events do not resolve the magnitude.
+/// The events resolve a magnitude if at least this share of the evenly distributed events has at
+/// least half of the maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
-/// Maximum distance of an added event in the first round, relative to the body and the run. Each
-/// round halves this distance.
+/// Maximum distance of an added event in the first round, relative to the size of the body and the
+/// duration of the run. Each round halves this distance.
 const REACH: f64 = 1.0 / 32.0;
 
 /// The largest magnitudes of a motion and of the terms in its equation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Magnitudes {
-    /// Displacement (m).
     pub(crate) displacement: f64,
-    /// Velocity (m/s).
     pub(crate) velocity: f64,
-    /// Acceleration (m/s2).
     pub(crate) acceleration: f64,
-    /// Displacement gradient.
     pub(crate) gradient: f64,
     /// Second derivatives of the displacement along each axis (1/m).
     pub(crate) curvature: f64,
@@ -43,12 +38,11 @@ pub struct Magnitudes {
     pub(crate) divergence: f64,
     /// Body force (N/m3).
     pub(crate) force: f64,
-    /// Sum of all terms of the equation of motion (N/m3).
+    /// Sum of the magnitudes of all terms of the equation of motion (N/m3).
     pub(crate) terms: f64,
 }
 
 impl Magnitudes {
-    /// Number of magnitudes.
     const COUNT: usize = 9;
 
     fn at(
@@ -106,7 +100,7 @@ impl Magnitudes {
     }
 }
 
-/// An event in the interior of the body, with the motion at that event.
+/// The motion and the forces at an event inside the body.
 #[derive(Debug)]
 pub(crate) struct SurveyPoint {
     pub(crate) event: Event,
@@ -118,7 +112,7 @@ pub(crate) struct SurveyPoint {
     sizes: Magnitudes,
 }
 
-/// The motion of a problem at many events.
+/// The motion of a problem at many events. An event is a position with a time.
 #[derive(Debug)]
 pub struct Survey {
     /// Evenly distributed events, followed by those close to the largest terms.
@@ -164,7 +158,7 @@ impl Survey {
         all
     }
 
-    /// Returns all reference positions, each with the motion there.
+    /// Returns the reference position and the motion at every event.
     pub(crate) fn motion(&self) -> impl Iterator<Item = (&[f64], &Derivatives)> {
         self.points.iter().map(|point| (point.event.label.as_slice(), &point.now))
     }
@@ -196,7 +190,6 @@ pub(crate) fn events(problem: &Problem, count: usize, random: &mut Random) -> Ve
     (0..count).map(event).collect()
 }
 
-/// Returns the bounding box of the body, and the times of the run.
 pub(crate) fn extent(problem: &Problem) -> SpaceTimeBox<'_> {
     let Problem { from, to, until, .. } = problem;
     SpaceTimeBox { from, to, start: problem.loaded(0.0), end: *until }
@@ -210,7 +203,7 @@ fn point(problem: &Problem, event: Event) -> SurveyPoint {
     SurveyPoint { event, now, divergence, force, sizes }
 }
 
-/// Whether a quantity is zero, or at least half of its maximum at many evenly distributed events.
+/// Whether a quantity is at least half of its maximum at the share [`RESOLVED`] of the points.
 fn is_broad(points: &[SurveyPoint], quantity: usize) -> bool {
     let values = || points.iter().map(|point| point.sizes.to_array()[quantity]);
     let most = greatest(values());

@@ -23,7 +23,6 @@ const PATCHES: usize = 12;
 /// the patches only detect a front so steep that no random point lies on it.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
-/// Returns the number of patches on which a problem is checked.
 pub(crate) fn patches(smooth: bool) -> usize {
     if smooth { PATCHES_OF_SMOOTH_FIELDS } else { PATCHES }
 }
@@ -43,7 +42,6 @@ fn crossing(problem: &Problem) -> f64 {
     longest / problem.wave_speed()
 }
 
-/// Creates a random patch in the body.
 fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
     let (from, to) = (&problem.from[..], &problem.to[..]);
     let longest = WAVES * crossing(problem);
@@ -60,7 +58,7 @@ fn draw(random: &mut Random, problem: &Problem) -> SpaceTimePatch {
 /// next to a narrow pulse, are compared with this scale.
 const SMALLEST: f64 = 1e-3;
 
-/// Maximum number of times a patch is halved while its sums depend on the number of points.
+/// Maximum number of times that an unresolved patch is halved.
 const HALVINGS: usize = 12;
 
 /// Checks the momentum balance on random patches, and on patches around the largest stresses.
@@ -88,7 +86,7 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
 /// changes with twice and four times as many points per axis. Otherwise the points do not resolve
 /// the fields, and the check is repeated on the half patch around the largest term.
 ///
-/// `condition` must end with the name of the equation.
+/// `condition` is the beginning of a message and must end with the name of the equation.
 pub(crate) fn balances<const N: usize>(
     mut patch: SpaceTimePatch,
     condition: &str,
@@ -126,21 +124,19 @@ pub(crate) fn balances<const N: usize>(
     Ok(())
 }
 
-/// The sums of one component over a patch.
+/// Sums over a patch of the terms in one component of a balance.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Sums {
     pub(crate) gain: f64,
     pub(crate) loss: f64,
     pub(crate) size: f64,
-    /// Minimum scale of an imbalance.
     pub(crate) smallest: f64,
-    /// The largest magnitude at a point, and the position and time of that point.
+    /// The largest `size` at a point; `place` is the position and time of this point.
     peak: f64,
     place: [f64; 4],
 }
 
 impl Sums {
-    /// Creates zero sums with the minimum scale `smallest`.
     pub(crate) fn new(smallest: f64) -> Self {
         Self { smallest, ..Self::default() }
     }
@@ -211,14 +207,13 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // At an infinite slope of the root of a constant, only jets give finite derivatives.
+        // First derivatives of the root of a zero constant are not finite, but those of jets are.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
 }
 
-/// Computes the balance of each component on a raster of a patch. With `only_first`, only first
-/// derivatives of the motion are computed.
+/// With `only_first`, only first derivatives of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -285,7 +280,7 @@ impl DistinctPlaces {
     }
 }
 
-/// Returns the position index of a point: its number on a raster of the axes of varying motion.
+/// Returns the number of a point on the raster of only those axes along which the motion varies.
 fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
     let (mut place, mut stride) = (0, 1);
     for varies in varying {

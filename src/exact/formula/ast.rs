@@ -14,7 +14,6 @@ pub struct Expr {
     nodes: Vec<Node>,
 }
 
-/// One node of the tree, and its byte range in the source.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
     pub(super) kind: NodeKind,
@@ -32,7 +31,6 @@ pub(super) enum NodeKind {
     Negate(usize),
     Unary(Unary, usize),
     Binary(Binary, usize, usize),
-    /// A call of a user function.
     Call(String, Vec<usize>),
     Sum(Sum),
 }
@@ -82,7 +80,6 @@ impl Expr {
         &self.nodes[at]
     }
 
-    /// Returns all sums of the formula.
     pub(super) fn sums(&self) -> impl Iterator<Item = &Sum> {
         self.nodes.iter().filter_map(|node| match &node.kind {
             NodeKind::Sum(sum) => Some(sum),

@@ -1,4 +1,4 @@
-//! Bound formulas.
+//! Formulas with resolved names.
 
 use std::collections::BTreeSet;
 
@@ -9,9 +9,9 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Number of stack registers of a short formula, which then need not clear many registers.
+/// Number of stack registers for short formulas, which avoids clearing [`MANY`] registers.
 const FEW: usize = 8;
-/// Number of stack registers of a longer formula. Formulas with even more registers allocate.
+/// Number of stack registers for longer formulas. Even longer ones allocate on the heap.
 const MANY: usize = 32;
 
 /// A formula with resolved names, ready for evaluation.
@@ -85,7 +85,7 @@ impl Formula {
         &self.uses
     }
 
-    /// Returns the value, if it does not depend on any variable.
+    /// Returns the value if the formula is constant.
     pub fn constant(&self) -> Option<f64> {
         match self.result {
             Operand::Constant(value) => Some(value),
@@ -109,7 +109,6 @@ impl Formula {
         &self.code
     }
 
-    /// Returns the number of registers that the code uses.
     pub(super) fn registers(&self) -> usize {
         self.registers
     }

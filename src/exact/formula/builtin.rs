@@ -18,9 +18,9 @@ pub enum Binary {
     Power,
     /// `atan2(y, x)`, the angle of the point (x, y).
     Atan2,
-    /// `min(a, b)`; the first of two equal arguments, with its derivatives.
+    /// `min(a, b)`, with the derivatives of the smaller argument, or of `a` if both are equal.
     Min,
-    /// `max(a, b)`; the first of two equal arguments, with its derivatives.
+    /// `max(a, b)`, with the derivatives of the larger argument, or of `a` if both are equal.
     Max,
 }
 
@@ -29,7 +29,6 @@ impl Binary {
     pub const NAMED: &'static [(&'static str, Self)] =
         &[("atan2", Self::Atan2), ("min", Self::Min), ("max", Self::Max)];
 
-    /// Returns the function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Self::NAMED.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
     }
@@ -54,7 +53,6 @@ impl Binary {
 pub(super) const PI: &str = "pi";
 const SUM: &str = "sum";
 
-/// Meaning of a builtin name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Builtin {
     Unary(Unary),
@@ -63,7 +61,6 @@ pub(super) enum Builtin {
 }
 
 impl Builtin {
-    /// Returns the builtin function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Unary::find(name)
             .map(Self::Unary)
@@ -72,12 +69,10 @@ impl Builtin {
     }
 }
 
-/// Whether `name` is reserved by the language.
 pub(super) fn is_reserved(name: &str) -> bool {
     name == PI || Builtin::find(name).is_some()
 }
 
-/// Returns all builtin names of the language.
 pub(super) fn names<'a>() -> impl Iterator<Item = &'a str> {
     let unary = Unary::ALL.iter().map(|(name, _)| *name);
     let binary = Binary::NAMED.iter().map(|(name, _)| *name);

@@ -31,8 +31,8 @@ pub struct Hoisted<T> {
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas of `variables` variables. Sums are unrolled; [`Formula::operations`] gives
-    /// the resulting length.
+    /// Splits formulas that have the given number of `variables`. Sums are unrolled, which gives
+    /// [`Formula::operations`] steps.
     ///
     /// # Panics
     /// If a formula has a different number of variables.
@@ -84,7 +84,7 @@ impl<T: Number> Hoisted<T> {
         self.split.results.iter().map(|result| read(*result, &self.inputs, &self.registers))
     }
 
-    /// Returns the number of remaining operations per evaluation.
+    /// Returns the number of operations per evaluation that depend on both position and time.
     pub fn operations(&self) -> usize {
         self.split.rest.code.len()
     }
@@ -123,12 +123,11 @@ pub(super) struct PartProgram {
 /// Formulas of the same variables, ending with the time, split into three parts.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
-    /// Steps that depend only on position. They use the variables of the formulas.
+    /// Steps that depend only on position. Their inputs are the variables of the formulas.
     pub(super) place: PartProgram,
-    /// Steps that depend at most on time. They use the variables of the formulas.
+    /// Steps that depend at most on time. Their inputs are the variables of the formulas.
     pub(super) time: PartProgram,
-    /// The remaining steps. They use the values stored by `time`, followed by those stored by
-    /// `place`.
+    /// The remaining steps. Their inputs are the values stored by `time`, then those by `place`.
     pub(super) rest: PartProgram,
     /// Locations of the formula values after running `rest`.
     pub(super) results: Vec<Operand>,
@@ -204,7 +203,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
 /// The parts and registers in which each node is computed.
 struct Homes {
     dependence: Vec<Dependence>,
-    /// For each part, the register of each node that it computes.
+    /// For each part, the registers of the nodes that the part computes.
     registers: [Vec<Option<usize>>; 4],
     kept: [usize; 4],
 }
@@ -251,7 +250,6 @@ impl Homes {
         homes
     }
 
-    /// Returns the program of one part.
     fn part(&self, nodes: &[SsaNode], part: Dependence) -> PartProgram {
         let mut code = Vec::new();
         for (node, register) in nodes.iter().zip(&self.registers[part]) {
@@ -263,7 +261,7 @@ impl Homes {
         PartProgram { registers: code.len(), code, kept: self.kept[part] }
     }
 
-    /// Returns the location of an operand for the part `reader`.
+    /// Returns the location from which the part `reader` reads an operand.
     fn seen(&self, operand: Operand, reader: Dependence) -> Operand {
         let Operand::Register(node) = operand else { return operand };
         let home = home(self.dependence[node], reader);

@@ -101,7 +101,6 @@ impl<const N: usize> Jet<N> {
 }
 
 impl<const N: usize> From<f64> for Jet<N> {
-    /// Creates a constant.
     #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }

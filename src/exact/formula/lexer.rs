@@ -9,7 +9,6 @@ const MAX_BYTES: usize = 16 * 1024;
 const MAX_TOKENS: usize = 4096;
 const SYMBOLS: &[u8] = b"+-*/^(),";
 
-/// The smallest unit of a formula.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Token<'a> {
     Number(f64),
@@ -18,7 +17,6 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// A token and its position in the source.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lexeme<'a> {
     pub(super) token: Token<'a>,
@@ -60,8 +58,7 @@ fn continues_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// A position in the source. It advances only over ASCII, and therefore stays on character
-/// boundaries.
+/// A position in the source. It is always on a character boundary, because only ASCII is consumed.
 struct Lexer<'a> {
     source: &'a str,
     at: usize,
@@ -92,7 +89,7 @@ impl<'a> Lexer<'a> {
         self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit())
     }
 
-    /// Skips bytes while `accept` returns true. Returns their number.
+    /// Skips bytes that `accept` accepts, and returns their number.
     fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
         let start = self.at;
         while self.peek(0).is_some_and(&accept) {
@@ -195,29 +192,27 @@ pub struct FormulaError {
     /// The user function whose body contains the error; `None` if the error is in the formula
     /// itself.
     pub within: Option<String>,
-    /// The undeclared name, if that is the error.
+    /// The name that is not declared; `None` for other errors.
     pub unknown: Option<String>,
 }
 
 impl FormulaError {
-    /// Creates an error without help in the formula itself.
+    /// Creates an error in the formula itself, without help.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> Self {
         Self { message: message.into(), span, help: None, within: None, unknown: None }
     }
 
-    /// Creates an error about an unknown name.
     pub(super) fn unknown(span: Range<usize>, name: &str) -> Self {
         let message = format!("unknown name `{name}`");
         Self { unknown: Some(name.to_owned()), ..Self::new(span, message) }
     }
 
-    /// Adds advice.
     pub(super) fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Marks the error as one in the body of `function`, unless an inner function is marked.
+    /// Sets the function whose body contains the error, unless an inner function is already set.
     pub(super) fn within(mut self, function: &str) -> Self {
         self.within.get_or_insert_with(|| function.to_owned());
         self

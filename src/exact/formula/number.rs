@@ -3,7 +3,6 @@
 use super::unary::Unary;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Declares the elementary functions as methods.
 macro_rules! elementary {
     ($($doc:literal $name:ident $variant:ident;)*) => {
         $(
@@ -46,7 +45,7 @@ pub trait Number:
     #[must_use]
     fn powi(self, exponent: i32) -> Self;
 
-    /// Computes a power. For an integer exponent without derivatives, this is [`powi`].
+    /// Computes a power. For an integer exponent without derivatives, calls [`powi`].
     ///
     /// [`powi`]: Number::powi
     #[must_use]
@@ -143,7 +142,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Numbers per batch. With this many, decoding an instruction costs little compared with its
+/// Numbers per batch. With so many numbers, decoding an instruction costs little compared with the
 /// operations.
 const MANY: usize = 8;
 

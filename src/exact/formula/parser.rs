@@ -56,7 +56,7 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    /// Parses operators whose left binding power is at least `hold`, with their operands.
+    /// Parses an expression up to the first operator whose left binding power is below `hold`.
     fn expression(&mut self, hold: u8) -> Result<usize, FormulaError> {
         if self.depth == MAX_DEPTH {
             let message = format!("the formula is nested more than {MAX_DEPTH} levels deep");
@@ -136,7 +136,6 @@ impl<'a> Parser<'a> {
         FormulaError::new(self.span(), format!("expected {what}, found {found}"))
     }
 
-    /// Returns the error for a missing operand.
     fn missing_operand(&self) -> FormulaError {
         let error = self.expected("a value");
         let before = self.at.checked_sub(1).map(|at| self.lexemes[at].token);
@@ -245,7 +244,6 @@ impl<'a> Parser<'a> {
         Err(FormulaError::new(self.since(span.start), message))
     }
 
-    /// Parses the arguments of a call, including the closing parenthesis.
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.peek() == Token::Symbol(')') {

@@ -7,7 +7,6 @@ use super::builtin::Binary;
 use super::number::Number;
 use super::unary::Unary;
 
-/// Location of an instruction's argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Operand {
     Constant(f64),
@@ -32,8 +31,8 @@ pub(super) enum Action {
     Next(Loop),
 }
 
-/// The end of a sum's body: adds the term to register `to`. The next register contains the index.
-/// Unless the index is the last one, it is incremented and the program jumps to instruction `body`.
+/// The end of the body of a sum. Adds `term` to register `to`; the next register contains the
+/// index. If the index is below `last`, increments it and jumps to instruction `body`.
 #[derive(Debug, Clone)]
 pub(super) struct Loop {
     pub(super) term: Operand,
@@ -42,7 +41,6 @@ pub(super) struct Loop {
 }
 
 impl Action {
-    /// Returns the arguments of the action.
     pub(super) fn arguments(&self) -> impl Iterator<Item = Operand> {
         let (first, second) = match self {
             Self::Copy(a) | Self::Negate(a) | Self::Unary(_, a) | Self::Powi(a, _) => (*a, None),
@@ -52,7 +50,6 @@ impl Action {
         std::iter::once(first).chain(second)
     }
 
-    /// Returns the action with each argument replaced by `to(argument)`.
     pub(super) fn map(&self, to: impl Fn(Operand) -> Operand) -> Self {
         match self {
             Self::Copy(a) => Self::Copy(to(*a)),
@@ -65,7 +62,6 @@ impl Action {
     }
 }
 
-/// Runs the instructions of `code`, starting at `start`.
 pub(super) fn run<T: Number>(
     code: &[Instruction],
     start: usize,
@@ -95,7 +91,8 @@ pub(super) fn run<T: Number>(
             Action::Unary(function, a) => registers[*to] = operand!(a, one).unary(*function),
             Action::Binary(function, a, b) => {
                 let (a, b) = (operand!(a, one), operand!(b, other));
-                // Each branch writes its result directly, without a common temporary.
+                // Each branch writes directly to the register, because a common temporary would be
+                // copied.
                 match function {
                     Binary::Add => registers[*to] = *a + *b,
                     Binary::Subtract => registers[*to] = *a - *b,
@@ -117,7 +114,6 @@ pub(super) fn run<T: Number>(
     }
 }
 
-/// Returns the value of an operand.
 #[inline]
 pub(super) fn read<T: Number>(operand: Operand, variables: &[T], registers: &[T]) -> T {
     match operand {

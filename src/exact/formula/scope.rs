@@ -19,7 +19,6 @@ pub struct Scope {
     free: Option<String>,
 }
 
-/// A user function.
 #[derive(Debug, Clone)]
 pub(super) struct Function {
     pub(super) parameters: Vec<String>,
@@ -128,7 +127,7 @@ impl Scope {
         Ok(())
     }
 
-    /// Refuses an invalid `name`.
+    /// Checks that `name` is a valid name.
     ///
     /// # Errors
     /// When `name` contains characters other than ASCII letters, digits and `_`, or begins with a

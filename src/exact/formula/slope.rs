@@ -61,7 +61,6 @@ impl<const N: usize> Slope<N> {
 }
 
 impl<const N: usize> From<f64> for Slope<N> {
-    /// Creates a constant.
     #[inline]
     fn from(value: f64) -> Self {
         Self { value, gradient: [0.0; N] }

@@ -9,8 +9,8 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
     /// impossible. This holds for compositions of analytic functions.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because `tanh(1/x)` and other
-    /// functions of a pole jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
+    /// A quotient counts as smooth only if its divisor is constant, because functions of a pole,
+    /// such as `tanh(1/x)`, jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
     /// smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
@@ -44,7 +44,6 @@ impl Formula {
     }
 }
 
-/// Whether an operand depends on a variable, given the `varying` registers.
 fn varies(operand: Operand, varying: &[bool]) -> bool {
     match operand {
         Operand::Constant(_) => false,
@@ -54,7 +53,6 @@ fn varies(operand: Operand, varying: &[bool]) -> bool {
 }
 
 impl Unary {
-    /// Whether the function is analytic on the whole real line.
     fn is_analytic(self) -> bool {
         matches!(
             self,

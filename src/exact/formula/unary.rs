@@ -78,7 +78,6 @@ functions! { x, f;
 }
 
 impl Unary {
-    /// Returns the function called `name`.
     pub(super) fn find(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
     }

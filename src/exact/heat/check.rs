@@ -1,12 +1,10 @@
-//! All conditions that an exact temperature must satisfy.
+//! Checks of an exact temperature: heat equation, boundary conditions and initial conditions.
 //!
 //! The heat equation is also checked in weak form on random space-time patches. This detects a heat
-//! source on a surface, which is a kink in the temperature that pointwise checks miss.
+//! source on a surface, where the temperature has a kink that pointwise checks miss.
 //!
 //! For any smooth `phi` that vanishes on the boundary of a patch,
 //! `int int (rho0 c T phi_t - k J C^-1 Grad T . Grad phi + rho0 s phi) dX dt = 0`.
-//!
-//! The checks use the temperature at many events, and the largest terms of its equation.
 
 use super::field;
 use super::field::TemperatureDerivatives;
@@ -80,7 +78,6 @@ fn at(formula: &Formula, event: &Event) -> f64 {
     formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
-/// Checks every face of the body at random points and times.
 fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violation> {
     let mut random = Random::new(3);
     for face in &problem.faces {
@@ -97,7 +94,6 @@ fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violatio
     Ok(())
 }
 
-/// A point of a face, with the motion and the temperature at that point.
 struct HeatedPoint<'a> {
     problem: &'a Conduction,
     face: &'a HeatFace,
@@ -204,8 +200,7 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s` by comparing powers per unit mass: the
-/// power that the temperature needs, and the stated power.
+/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, solved for the source s.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -231,8 +226,8 @@ pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<
         let (from, to) = (&problem.from[..], &problem.to[..]);
         let patch = SpaceTimePatch::in_box(&mut random, from, to, problem.until, f64::INFINITY);
         let d = problem.dimension();
-        // A constant temperature stores no heat, so it is subtracted. Otherwise it would increase
-        // the scale of the imbalance.
+        // Subtract a constant temperature, which stores no heat but would increase the scale of the
+        // imbalance.
         let middle = problem.temperature.at(&patch.centre[..d], patch.centre[d]);
         let condition = "heat balance across kinks (the heat equation";
         balances(patch, condition, &densities, |raster, smallest| {
@@ -276,15 +271,13 @@ fn sums(problem: &Conduction, raster: &Raster, smallest: f64, middle: f64) -> Su
     all
 }
 
-/// An event, with the motion and the temperature at that event.
 pub(super) type HeatPoint = (Event, Derivatives, TemperatureDerivatives);
 
-/// Returns the bounding box of the body, and the times of the run.
 pub(super) fn extent(problem: &Conduction) -> SpaceTimeBox<'_> {
     SpaceTimeBox { from: &problem.from, to: &problem.to, start: 0.0, end: problem.until }
 }
 
-/// Returns events distributed evenly over the body and the run.
+/// Evaluates motion and temperature at events distributed evenly over the body and the run.
 pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     let events = extent(problem).spread(EVENTS, |_| true, &mut Random::new(1));
     let point = |event: Event| {
@@ -296,15 +289,11 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
 
 /// The largest magnitudes of a temperature and of its equation's terms; NaN if any is NaN.
 pub(super) struct HeatMagnitudes {
-    /// Temperature (K).
     pub(super) value: f64,
     /// Difference between highest and lowest temperature (K).
     pub(super) range: f64,
-    /// Rate (K/s).
     pub(super) rate: f64,
-    /// Gradient (K/m).
     pub(super) gradient: f64,
-    /// Second derivatives (K/m2).
     pub(super) curvature: f64,
     /// Heat flow (W/m^(D-1)).
     pub(super) inflow: f64,

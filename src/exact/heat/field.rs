@@ -18,7 +18,7 @@ pub struct Temperature {
     dimension: usize,
 }
 
-/// Temperature and its derivatives at one point and time; zero along missing axes.
+/// Temperature and its derivatives at one point and time; zero on axes that the body does not have.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TemperatureDerivatives {
     /// T (K).
@@ -87,7 +87,6 @@ impl Temperature {
 
 /// A temperature at fixed positions, for many times.
 pub(super) trait TemperaturePlaces: Send {
-    /// Sets the time `t` (s).
     fn set_time(&mut self, t: f64);
 
     /// Returns the derivatives at the position with this index in `labels`. Does not allocate.
@@ -158,7 +157,6 @@ pub(super) fn divergence(
     }
 }
 
-/// Computes the terms of the divergence in D dimensions.
 fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; D] {
     let bent = |i: usize, j: usize| std::array::from_fn(|axis| motion.second[i][j][axis]);
     let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));

@@ -32,21 +32,21 @@ pub struct Conduction {
     pub to: Vec<f64>,
     /// Reference density (kg/m3).
     pub density: f64,
-    /// Conductivity k (W/(m K), per m^(3-D)).
+    /// Conductivity k (W m^(2-D)/K).
     pub conductivity: f64,
     /// Heat capacity c (J/(kg K)).
     pub capacity: f64,
     /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates. Default: that of the exact solution.
+    /// Initial temperature (K), a formula of the coordinates; `None`: that of the exact solution.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
-    /// The exact solution, which must be checked.
+    /// The stated solution, which [`Conduction::check`] verifies.
     pub temperature: Temperature,
     /// Deformation of the body; `None` if the body is at rest or strains are neglected.
     pub motion: Option<Motion>,
-    /// Whether the source is manufactured; if so, no source is stated.
+    /// Whether the source is derived from the exact temperature; `source` is then `None`.
     pub manufactured: bool,
     /// End of the run (s).
     pub until: f64,
@@ -60,7 +60,6 @@ impl Conduction {
         self.from.len()
     }
 
-    /// Computes the motion and the temperature at one point and time.
     pub(super) fn now(&self, label: &[f64], t: f64) -> (Derivatives, TemperatureDerivatives) {
         let still = Derivatives::default;
         let motion = self.motion.as_ref().map_or_else(still, |motion| motion.derivatives(label, t));
@@ -79,7 +78,6 @@ impl Conduction {
         self.balance(&motion, &now)
     }
 
-    /// Returns the source of the problem (W/kg), manufactured or stated.
     pub(super) fn source(
         &self,
         label: &[f64],
@@ -99,7 +97,6 @@ impl Conduction {
     }
 }
 
-/// The solution is temperature and displacement. The displacement of a body at rest is zero.
 impl Truth for Conduction {
     fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
         match &self.motion {
@@ -178,7 +175,7 @@ pub struct HeatForcing {
 }
 
 impl HeatForcing {
-    /// Prepares the source of `problem` at `labels` (m), with D numbers each.
+    /// Prepares the source of `problem` at the reference positions `labels` (m).
     pub fn new<'a>(problem: &Conduction, labels: impl Iterator<Item = &'a [f64]>) -> Self {
         let labels: Vec<Vec<f64>> = labels.map(<[f64]>::to_vec).collect();
         let all = || labels.iter().map(Vec::as_slice);

@@ -19,7 +19,6 @@ fn bind_to(further: &[&str], source: &str, dimension: usize) -> Formula {
     Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), &names).unwrap()
 }
 
-/// Thermal conditions of the tests.
 #[derive(Debug)]
 enum Ends {
     Insulated,
@@ -71,7 +70,6 @@ fn insulated(dimension: usize, temperature: &str) -> Conduction {
     }
 }
 
-/// Creates a bar with conditions on both ends.
 fn bar(temperature: &str, ends: [Ends; 2]) -> Conduction {
     let mut bar = insulated(1, temperature);
     for (face, condition) in bar.faces.iter_mut().zip(ends) {
@@ -101,7 +99,6 @@ fn a_mode_that_decays_at_another_rate_is_refused() {
     assert_eq!(found.unit, "W/kg");
 }
 
-/// The source of T = (1 - X) t + ... is stated; a wrong source is refused.
 #[test]
 fn a_stated_source_is_part_of_the_equation() {
     let made = insulated(1, "cos(pi*X)*(1 + t)");
@@ -113,7 +110,7 @@ fn a_stated_source_is_part_of_the_equation() {
     Conduction { manufactured: true, ..made }.check().unwrap();
 }
 
-/// A mode decays faster by 4/s if the air absorbs `rho0 c 4 (T - 5)`.
+/// The source term `-4 rho0 c (T - 5)` adds 4/s to the decay rate of a mode.
 #[rstest]
 fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension: usize) {
     let fin = |source: &str| Conduction {
@@ -125,7 +122,6 @@ fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension
     refused(&fin("-12*(t - 5)"), "heat equation");
 }
 
-/// Heat that leaves on one side enters on the opposite side.
 #[test]
 fn heat_flows_through_a_periodic_face() {
     let ring = |temperature: &str| Conduction {
@@ -184,7 +180,7 @@ fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str)
     refused(&bar("cos(pi*(X - 1/2))*exp(-pi^2*t/2)"), "left is periodic, but the heat flux");
 }
 
-/// The root is 0.86033...; an error in the fourth digit is refused.
+/// The root of mu tan(mu) = 1 is 0.86033...; an error in the fourth digit is refused.
 #[test]
 fn a_root_of_the_eigenvalue_equation_is_verified() {
     let cooled = |mu: &str| {

@@ -33,10 +33,10 @@ pub struct CamClayLaw {
     initial_pressure: f64,
     /// Mean stress at yield (Pa) in compression and in extension.
     yields: [f64; 2],
-    /// Roots of C, starting with the ratio of the K0 line, each with its coefficient of
-    /// `ln|eta - root|`.
+    /// Roots of C, starting with the ratio of the K0 line, each with the coefficient of `ln|eta -
+    /// root|` in `ln p`.
     poles: [[f64; 2]; 3],
-    /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)`.
+    /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)` in `ln p`.
     conjugate: [f64; 2],
 }
 
@@ -125,7 +125,6 @@ impl CamClayLaw {
         [0.5 * imaginary / m, real / m]
     }
 
-    /// Returns the ratio at yield in compression.
     fn ratio_at_yield(&self) -> f64 {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
@@ -147,7 +146,8 @@ impl CamClayLaw {
         [pressure, self.compression * pressure + hardening * growth, eta]
     }
 
-    /// Computes `ln(p/p_y)` and the ratio at a compaction after yield; NaN if the clay softens.
+    /// Computes `ln(p/p_y)` and the ratio at the compaction `beyond` after yield; NaN if the clay
+    /// softens.
     fn flowed(&self, beyond: f64) -> [f64; 2] {
         let start = self.ratio_at_yield();
         if !(start < self.slope) {
@@ -310,7 +310,6 @@ mod tests {
         assert!(tau(&law, 0.1).is_nan() && law.flows(0.1));
     }
 
-    /// The slope of the stress agrees with a finite difference.
     #[rstest]
     fn stress_has_its_slope(#[values(-0.005, -0.05, -0.2)] strain: f64) {
         let (law, step) = (clay(150.0), 1e-6);

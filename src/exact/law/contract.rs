@@ -4,7 +4,7 @@ use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
 /// A law between the displacement gradient and the first Piola-Kirchhoff stress, generic over
-/// [`Number`]. Evaluated with slopes, it gives the divergence of P by automatic differentiation.
+/// [`Number`]. Evaluation with slopes gives the divergence of P by automatic differentiation.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;
@@ -12,7 +12,7 @@ pub(super) trait ConstitutiveLaw {
     /// Equation of motion in reports.
     const EQUATION: &'static str;
 
-    /// Whether stress depends on the history of the motion unless the loading is monotonic.
+    /// Whether the stress depends on the history of the motion, except under monotonic loading.
     const HAS_HISTORY: bool = false;
 
     /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends
@@ -26,8 +26,8 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
-    /// Returns the largest modulus at rest (Pa), `lambda + 2 mu` for a solid, which bounds the
-    /// stress for a given strain.
+    /// Returns the scale of stress per strain (Pa): the largest modulus at rest, `lambda + 2 mu`
+    /// for a solid.
     fn modulus(&self) -> f64;
 
     /// Returns the ratio of P, energy and modulus at the reference density `density` (kg/m3) to
@@ -56,10 +56,10 @@ pub(super) trait ConstitutiveLaw {
         false
     }
 
-    /// Checks that P is valid for a motion in `dimension` dimensions, or for a state `at_rest`.
+    /// Checks that the law is valid for motions in `dimension` dimensions, or for a body `at_rest`.
     ///
     /// # Errors
-    /// The reason why P is invalid, and the alternative for a suite.
+    /// The reason why the law is not valid, and an alternative for the suite.
     fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
         let _ = (dimension, at_rest);
         Ok(())
@@ -74,7 +74,6 @@ pub(crate) struct Lame {
 }
 
 impl Lame {
-    /// Computes Lame's parameters from Young's modulus (Pa) and Poisson's ratio.
     pub(crate) fn new(young: f64, poisson: f64) -> Self {
         let lambda = young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
         Self { lambda, mu: young / (2.0 * (1.0 + poisson)) }

@@ -73,7 +73,6 @@ mod tests {
         assert_stress_along_axes(&solid, stretches, angle, along, 1e-13);
     }
 
-    /// `R^T F` is symmetric, and R is orthogonal.
     #[test]
     fn rotation_is_that_of_the_polar_decomposition() {
         let f: Tensor<f64> = [[1.2, -0.7, 0.3], [0.4, 0.8, 0.1], [-0.2, 0.5, 1.6]];
@@ -86,7 +85,6 @@ mod tests {
         }
     }
 
-    /// The shear vanishes at this point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];

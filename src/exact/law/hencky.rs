@@ -75,7 +75,6 @@ mod tests {
         assert_stress_along_axes(&solid, stretches, angle, along, 1e-11);
     }
 
-    /// The shear vanishes at the tested point, but its derivative does not.
     #[test]
     fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];

@@ -1,8 +1,8 @@
 //! Mohr-Coulomb plasticity in uniaxial strain under monotonic loading.
 //!
 //! The two lateral stresses are equal, so the state is on an edge of the yield surface, where two
-//! planes flow with the same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)` and
-//! `M = L + 2 mu`, the yield condition is `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`. Per
+//! planes flow with the same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)` and Lame's first
+//! parameter L, the yield condition is `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`. Per
 //! unit strain, the flow reduces the axial stress by `g (4 L t + 4 mu (1 + t))` if it is the
 //! largest stress, and increases it by `g (4 mu (1 - t) - 4 L t)` if it is the smallest. Half of
 //! the shear part is transferred to or from the lateral stresses.
@@ -29,8 +29,8 @@ impl MohrCoulombLaw {
         let (s, t) = (libm::sin(phi), libm::sin(psi));
         let (Lame { lambda, mu }, elastic) = (lame, lame.modulus());
         let strength = 2.0 * cohesion * libm::cos(phi);
-        // Weights of the axial and lateral stress in the yield function, and the changes of these
-        // stresses due to the flow on the two planes.
+        // Weights of the axial and lateral stress in the yield function, and the decrease of these
+        // stresses per unit of the multiplier g.
         let in_compression = [-(1.0 - s), 1.0 + s];
         let relief_in_compression =
             [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)];
@@ -103,7 +103,8 @@ mod tests {
 
     #[test]
     fn a_large_friction_angle_is_elastic_in_compression() {
-        // nu/(1 - nu) = 1/4 is greater than (1 - s)/(1 + s) = 0.17.
+        // The body never yields in compression: the elastic ratio of lateral to axial stress, nu/(1
+        // - nu) = 1/4, is above the ratio at yield, (1 - s)/(1 + s) = 0.17.
         let law = MohrCoulombLaw::new(18e3, 0.2, 45.0, 0.0, 10.0);
         assert!(!law.flows(-0.5) && law.flows(0.5));
     }

@@ -16,7 +16,7 @@ impl NeoHookeanLaw {
     }
 }
 
-/// Maximum number of Newton steps for the stretch across a plate; strains of 100 % need about five.
+/// Maximum number of Newton steps for the thickness of a plate; strains of 100 % need about five.
 const MOST_STEPS: usize = 100;
 
 /// Performs one Newton step from `eps` towards the logarithmic thickness strain of a plate whose
@@ -55,9 +55,9 @@ impl ConstitutiveLaw for NeoHookeanLaw {
     }
 
     /// Solves `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` by Newton's method, where J is the
-    /// in-plane value and `eps = ln F_33`. The left side is convex, and not negative at the zero of
-    /// its tangent at rest. From there, the iterates decrease monotonically to the root until
-    /// rounding stops them. Two more steps give the derivatives.
+    /// in-plane value and `eps = ln F_33`. The iteration starts at the zero of the tangent at rest.
+    /// The left side is convex and not negative there, so the iterates decrease monotonically to
+    /// the root until rounding stops them. Two more steps give the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();
@@ -80,7 +80,6 @@ mod tests {
     use crate::exact::law::energy::assert_stress_is_derivative;
     use approx::assert_relative_eq;
 
-    /// Closed forms of the Cauchy stress in simple shear by gamma and in a uniform stretch.
     #[test]
     fn cauchy_stress_has_its_closed_forms() {
         let law = NeoHookeanLaw::new(100.0, 0.3);

@@ -62,8 +62,6 @@ macro_rules! laws {
                 }
             }
 
-            /// Whether the stress depends on the history of the motion unless the loading is
-            /// monotonic.
             pub(super) fn has_history(&self) -> bool {
                 match self {
                     $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
@@ -88,8 +86,8 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns the largest modulus at rest (Pa), which bounds the stress for a given
-            /// strain, for unit reference density like P.
+            /// Returns the scale of stress per strain (Pa): the largest modulus at rest, for unit
+            /// reference density like P.
             pub fn modulus(&self) -> f64 {
                 match self {
                     $($(Self::$law(law) => law.modulus(),)?)+
@@ -104,33 +102,29 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns `3 lambda + 2 mu` (Pa); `None` for a finite-strain law.
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
                     $($(Self::$law(law) => law.small_strain_modulus(),)?)+
                 }
             }
 
-            /// Computes `F_33 - 1` of a plate in plane stress (sigma_33 = 0), for the in-plane
-            /// displacement gradient; `None` if the law does not implement plane stress.
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
                     $($(Self::$law(law) => law.free_gradient(grad),)?)+
                 }
             }
 
-            /// Whether a body in uniaxial strain yields at the displacement gradient `grad`.
             pub(super) fn flows(&self, grad: f64) -> bool {
                 match self {
                     $($(Self::$law(law) => law.flows(grad),)?)+
                 }
             }
 
-            /// Checks that the law is valid for a motion in `dimension` dimensions, or for a state
+            /// Checks that the law is valid for motions in `dimension` dimensions, or for a body
             /// `at_rest`.
             ///
             /// # Errors
-            /// The reason why the law is invalid, and the alternative for a suite.
+            /// The reason why the law is not valid, and an alternative for the suite.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
                     $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+

@@ -26,10 +26,8 @@ pub(super) fn piola_in_simple_shear<T: Number, const D: usize>(
     })
 }
 
-/// Refuses a scene that is not plane.
-///
-/// # Errors
-/// The reason for refusing the scene, and an alternative for the suite.
+/// Checks that the scene is two-dimensional. The error contains the reason and an alternative for
+/// the suite.
 pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     if dimension == 2 {
         return Ok(());

@@ -13,8 +13,8 @@ pub struct TaitLaw {
 }
 
 impl TaitLaw {
-    /// Creates the law from the bulk modulus at rest (Pa) and the viscosity (Pa s), which causes
-    /// stress in a moving fluid.
+    /// Creates the law from the bulk modulus at rest (Pa) and the viscosity (Pa s). With viscosity,
+    /// the law holds only for a fluid at rest.
     pub fn new(bulk: f64, viscosity: f64) -> Self {
         Self { bulk, viscosity }
     }

@@ -9,7 +9,7 @@ use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
-/// A plasticity law that is implemented in uniaxial strain.
+/// A plasticity law that is implemented for uniaxial strain only.
 pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::NAME`].
     const MATERIAL: &'static str;
@@ -17,7 +17,7 @@ pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// Returns the axial stress of the law.
+    /// Returns the axial stress as a function of the strain.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -61,7 +61,6 @@ pub(super) struct UniaxialFlow {
 }
 
 impl UniaxialFlow {
-    /// A body that never yields.
     pub(super) const NONE: Self =
         Self { strain: f64::INFINITY, modulus: 0.0, to_apex: f64::INFINITY };
 }
@@ -79,7 +78,6 @@ impl UniaxialLaw {
         if strain < 0.0 { (-1.0, &self.compression) } else { (1.0, &self.extension) }
     }
 
-    /// Computes the Kirchhoff stress (Pa) at the logarithmic strain `strain`.
     fn kirchhoff<T: Number>(&self, strain: T) -> T {
         let (sign, flow) = self.sense(strain.value());
         let elastic = self.lame.modulus();
@@ -101,7 +99,6 @@ impl UniaxialLaw {
         tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
-    /// Whether the body yields at the displacement gradient `grad`.
     fn flows(&self, grad: f64) -> bool {
         let strain = libm::log1p(grad);
         strain.abs() > self.sense(strain).1.strain

@@ -1,7 +1,7 @@
 //! Bodies that are not boxes: round bodies and polygons.
 //!
-//! Rims are free, with two exceptions: a pressure may act on a rim of a round body, and sides of a
-//! quadrilateral may lie on a face.
+//! Rims are the parts of the boundary. They are free, with two exceptions: a pressure may act on a
+//! rim of a round body, and sides of a quadrilateral may lie on a face.
 
 mod piece;
 mod polygon;
@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Shape of a body that is not a box, in the reference configuration.
 pub trait Outline: Debug + Send + Sync {
-    /// Returns the name of the kind in suites.
+    /// Returns the name of this kind of outline in suites.
     fn kind(&self) -> &'static str;
 
     /// Returns a one-line description for reports.
@@ -51,8 +51,8 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// Returns the particles of one lattice cell, which represent the part of the cell in the body.
-    /// The cell is a box with half-lengths `half` (m) around `centre`.
+    /// Returns the part of a lattice cell that belongs to the body, as particles. The cell is a box
+    /// with half-lengths `half` (m) around `centre`.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Returns the volume of the part of the body in a box (m^D).
@@ -61,7 +61,7 @@ pub trait Outline: Debug + Send + Sync {
     /// Returns a closed line along the rim in the plane of the first two axes (m).
     fn trace(&self) -> Vec<(f64, f64)>;
 
-    /// Returns the parts of the rim, named for messages.
+    /// Returns the names of all parts of the rim, for messages.
     fn rims(&self) -> Vec<String>;
 
     /// Returns a random point on a part of the rim, and the outward normal at that point.
@@ -77,7 +77,7 @@ pub trait Outline: Debug + Send + Sync {
     /// charts together cover the body.
     fn charts(&self) -> Vec<Vec<(f64, f64)>>;
 
-    /// Returns the point of a chart at `coordinates`, and the body volume per unit of
-    /// `coordinates`.
+    /// Returns the point of a chart at `coordinates`, and the volume of the body per unit of the
+    /// coordinates.
     fn place(&self, chart: usize, coordinates: &[f64]) -> (Vec<f64>, f64);
 }

@@ -4,18 +4,18 @@ use super::ROUNDING;
 use std::collections::BTreeMap;
 
 /// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
-/// neighbour. Otherwise a sliver could be the only particle in the support of a node, and limit the
-/// time step like a cell of its own width.
+/// neighbour, because a sliver could be the only particle in the support of a node. It would limit
+/// the time step like a cell as narrow as the sliver.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cut {
-    /// Empty.
+    /// No part of the cell belongs to the body.
     Nothing,
-    /// The whole cell, as determined by the outline.
+    /// The outline counts the whole cell as part of the body.
     Whole,
-    /// One or more pieces.
+    /// The pieces of the cell that belong to the body.
     Pieces(Vec<Piece>),
 }
 
@@ -33,22 +33,21 @@ pub struct Piece {
 }
 
 impl Piece {
-    /// Creates the piece that is a whole lattice cell.
     pub(super) fn whole(place: [f64; 2], half: [f64; 2]) -> Self {
         let [width, height] = half.map(|half| 2.0 * half);
         let spread = [width * width / 12.0, 0.0, height * height / 12.0];
         Self { volume: width * height, place, spread, joints: [height, height, width, width] }
     }
 
-    /// Returns half-lengths (m), row by row, of a parallelogram with the volume of the piece and
-    /// proportional mean products of coordinates. Its columns are those of the symmetric root
-    /// `(Q + s I)/t`, where Q is three times the matrix of mean products, `s = sqrt(det Q)` and
-    /// `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For an
-    /// axis-aligned rectangle, the result is the rectangle itself.
+    /// Returns the domain of the particle: the half-lengths (m), row by row, of a parallelogram
+    /// with the volume of the piece and proportional mean products of coordinates. Its columns are
+    /// those of the symmetric root `(Q + s I)/t`, where Q is three times the matrix of mean
+    /// products, `s = sqrt(det Q)` and `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of
+    /// Matrices*, problem 6.2). For an axis-aligned rectangle, the result is the rectangle itself.
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
-        // A line has no area except from rounding.
+        // A piece that degenerates to a line has an area from rounding only.
         if !(root > ROUNDING * (xx + yy)) {
             let half = 0.5 * self.volume.sqrt();
             return [half, 0.0, 0.0, half];
@@ -57,7 +56,6 @@ impl Piece {
         [xx + root, xy, xy, yy + root].map(|entry| scale * entry)
     }
 
-    /// Returns the union of this piece and `other`.
     fn with(&self, other: &Self) -> Self {
         let volume = self.volume + other.volume;
         let shares = [self.volume / volume, other.volume / volume];
@@ -136,7 +134,6 @@ pub fn join_small(
 mod tests {
     use super::*;
 
-    /// Two halves of a rectangle merge to the rectangle: volume, centroid, moments and domain.
     #[test]
     fn halves_make_a_whole() {
         let half = |x: f64| Piece::whole([x, 0.5], [1.0, 0.5]);

@@ -55,12 +55,10 @@ impl Polygon {
         pairs.map(|(one, two)| common(one, two)).sum::<f64>() > ROUNDING * area
     }
 
-    /// Returns the area (m2).
     fn area(&self) -> f64 {
         self.triangles.iter().map(|[a, b, c]| 0.5 * turn(a, b, c)).sum()
     }
 
-    /// Returns the end points of all sides.
     fn sides(&self) -> impl Iterator<Item = (&Point, &Point)> {
         self.corners.iter().zip(self.corners.iter().cycle().skip(1))
     }
@@ -124,11 +122,11 @@ impl Outline for Polygon {
         if self.holds(label) { 0.0 } else { self.depth(&[label[0], label[1]]) }
     }
 
-    /// Returns the exact intersection of cell and body, with a particle at its centroid. The
-    /// particles have the volume and the first moment of the body, up to rounding. The sum of V
-    /// f(X) over the particles approximates the integral of f to second order in the spacing, also
-    /// at the rim. If the centroid is outside the body, for example in a notch, each convex piece
-    /// becomes a particle.
+    /// Returns the exact intersection of cell and body, with a particle at the centroid of the
+    /// intersection. The particles have the volume and the first moment of the body, up to
+    /// rounding. The sum of V f(X) over the particles approximates the integral of f to second
+    /// order in the spacing, also at the rim. If the centroid is outside the body, for example in a
+    /// notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
         let (centre, half) = ([centre[0], centre[1]], [half[0], half[1]]);
         let is_near = |corners: &&TriangleCorners| {
@@ -221,7 +219,6 @@ impl Outline for Polygon {
     }
 }
 
-/// Returns the part of a triangle in a box.
 fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
     [0, 1].into_iter().fold(corners.to_vec(), |left, axis| {
         clip(&clip(&left, |p| p[axis] - from[axis]), |p| to[axis] - p[axis])
@@ -231,7 +228,6 @@ fn inside(corners: &TriangleCorners, from: &[f64], to: &[f64]) -> Vec<Point> {
 /// Area, first and second moments of convex polygons.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct AreaMoments {
-    /// Area (m2).
     pub(super) area: f64,
     /// Integral of the position (m3).
     pub(super) first: Point,
@@ -268,7 +264,6 @@ impl AreaMoments {
     }
 }
 
-/// A point in the plane (m).
 pub(super) type Point = [f64; 2];
 
 /// Returns the vector from `a` to `b` (m).
@@ -312,7 +307,6 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     !(apart(a, b, c, d) || apart(c, d, a, b) || beside(0) || beside(1))
 }
 
-/// Returns the distance of `p` from the segment between `a` and `b` (m).
 pub(super) fn distance(a: &Point, b: &Point, p: &Point) -> f64 {
     let (along, to) = (side(a, b), side(a, p));
     let square = along[0] * along[0] + along[1] * along[1];
@@ -339,8 +333,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line removes no area. If rounding hides all ears, the largest is
-        // removed; the sum of signed areas is still correct.
+        // A corner on a straight line removes no area. If rounding hides all ears, the largest
+        // triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

@@ -1,6 +1,6 @@
 //! Round bodies: annuli and disks in the plane, balls in space.
 //!
-//! Also the common volume of a box and a ball around the origin, in any dimension.
+//! The module also computes the common volume of a box and a ball around the origin.
 
 use super::{Cut, Outline};
 use crate::exact::gauss::points;
@@ -33,18 +33,17 @@ pub struct Circle {
     pub centre: [f64; 2],
     /// Radius (m).
     pub radius: f64,
-    /// Sign of the body's outward normal along the radius.
+    /// 1 if the outward normal of the body points away from the centre, otherwise -1.
     pub outwards: f64,
 }
 
-/// A rim of a round body.
 struct Rim {
     /// Name in messages.
     title: &'static str,
     /// Name in suites.
     name: &'static str,
     radius: f64,
-    /// Sign of the outward normal along the radius.
+    /// 1 if the outward normal points away from the centre, otherwise -1.
     outwards: f64,
 }
 
@@ -168,7 +167,6 @@ impl Outline for Round {
         self.along(&direction, radius.clamp(self.inner, self.outer))
     }
 
-    /// Returns a box between the rims.
     fn patch(&self, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let radius = self.inner + (self.outer - self.inner) * random.between(0.25, 0.75);
         let away = |rim: Rim| (rim.radius - radius).abs();
@@ -356,7 +354,7 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// Splits the box at a point with faces, edges and corners inside and outside the ball.
+        /// Splits a box at a point. Faces, edges and corners lie inside or outside the ball.
         #[test]
         fn the_parts_of_a_box_have_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),

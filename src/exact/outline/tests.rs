@@ -101,7 +101,7 @@ fn a_whole_share_is_a_rectangle() {
     assert_relative_eq!(domain[..], [0.2, 0.0, 0.0, 0.3][..], epsilon = 1e-15);
 }
 
-/// Generates a star polygon: any distances from a centre at increasing angles are valid.
+/// Generates star-shaped polygons: corners at random distances from a centre, at increasing angles.
 fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     prop::collection::vec((0.05..1.0_f64, 0.1..1.0_f64), 4..12).prop_map(|corners| {
         let whole: f64 = corners.iter().map(|(_, angle)| angle).sum();
@@ -115,8 +115,7 @@ fn star() -> impl Strategy<Value = Vec<[f64; 2]>> {
     })
 }
 
-/// Whether all angles between neighbouring corners are below 180 degrees. The centre is then
-/// inside.
+/// Whether the centre is inside: all angles between neighbouring corners are below 180 degrees.
 fn is_around_its_centre(corners: &[[f64; 2]]) -> bool {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).all(|(a, b)| {
@@ -172,7 +171,6 @@ proptest! {
     }
 }
 
-/// The sum of V f(X) converges to the integral of f with second order in the spacing.
 #[rstest]
 #[case::of_a_triangle(TRIANGLE)]
 #[case::of_an_angle(ANGLE)]
@@ -200,7 +198,6 @@ fn no_sliver_stays() {
     }
 }
 
-/// The share of random points in a part of the body equals its share of the area.
 #[test]
 fn points_are_spread_evenly() {
     let (body, half) = (polygon(ANGLE), polygon(&[[0.1, 0.1], [0.4, 0.1], [0.4, 0.9], [0.1, 0.9]]));
@@ -234,7 +231,8 @@ fn bodies_overlap_where_they_have_an_area_in_common() {
 }
 
 /// The domain of an axis-aligned rectangle is the rectangle itself. The domain of a triangle, which
-/// is half of a square, is a parallelogram with the same area and inclination.
+/// is half of a square, is a parallelogram with the area of the triangle, inclined like the
+/// hypotenuse.
 #[test]
 fn domains_have_the_shape_of_the_piece() {
     let piece = |body: Polygon| match body.cut(&[0.5; 2], &[0.5; 2]) {
@@ -250,8 +248,8 @@ fn domains_have_the_shape_of_the_piece() {
     assert!((xx - yy).abs() < 1e-12 && (xy - yx).abs() < 1e-12 && xy < -0.05 * xx, "{xx} {xy}");
 }
 
-/// The volume per unit of the coordinates is linear along a chart, so its value at the centre is
-/// its mean.
+/// The volume per unit of the coordinates is linear on a chart, so the mean is the value at the
+/// centre.
 #[rstest]
 fn charts_have_the_area_of_the_body(#[values(TRIANGLE, ANGLE, COMB)] corners: &[[f64; 2]]) {
     let body = polygon(corners);

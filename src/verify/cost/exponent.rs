@@ -15,11 +15,11 @@ use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
 /// Minimum number of points for an interval.
 const FEWEST: usize = 3;
 
-/// Minimum relative half-width of an interval. It applies to series without noise.
+/// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the observed and the theoretical growth of work that is too
-/// small to explain a different exponent.
+/// Maximum relative difference between observed and theoretical growth of work that is not reported
+/// as the cause of a different exponent.
 const SAME: f64 = 0.02;
 
 /// Marginal cost of accuracy: the exponent of work over error.

@@ -49,7 +49,8 @@ impl Model {
         let mut best: Option<(f64, [f64; COLUMNS])> = None;
         for subset in 1_u32..1 << COLUMNS {
             let chosen: Vec<usize> = (0..COLUMNS).filter(|k| subset >> k & 1 == 1).collect();
-            // A fit through all points would predict nothing.
+            // A fit needs at least two runs for each coefficient. Otherwise it would follow the
+            // noise.
             if chosen.len() > (rows.len() / 2).max(1) {
                 continue;
             }

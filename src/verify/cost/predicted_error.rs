@@ -9,7 +9,8 @@
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
 //! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: on finer levels a
 //! settled order may change by 0.25. Between levels the error is interpolated on logarithmic axes.
-//! Its interval has the second term only, for the distance to the nearer level.
+//! The interval of an interpolated error has only the second term, for the distance to the nearer
+//! level.
 //!
 //! No error is predicted for finer levels if the errors do not converge or end in a floor. The same
 //! holds if the order falls at the end, which is the first sign of a floor.
@@ -29,8 +30,8 @@ const FEWEST: usize = 3;
 pub struct PredictedError {
     /// Levels over which the method converges.
     levels: Vec<Sample>,
-    /// The fitted line, and the lower of its order and the formal order; or the reason why no error
-    /// is predicted for finer levels.
+    /// The fitted line with the lower of the observed and the formal order, or the reason why no
+    /// error is predicted for finer levels.
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }
 

@@ -45,7 +45,7 @@ pub struct Ranked {
 pub struct Ranking {
     /// Description of the problem.
     pub problem: String,
-    /// Size of the solution. Errors are divided by it.
+    /// Size of the solution, by which errors are divided.
     pub size: f64,
     /// Target errors, from coarse to fine.
     pub targets: Vec<f64>,
@@ -121,8 +121,8 @@ fn order(a: &[Reach], b: &[Reach]) -> Ordering {
 }
 
 /// Ranks the comparable cases of a suite, with one ranking for each problem; `work` returns the
-/// work of a level. Excluded are cases without exact solution or reference, problems without an
-/// error scale, and cases with fewer than three levels.
+/// work of a level. Cases without exact solution or reference, problems without an error scale, and
+/// cases with fewer than three levels are excluded.
 pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,

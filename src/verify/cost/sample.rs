@@ -123,7 +123,6 @@ fn falls(coarse: &Sample, fine: &Sample) -> bool {
     libm::log(coarse.error / fine.error) >= LEAST_ORDER * refinement && refinement > 0.0
 }
 
-/// Returns the reason why level `next` does not belong to the part.
 fn end(samples: &[Sample], next: usize) -> End {
     let Some(finer) = samples.get(next) else { return End::Levels };
     if finer.failed || !finer.error.is_finite() {
@@ -171,8 +170,8 @@ pub enum Reach {
         /// Interpolated spacing.
         spacing: f64,
     },
-    /// The coarsest level of the converging part already reaches the error. Its work is an upper
-    /// bound.
+    /// The coarsest level of the converging part already reaches the error. The work of this level
+    /// is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,

@@ -261,7 +261,6 @@ proptest! {
         }
     }
 
-    /// If a coarser target is not reached, a finer one is not reached either.
     #[test]
     fn a_coarser_target_is_reached_first(samples in series(), target in 1e-9..1e-1_f64) {
         let fine = reach(&samples, target);
@@ -291,7 +290,6 @@ proptest! {
         }
     }
 
-    /// Units of work and spacing do not change the result.
     #[test]
     fn units_do_not_matter(samples in series(), unit in 1e-6..1e6_f64, target in 1e-6..1.0_f64) {
         let other: Vec<Sample> = samples

@@ -25,9 +25,9 @@ pub struct Machine {
     pub cores: usize,
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Fraction of the time during which the measuring thread waited for a core. This time is
-    /// excluded from all measured seconds. `None` if the system does not report it; it is then
-    /// included.
+    /// Fraction of the time during which the measuring thread waited for a core. All measured
+    /// seconds exclude this time. `None` if the system does not report this time; the measured
+    /// seconds then include it.
     pub waited: Option<f64>,
     /// Time (s) of a constant loop that runs between all other measurements. Its spread is the
     /// noise due to the clock frequency and other processes.
@@ -62,8 +62,8 @@ impl Timing {
 pub struct TimedSuite {
     /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
-    /// Workload and time of each level of each case. The time is `None` if the set-up failed; for a
-    /// failed run it ends at the failure.
+    /// Workload and time of each level of each case. The time is `None` if the set-up failed. The
+    /// time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,
@@ -88,9 +88,8 @@ impl TimedSuite {
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// Fits the cost model of a case. Also returns its relative error at the finest level when it
-    /// is fitted to the other levels only, which shows how well it predicts a level that has not
-    /// run.
+    /// Fits the cost model of a case. Also returns the relative error with which a fit to the other
+    /// levels predicts the finest level.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =

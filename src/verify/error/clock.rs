@@ -22,16 +22,16 @@ pub enum StepKind {
     Load,
 }
 
-/// Maximum number of steps of a run. It prevents endless runs due to a mistyped dt.
+/// Maximum number of steps of a run, which prevents endless runs due to a mistyped dt.
 pub const MOST_STEPS: f64 = 1e9;
 
-/// Maximum relative difference between the requested and the actual step. From level to level, an
-/// error of second order in the step then changes by at most 2 %, and an order by at most 0.03.
+/// Maximum relative difference between the requested and the actual step. An error of second order
+/// in the step then changes by at most 2 %, and an observed order by at most 0.03.
 pub const STEP_TOLERANCE: f64 = 0.01;
 
 impl Clock {
-    /// Creates a clock whose number of steps is nearest to `until / wanted` (s), so instants do not
-    /// change the step. A run with fewer steps than `instants` has an instant after each step.
+    /// Creates a clock whose number of steps is nearest to `until / wanted`, where `wanted` is the
+    /// requested step (s). If there are fewer steps than `instants`, every step ends at an instant.
     /// `None` if `wanted` or `until` is not positive and finite, or if more than [`MOST_STEPS`]
     /// steps would be needed.
     pub fn new(until: f64, wanted: f64, instants: u64) -> Option<Self> {
@@ -76,7 +76,7 @@ impl Clock {
 /// Whether step number `step` of `steps` ends at one of `instants`. Instants are as evenly spaced
 /// as the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
-    // Number of instants up to the end of a step. It grows by one at an instant.
+    // Number of instants up to the end of a step. The number grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)
 }

@@ -8,7 +8,7 @@ use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Writes exact values at all labels, in the given number of dimensions and at a given time.
+/// Arguments: exact solution, number of dimensions, labels (m), time (s), and the output.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
 /// Properties of a judged quantity, except its name.
@@ -25,25 +25,21 @@ pub(super) struct Declaration {
     /// Writes exact values at all labels in D dimensions. Set only if the exact solution has a
     /// faster method for many labels.
     pub(super) exact_at_all: Option<ExactAtAll>,
-    /// Natural size of the exact values. Errors are divided by it.
+    /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Size of the numbers whose difference is the value, on a body of length L (m). NaN if it is
-    /// unknown.
+    /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
+    /// body of length L (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
-    /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
-    /// unknowns.
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
     /// Whether only moving bodies have the quantity; heat conduction does not.
     pub(super) is_of_motion: bool,
-    /// Whether a subject must store F for the quantity.
     pub(super) needs_deformation_gradient: bool,
-    /// Declaration of a sum over the body. A sum has no values at labels. `None` for a field.
+    /// Declaration of a sum over the body; `None` for a field, which has values at labels.
     pub(super) sum: Option<SumDeclaration>,
 }
 
-/// A sum over the body or its walls.
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
     /// How the value of a subject is computed; components above the dimension are zero.
@@ -56,7 +52,6 @@ pub(super) struct SumDeclaration {
 /// How a subject's value of a sum is computed.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
-    /// Computed from the totals over the body.
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
     /// Computed by a function of the second moments (kg m2) of the body and of its reference
     /// configuration, one for each axis. The same function gives the exact value from the exact
@@ -69,7 +64,6 @@ pub(super) enum ComputedSum {
 /// Property of the problem that a sum requires, in addition to a moving body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SumNeed {
-    /// Nothing.
     Nothing,
     /// A law that stores energy.
     StoredEnergy,
@@ -79,7 +73,6 @@ pub(crate) enum SumNeed {
     Wall,
 }
 
-/// Natural size of a field.
 pub(super) enum SolutionSize {
     /// Largest magnitude of the values.
     Magnitude,
@@ -91,16 +84,13 @@ pub(super) enum SolutionSize {
 
 /// Tensor order of a field's value at a label, in D dimensions.
 pub(super) enum TensorShape {
-    /// One component.
     Scalar,
-    /// D * D components, stored row by row.
     Vector,
     /// D * D components, row by row.
     Tensor,
 }
 
 impl TensorShape {
-    /// Returns the number of components at each label in `d` dimensions.
     pub(super) fn components(&self, d: usize) -> usize {
         match self {
             // In zero dimensions there is nothing to compare, not even a scalar.

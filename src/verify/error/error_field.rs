@@ -7,7 +7,7 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of the body in a plane. It is the resolution of a drawing.
+/// Number of parts along the longer side of a plane body, as many as a drawing can show.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
@@ -80,7 +80,6 @@ pub(super) mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// Exact solution of a body that does not move.
     pub(in crate::verify::error) struct AtRest;
 
     impl Truth for AtRest {
@@ -143,8 +142,6 @@ pub(super) mod tests {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 
-    /// Of four particles, two are in one part. The part has the larger of their errors, and its
-    /// position is the middle of the part.
     #[test]
     fn a_part_shows_its_largest_error_in_its_middle() {
         let mut samples = Samples::default();

@@ -11,7 +11,7 @@ use crate::subject::Subject;
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2). Ratios are divided by them.
+    /// Exact second moments of the reference configuration (kg m2), the denominators of ratios.
     reference: [f64; 3],
     /// Axis and end of the face whose reaction is judged; `None` for the reaction of all faces.
     face: Option<(usize, bool)>,
@@ -45,7 +45,7 @@ impl JudgedSum {
         Ok(Self { of, exact, reference, face })
     }
 
-    /// Returns the largest size of the exact sum during the run. Errors are relative to it.
+    /// Returns the scale of errors: the largest size of the exact sum during the run.
     pub fn size(&self) -> f64 {
         let size = self.exact.size();
         match self.of.sum().map(|sum| sum.computed) {

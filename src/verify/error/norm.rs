@@ -21,7 +21,7 @@ named! {
     /// Norm of the judged error.
     #[derive(Default)]
     pub enum NormName {
-        /// RMS over labels at the end: the measure of the talk.
+        /// RMS over labels at the end.
         #[default]
         Rms = "rms",
         /// Mean, weighted by volume, at the end.
@@ -152,7 +152,6 @@ impl RunErrors {
     /// Errors before the first instant.
     pub(super) const START: Self = Self { at_end: Norms::NONE, largest: Norms::ZERO };
 
-    /// Includes the errors at an instant.
     pub(super) fn add(&mut self, now: Norms) {
         self.at_end = now;
         self.largest = self.largest.larger(now);
@@ -175,7 +174,6 @@ impl RunErrors {
     }
 }
 
-/// Returns the Euclidean length of a vector.
 pub(super) fn length(error: &[f64]) -> f64 {
     error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
 }
@@ -197,11 +195,11 @@ pub struct ErrorScale {
     /// the same problem are compared.
     pub problem: String,
     /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
-    /// error. If the suite states a scale, it is already applied, and this divisor is 1. Otherwise
-    /// it is the largest exact magnitude, or NaN if there is none.
+    /// error: the largest exact magnitude, or NaN if there is none. If the suite states a scale,
+    /// that scale is already applied, and the divisor is 1.
     pub size: f64,
-    /// Exponent g of the work, which grows like spacing^-g: one for each refined axis of the body,
-    /// and one for the time step.
+    /// Exponent g of the work, which grows like spacing^-g: the number of refined axes of the body,
+    /// plus the exponent of the number of steps.
     pub growth: f64,
 }
 

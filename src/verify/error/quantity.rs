@@ -140,7 +140,6 @@ impl Quantity {
         (self.declaration().rounding_size)(length)
     }
 
-    /// Returns the number of components at each label in `d` dimensions.
     fn components(self, d: usize) -> usize {
         self.declaration().shape.components(d)
     }

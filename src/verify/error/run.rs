@@ -38,7 +38,6 @@ pub struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Whether a quantity other than the displacement is compared.
     fn is_of_another(&self) -> bool {
         self.sum.is_some() || self.of != Quantity::default()
     }
@@ -60,8 +59,8 @@ pub fn run(
     RunMonitor::new(subject, truth, comparison).run(subject, clock).0
 }
 
-/// Runs `subject` like [`run`]. Also records the judged quantity, in the form that a comparison in
-/// `norm` with other runs of the same level needs. The record of a failed run is empty.
+/// Runs `subject` like [`run`]. Also records the judged quantity, for a comparison in `norm` with
+/// other runs of the same level. The record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -113,7 +112,6 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Runs until the end of the clock or until the first failure.
     fn run(mut self, subject: &mut dyn Subject, clock: &Clock) -> (RunResult, RunRecord) {
         for step in 1..=clock.steps {
             if let Err(failure) = subject.step(clock.dt()) {
@@ -213,7 +211,7 @@ impl<'a> RunMonitor<'a> {
         keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
     }
 
-    /// Creates the result of a failed run: a reason without errors.
+    /// Creates the result of a failed run, which has a reason and no errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
@@ -240,7 +238,7 @@ impl<'a> RunMonitor<'a> {
     }
 }
 
-/// The samples whose errors are judged: those in the box of the comparison, if it has one.
+/// Returns the samples whose errors are judged: those in the box of the comparison, if any.
 fn judged_samples<'s>(comparison: &Comparison<'_>, samples: &'s Samples) -> Cow<'s, Samples> {
     match comparison.within {
         Some(within) => Cow::Owned(within.restrict(samples)),

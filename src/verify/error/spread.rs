@@ -26,25 +26,20 @@ pub struct RunRecord {
 /// Differences from the exact value at one instant, sorted by label.
 #[derive(Debug, Clone)]
 struct Instant {
-    /// Reference positions (m).
     labels: Vec<f64>,
-    /// Reference volumes (m^D).
     weights: Vec<f64>,
     /// Masses (kg); empty if they are unknown.
     masses: Vec<f64>,
-    /// Number of components at each label.
     components: usize,
     /// `computed - exact`.
     differences: Vec<f64>,
 }
 
 impl RunRecord {
-    /// Creates an empty record for a comparison in `norm`.
     pub(super) fn for_norm(norm: NormName) -> Self {
         Self { over_instants: norm.is_over_instants(), ..Self::default() }
     }
 
-    /// Records the quantity `of` at time `t` (s).
     pub(super) fn add(&mut self, of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) {
         if !self.over_instants {
             self.instants.clear();
@@ -56,7 +51,6 @@ impl RunRecord {
         self.instants.push(instant.sorted(samples.dimension));
     }
 
-    /// Records the errors of a sum over the body at all instants.
     pub(super) fn add_sums(&mut self, sums: Vec<[f64; 3]>) {
         self.sums = sums;
     }

@@ -16,20 +16,19 @@ use crate::verify::verdict::name::Verdict;
 /// range.
 const COMFORTABLE: f64 = 0.75;
 
-/// Whether the usual range around `order` contains the observed interval with a margin.
+/// Whether the default range around `order` contains the observed interval with a margin.
 pub(crate) fn is_inside(observed: &Interval, order: f64) -> bool {
     let room = OrderHypothesis::TOLERANCE - (observed.value - order).abs();
     let room = room.min(COMFORTABLE * OrderHypothesis::TOLERANCE);
     2.0 * observed.half_width() <= room
 }
 
-/// Formats the usual range around an order as suites write it.
+/// Formats the default range around an order in the notation of suites.
 pub(crate) fn range(order: f64) -> String {
     let (low, high) = OrderHypothesis::formal(order).range();
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Returns the levels that count for the verdict.
 pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
     study.levels.iter().filter(|level| level.usable)
 }
@@ -56,7 +55,8 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // Sxx ~ n (n^2 - 1), for equal scatter about the line and equal ratios of spacing.
+        // The width is proportional to t/sqrt(Sxx), with Sxx ~ n (n^2 - 1) for equal ratios of
+        // spacing.
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
@@ -145,7 +145,6 @@ mod tests {
         assert!(advice(&uncertain()).contains(&expected), "{:?}", advice(&uncertain()));
     }
 
-    /// A norm must not be suggested if its order is wrong, even if its interval is the narrowest.
     #[test]
     fn a_norm_is_advised_only_if_it_converges() {
         let mut study = uncertain();

@@ -38,7 +38,7 @@ pub struct Requirement {
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
     /// Bound on the errors of the suite's own methods, if no other bound is stated. Other methods
-    /// need not satisfy it if they have too few levels for an order.
+    /// need not satisfy this bound if they have too few levels for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -56,7 +56,7 @@ pub enum Acceptance {
 }
 
 impl Acceptance {
-    /// Returns the verdict as text. If the order was accepted, this is the verdict of the judge.
+    /// Returns the verdict as text: `converging` only if the judge confirms the order.
     pub(crate) fn verdict(self, judged: Verdict) -> String {
         match self {
             Self::Order if judged == Verdict::Converging => judged.to_string(),
@@ -82,7 +82,6 @@ pub struct GateResult {
 }
 
 impl Requirement {
-    /// Returns the lowest order that is accepted.
     fn lowest(&self) -> Option<f64> {
         self.order.map(|order| order - OrderHypothesis::TOLERANCE)
     }
@@ -95,7 +94,6 @@ impl Requirement {
         parts.join(", or ")
     }
 
-    /// Returns the bound at which errors are accepted without an order.
     fn bound(&self) -> Option<f64> {
         self.error_below.or(self.own_error_below)
     }
@@ -167,7 +165,6 @@ impl Requirement {
         Err(UnmetRequirement(self.unmet(judgement, &counted)))
     }
 
-    /// Creates the hypothesis that the judge tests.
     pub(crate) fn hypothesis(&self, axis: Axis) -> OrderHypothesis {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }

@@ -1,4 +1,4 @@
-//! Bounds on measured values, for expectations without an order. They need only one level.
+//! Bounds on measured values, for expectations without an order. One level is sufficient.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
@@ -39,7 +39,6 @@ impl Measured {
     }
 }
 
-/// A measured value that violates its bound.
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
     /// The bound and the measured value, in one line.
@@ -48,7 +47,6 @@ pub(crate) struct UnmetFigure {
     pub(crate) measured: bool,
 }
 
-/// A bound, and the measured value that it limits.
 struct Check {
     figure: CaseFigure,
     limit: f64,
@@ -96,7 +94,6 @@ impl Limits {
         self.drift.iter().map(|(sum, _)| *sum).collect()
     }
 
-    /// Lists the bounds that do not hold.
     pub(crate) fn unmet(&self, measured: &Measured) -> Vec<UnmetFigure> {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
         let mut unmet: Vec<UnmetFigure> = broken
@@ -129,7 +126,6 @@ impl Limits {
         unmet
     }
 
-    /// Describes each bound.
     pub(crate) fn summary(&self) -> Vec<String> {
         let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
         let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
@@ -206,7 +202,6 @@ mod tests {
         }
     }
 
-    /// Copies `measured` with another value of `figure`.
     fn with(figure: CaseFigure, value: Option<f64>) -> Measured {
         let mut measured = measured();
         measured.figures[figure as usize] = value;

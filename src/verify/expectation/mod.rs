@@ -51,7 +51,7 @@ pub struct CaseFindings {
 }
 
 impl Expectation {
-    /// Expects convergence with order `p`, within the usual tolerance.
+    /// Expects convergence with order `p`, within [`OrderHypothesis::TOLERANCE`].
     pub fn of_order(p: f64, because: &str) -> Self {
         let around = (p - OrderHypothesis::TOLERANCE, p + OrderHypothesis::TOLERANCE);
         Self {

@@ -1,4 +1,4 @@
-//! Proposes expectations for a suite that states none. They are based on the runs of the suite.
+//! Proposes expectations for a suite that states none, based on runs of the suite.
 //!
 //! Theory has priority: if the observed order agrees with the formal one, the formal order is
 //! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
@@ -56,7 +56,6 @@ pub struct Proposal {
     pub stronger: Vec<String>,
 }
 
-/// Proposed expectation of the order, with its origin and reason.
 struct ProposedOrder {
     key: String,
     ground: Ground,
@@ -222,7 +221,6 @@ mod tests {
         assert_eq!(halves(1.25), ["verdict: too_low"]);
     }
 
-    /// Cell changes are proposed only from runs that reach their end.
     #[test]
     fn crossings_are_proposed_of_runs_that_end() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
@@ -234,7 +232,6 @@ mod tests {
         assert_eq!(keys(&study), ["verdict: failed"]);
     }
 
-    /// A proposed bound on a drift is at least thirty times the measured drift.
     #[test]
     fn a_drift_has_room_below_its_bound() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);

@@ -22,7 +22,7 @@ pub struct GradientLevel {
     /// Time step (s).
     pub dt: f64,
     /// Reported derivative with respect to the parameter. If the initial velocity of the suite
-    /// depends on the parameter, it is the total derivative.
+    /// depends on the parameter, this is the total derivative.
     pub gradient: f64,
     /// The exact derivative.
     pub exact: f64,

@@ -166,7 +166,6 @@ fn spread(numbers: &[f64]) -> f64 {
     if numbers.is_empty() || size == 0.0 { 0.0 } else { (high - low) / size }
 }
 
-/// Whether `order` is within `range`; false for `None`.
 fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
     order.is_some_and(|order| range.0 <= order && order <= range.1)
 }

@@ -50,7 +50,6 @@ pub(crate) struct LogPoint {
     pub(crate) y: f64,
 }
 
-/// A least-squares line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FittedLine {
     pub(crate) slope: f64,

@@ -21,7 +21,6 @@ pub(crate) fn format_number(x: f64) -> String {
     }
 }
 
-/// Rounds a number to `digits` significant digits.
 pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
@@ -32,7 +31,6 @@ pub(crate) fn order(order: &Interval) -> String {
     format!("{value:.3} [{low:.3}, {high:.3}]")
 }
 
-/// Removes the trailing zeros of a decimal fraction.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }

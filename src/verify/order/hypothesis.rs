@@ -10,19 +10,19 @@ pub struct OrderHypothesis {
     pub formal_order: f64,
     /// Range for the observed order; `None` for `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
-    /// Axis of refinement. It determines the name of the spacing in texts, and affects no result.
+    /// Axis of refinement, which determines only the name of the spacing in texts.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// Maximum distance of the observed order from the formal one if no range is stated. It is a
-    /// fifth of 0.5, the typical distance between the orders of two methods.
+    /// Maximum distance of the observed order from the formal one if no range is stated: a fifth of
+    /// 0.5, the typical distance between the orders of two methods.
     pub const TOLERANCE: f64 = 0.1;
 
     /// Maximum width of a range. A wider range could not distinguish neighbouring integer orders.
     pub const WIDEST: f64 = 1.0;
 
-    /// Creates the hypothesis of a formal order with the usual tolerance.
+    /// Creates the hypothesis of a formal order with the default tolerance.
     pub const fn formal(order: f64) -> Self {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }

@@ -349,7 +349,6 @@ mod tests {
         assert!(matches!(refusal, EstimateRefusal::Rounding { rounding: 0.01, .. }), "{refusal}");
     }
 
-    /// Units of spacing and value do not change the estimate.
     #[test]
     fn units_do_not_change_the_estimate() {
         let points = halvings(&[3.0, 1.75, 1.3125, 1.140_625]);

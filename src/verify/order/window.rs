@@ -24,8 +24,8 @@ use super::variance_ratio;
 /// Minimum number of levels for an order; the interval then has two degrees of freedom.
 pub(crate) const FEWEST_LEVELS: usize = 4;
 
-/// Probability that pure noise shortens the window, over all candidates of one step. It is a tenth
-/// of the 5 % of the confidence interval.
+/// Probability that pure noise shortens the window in one step: a tenth of the 5 % of the
+/// confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
 /// Minimum departure, in `ln error`, of a dropped level: 5 %. Without this minimum, round-off could
@@ -36,11 +36,9 @@ const MATERIAL: f64 = 0.05;
 /// 15 %.
 pub(crate) const FLAT_ORDER: f64 = 0.2;
 
-/// Fraction of the previous order (and of the formal order). If the order is lower, the error no
-/// longer follows the line.
+/// On a floor, the order is below this fraction of the previous order and of the formal order.
 const FLOOR_FRACTION: f64 = 0.5;
 
-/// A contiguous range of points and the line through it.
 #[derive(Clone, Debug)]
 pub(crate) struct Window {
     pub(crate) range: Range<usize>,

@@ -3,14 +3,14 @@
 use super::study::SpectrumRow;
 use super::wave::AMPLITUDE;
 
-/// Maximum deviations from the prediction, relative to it.
+/// Maximum deviations from the prediction, divided by the predicted value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpectrumExpectation {
     /// Maximum deviation of the phase error.
     pub phase_within: Option<f64>,
     /// Maximum deviation of the logarithm of the amplitude per period. A difference per step below
-    /// the strain of the wave is accepted: the closed form assumes particles at rest, while their
-    /// motion changes the symbols of a wave by the order of its strain.
+    /// the strain of the wave is accepted, because the closed form neglects this order: it assumes
+    /// particles at rest.
     pub damping_within: Option<f64>,
 }
 
@@ -65,7 +65,7 @@ impl SpectrumExpectation {
     }
 }
 
-/// A share in per cent, rounded to six decimals: 0.07 is 7 %, not 7.000000000000001 %.
+/// Formats a fraction in per cent, rounded to six decimals: 0.07 is 7 %, not 7.000000000000001 %.
 fn percent(share: f64) -> String {
     format!("{} %", libm::round(1e8 * share) / 1e6)
 }

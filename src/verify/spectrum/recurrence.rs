@@ -69,7 +69,7 @@ impl Recurrence {
         self.determinant
     }
 
-    /// `4 det - tr^2`; positive if the eigenvalues are complex.
+    /// Returns `4 det - tr^2`, which is positive if the eigenvalues are complex.
     fn discriminant(&self) -> f64 {
         let lost = 1.0 - self.determinant;
         2.0 * self.deficit * (1.0 + self.determinant) - self.deficit * self.deficit - lost * lost

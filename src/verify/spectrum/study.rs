@@ -37,7 +37,7 @@ pub struct SpectrumRow {
     pub courant: f64,
     /// Number of steps of the run.
     pub steps: u64,
-    /// Phase error and damping from the closed form; `None` if it is not known for the method.
+    /// Phase error and damping from the closed form, if one is known for the method.
     pub predicted: Option<WaveFigures>,
     /// Phase error and damping from the run, or the reason why there are none.
     pub measured: Result<WaveFigures, String>,
@@ -49,9 +49,9 @@ pub struct SpectrumRow {
 }
 
 impl SpectrumRow {
-    /// Returns the deviations of the phase error and of the amplitude from the prediction, relative
-    /// to it. A deviation is `None` if a value is missing. The second one is also `None` if the
-    /// predicted amplitude is constant.
+    /// Returns the relative deviations of the phase error and of the logarithm of the amplitude
+    /// from the prediction; `None` if a value is missing. The second deviation is also `None` if
+    /// the predicted amplitude is constant.
     pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
         let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
             return (None, None);

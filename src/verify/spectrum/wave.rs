@@ -54,7 +54,7 @@ pub struct ObservedWave {
 
 /// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles. The
 /// wave number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes
-/// the initial state, because a step need not be able to produce it.
+/// the initial state, because possibly no step can produce this state.
 ///
 /// # Errors
 /// Message that names the failed step.

@@ -1,19 +1,20 @@
 //! The amplification matrix: one step of a frozen subject as a matrix.
 //!
 //! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
-//! is computed by running the subject from a unit perturbation of number j of its state, so no
-//! second implementation is needed. Central differences eliminate quadratic terms (volume times
-//! stress). Numbers are scaled by their natural sizes. This scaling is a similarity transformation
-//! and does not change eigenvalues.
+//! is computed by running the subject from a state whose entry j is perturbed, so the step is not
+//! implemented twice. Central differences eliminate quadratic terms (volume times stress). Entries
+//! are scaled by their natural sizes. This scaling is a similarity transformation and does not
+//! change eigenvalues.
 
 use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Size of a perturbation. Material laws add it to F = I, with a relative rounding error of 1e-10.
+/// Size of a perturbation. When a material law adds the perturbation to F = I, the relative
+/// rounding error is 1e-10.
 const STEP: f64 = 1e-6;
 
-/// Maximum change of a state of rest in a step, in natural sizes.
+/// Maximum change of a state of rest in a step, relative to the natural sizes.
 const REST: f64 = 1e-12;
 
 /// Maximum difference between rounded numbers whose exact difference is zero.
@@ -32,9 +33,9 @@ pub enum AmplificationError {
 
 /// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
 /// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are its natural
-/// sizes of speed and stress. Some numbers of the state affect only themselves, with factor one,
-/// such as the volume of a particle without stress. They have an eigenvalue of one and no row in
-/// the matrix.
+/// sizes of speed and stress. Some entries of the state affect only themselves, with factor one,
+/// such as the volume of a particle without stress. Such an entry has the eigenvalue one and no row
+/// in the matrix.
 ///
 /// # Errors
 /// If the subject is not at rest or a step fails.
@@ -76,7 +77,7 @@ fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), Amplificatio
     dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(AmplificationError::Failed)
 }
 
-/// Removes the numbers that affect only themselves, with factor one.
+/// Removes the entries that affect only themselves, with factor one.
 fn reduced(full: &DMatrix<f64>) -> DMatrix<f64> {
     let keeps_itself = |j: usize| {
         let expected = |i: usize| if i == j { 1.0 } else { 0.0 };
@@ -91,8 +92,8 @@ mod tests {
     use super::*;
     use crate::subject::{RunCounters, Samples, Subject};
 
-    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` is the step of the
-    /// third.
+    /// A state of three numbers with the step `a' = a/2 + b, b' = 3 b`; `third` advances the third
+    /// number.
     struct Linear {
         state: Vec<f64>,
         third: fn(f64) -> f64,
@@ -132,7 +133,7 @@ mod tests {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 
-    /// In natural sizes, one unit of b equals four units of a. A number that affects only itself
+    /// In natural sizes, one unit of b equals four units of a. An entry that affects only itself
     /// has no row.
     #[test]
     fn the_matrix_of_a_linear_step_is_that_step() {

@@ -75,7 +75,7 @@ impl FigureBounds {
     }
 
     /// Describes the unmet bounds on a limit inside the searched range. Deviations are relative to
-    /// the closed form, even if it is small.
+    /// the expected value, even if that value is small.
     fn closed(&self, got: f64) -> Vec<String> {
         let mut unmet = Self { is: None, ..*self }.unmet("the limit", got);
         if let Some((value, within)) = self.is {

@@ -1,18 +1,18 @@
 //! Runs a subject and observes whether its energy grows.
 //!
-//! The energy is that of a small motion: the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is
-//! the stiffness against uniaxial strain. In 1-D and at small strain the second term is the strain
-//! energy. Otherwise it measures the size of the stress, which is sufficient to detect growth. The
-//! energy is divided by its initial value. If the body starts at rest, it is divided by the energy
-//! of a unit strain.
+//! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
+//! uniaxial strain. In 1-D and at small strain the second term is the strain energy. Otherwise this
+//! term measures the size of the stress, which is sufficient to detect growth. The energy is
+//! divided by its initial value. If the body starts at rest, it is divided by the energy of a unit
+//! strain.
 
 use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
 use crate::verify::error::norm::larger;
 
-/// Number of initial steps that are all checked; later checks are equally spaced. Fast growth shows
-/// in the first steps. Growth that is relevant within ten thousand steps is slow.
+/// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
+/// growth appears in the first steps, and slow growth needs no frequent checks.
 const FIRST: u64 = 64;
 const EVERY: u64 = 16;
 
@@ -319,7 +319,6 @@ mod tests {
         assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
     }
 
-    /// A run with bounded growth confirms no prediction, neither a stable nor an unstable one.
     #[test]
     fn bounded_growth_is_neither_stable_nor_unstable() {
         let trial = watched(&[3.0, 11.0, 1.0], false);
@@ -371,7 +370,6 @@ mod tests_of_checkerboard {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Creates a row of particles with the given stresses.
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();
         Samples {

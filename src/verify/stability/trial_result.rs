@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 named! {
     /// Verdict on a run.
     pub enum Stability {
-        /// The energy stayed within the range of exchange between its kinds.
+        /// The energy stayed within the bound for stable runs.
         Stable = "stable",
-        /// It grew beyond that, and not out of all bounds in the steps of the run.
+        /// The energy exceeded the bound for stable runs, but not the bound for unstable runs.
         BoundedGrowth = "bounded_growth",
-        /// It grew out of all bounds.
+        /// The energy exceeded the bound for unstable runs.
         Unstable = "unstable",
-        /// The subject failed, or a figure is not finite.
+        /// The subject failed, or a measured value is not finite.
         Failed = "failed",
     }
 }
@@ -47,7 +47,7 @@ pub struct Scales {
     pub null_space: bool,
 }
 
-/// Results of a run. After a failure they cover the steps before it.
+/// Results of a run. If the run failed, the results are those of the steps before the failure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trial {
     /// Verdict on the run.
@@ -66,7 +66,7 @@ pub struct Trial {
     pub momentum: f64,
     /// Largest relative change of the angular momentum.
     pub angular_momentum: f64,
-    /// Smallest J during the run.
+    /// Smallest determinant J of the deformation gradient during the run.
     pub least_j: f64,
     /// Largest speed during the run, relative to the wave speed.
     pub speed: f64,

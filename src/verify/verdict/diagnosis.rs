@@ -5,8 +5,8 @@ use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum ratio of the finest error with a change to the finest error without it. A change that
-/// does not restore the order is reported only if its ratio is lower.
+/// A change that does not restore the order is reported only if it reduces the finest error to this
+/// fraction or less.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -18,8 +18,8 @@ const RISE: f64 = 0.25;
 /// Maximum difference between orders that count as equal.
 const ALIKE: f64 = 0.1;
 
-/// Maximum ratio of distances from the theoretical order, with the change to without it, for a
-/// change that restores the order.
+/// A change restores the order only if it reduces the distance from the theoretical order to this
+/// fraction or less.
 const CLOSER: f64 = 0.5;
 
 /// Effect by which a change reveals the cause.
@@ -183,8 +183,8 @@ impl Diagnosis {
         if restored.is_some() {
             return causes;
         }
-        // If a change raises the order, the exact solution did not limit it before, although it may
-        // limit the raised order.
+        // If a change raises the order, the exact solution did not limit the original order,
+        // although it may limit the raised order.
         let is_raised = run.is_some_and(|(_, evidence)| evidence == Evidence::Raised);
         let limit = self.finding(NotSmooth);
         let is_limited = limit.is_some_and(|limit| limit.explains && !is_raised);
@@ -249,7 +249,6 @@ mod tests {
     use crate::verify::order::level::Level;
     use crate::verify::verdict::judge::judge;
 
-    /// Creates a judgement with the given verdict and order.
     fn found(verdict: Verdict, order: Interval) -> Judgement {
         let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
         Judgement { verdict, order: Some(order), ..none }
@@ -312,8 +311,6 @@ mod tests {
         assert_eq!(evidence(&diagnosis(near, to(0.15))), None);
     }
 
-    /// The order 1.81 passes a threshold that 1.79 fails, but the small difference explains
-    /// nothing.
     #[test]
     fn an_order_that_hardly_moves_is_not_restored() {
         let low = (TooLow, order(1.79, 0.05));
@@ -347,8 +344,6 @@ mod tests {
         }
     }
 
-    /// If a change restores the order, the exact solution does not limit it. A smaller error alone
-    /// proves nothing.
     #[test]
     fn a_kink_is_the_cause_unless_the_order_is_restored() {
         let low = (TooLow, order(1.0, 0.05));
@@ -360,8 +355,6 @@ mod tests {
         assert_eq!(causes(&found), ["the cause"]);
     }
 
-    /// An order far below the limit of a kink has a larger cause. The same holds if a change raises
-    /// the order.
     #[test]
     fn a_kink_that_does_not_explain_the_order_comes_last() {
         let mut found = diagnosis((TooLow, order(0.8, 0.05)), (TooLow, order(1.2, 0.05), 0.6));
@@ -372,7 +365,6 @@ mod tests {
         assert_eq!(causes(&found), ["the cause", "the finding"]);
     }
 
-    /// Finer levels have a smaller error regardless of the cause.
     #[test]
     fn a_smaller_error_of_finer_levels_is_no_evidence() {
         let mut found = diagnosis((TooLow, order(1.0, 0.05)), (TooLow, order(1.0, 0.05), 0.25));

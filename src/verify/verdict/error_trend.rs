@@ -19,11 +19,10 @@ const LEAST_LOSS: f64 = LN_2;
 /// Minimum number of levels of a floor or a divergence: two successive pairs.
 const FEWEST_OF_TREND: usize = 3;
 
-/// Minimum order before a floor. It is well above the order of a flat series.
+/// Minimum order before a floor, well above the order of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// Minimum mean change between levels in an oscillation, as a factor. It is larger than noise on a
-/// floor.
+/// Minimum mean factor between successive errors of an oscillation, larger than noise on a floor.
 const LEAST_SWING: f64 = 1.5;
 
 /// Minimum ratio of total rise to total fall in an oscillation, or of total fall to total rise. A

@@ -31,14 +31,14 @@ pub(crate) const SETTLED: f64 = 0.25;
 /// Maximum half-width relative to the order, for high orders. At order 2 it equals [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
-/// Minimum change of the order along the window that counts as a drift: the width of the usual
+/// Minimum change of the order along the window that counts as a drift: the width of the default
 /// expected range.
 const DRIFT: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
 /// Significance level of a drift: noise alone causes a drift in one of a thousand series.
 const DRIFT_RISK: f64 = 0.001;
 
-/// Minimum number of levels before a floor for which an order is reported. It is not claimed.
+/// Minimum number of levels before a floor for which an order is reported, as information only.
 const FEWEST_BEFORE_FLOOR: usize = 3;
 
 /// A verdict and the measured values that led to it.
@@ -61,7 +61,7 @@ pub struct Judgement {
 }
 
 impl Judgement {
-    /// Creates the judgement of `levels` levels without errors.
+    /// Creates the judgement of levels whose errors are not compared with a solution.
     pub(crate) fn without_comparison(levels: usize) -> Self {
         Self {
             verdict: Verdict::TooFewLevels,
@@ -92,7 +92,6 @@ pub fn judge(levels: &[Level], hypothesis: &OrderHypothesis) -> Judgement {
     }
 }
 
-/// A verdict, and the points of its window.
 struct Finding {
     verdict: Verdict,
     reason: Reason,

@@ -1,14 +1,10 @@
 //! Compiles a syntax tree to a program: resolves names, inlines functions, folds constants.
 //!
-//! Registers are allocated like a stack. Compiling a node at register `at` writes only to `at` and
-//! above, and returns the location of the value: this register, a variable, a lower register with
-//! an argument or an index, or a constant.
+//! Compiling a node at register `at` writes only to registers `at` and above. The result is the
+//! location of the value: a constant, a variable or a register.
 //!
-//! User functions are inlined at their calls.
-//!
-//! A table is a named expression of one variable or constant.
-//!
-//! Sums become loops.
+//! User functions are inlined, and sums become loops. A table is a named expression of one variable
+//! or constant.
 
 mod name;
 
@@ -38,7 +34,6 @@ struct Frame<'a> {
     indices: Vec<Operand>,
 }
 
-/// A program under construction.
 pub(super) struct ProgramBuilder<'a> {
     scope: &'a Scope,
     pub(super) code: Vec<Instruction>,
@@ -46,7 +41,7 @@ pub(super) struct ProgramBuilder<'a> {
     pub(super) uses: BTreeSet<String>,
     /// Functions whose bodies are being compiled; the innermost is last.
     calls: Vec<&'a str>,
-    /// The free variable of the scope, if any, which functions and definitions may use.
+    /// The variable that functions and definitions may also use, if the scope declares one.
     free: Option<(&'a str, Operand)>,
     depth: usize,
     nodes: usize,
@@ -71,7 +66,6 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Compiles a complete formula in `variables`.
     pub(super) fn formula(
         &mut self,
         expr: &'a Expr,
@@ -136,7 +130,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Counts a node and refuses it above the limits.
+    /// Counts a node, or returns an error if a limit is exceeded.
     fn count(&mut self, node: &Node) -> Result<(), FormulaError> {
         self.nodes += 1;
         self.operations = self.operations.saturating_add(self.runs);
@@ -236,7 +230,6 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the expression of a table for its argument.
     pub(self) fn table(
         &mut self,
         frame: &Frame<'a>,
@@ -261,7 +254,6 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles the expression that defines a name.
     pub(self) fn definition(
         &mut self,
         name: &'a str,
@@ -276,7 +268,6 @@ impl<'a> ProgramBuilder<'a> {
     }
 }
 
-/// Maximum number of terms of a sum.
 const MAX_TERMS: f64 = 100_000.0;
 
 impl<'a> ProgramBuilder<'a> {
@@ -327,7 +318,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(term)
     }
 
-    /// Returns the value of a sum's bound.
+    /// Returns the value of a bound of a sum, which must be a constant integer.
     fn bound(
         &mut self,
         frame: &mut Frame<'a>,

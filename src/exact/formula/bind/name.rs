@@ -11,7 +11,6 @@ use crate::nearest::{by_nearness, nearest};
 const LISTED: usize = 8;
 
 impl<'a> ProgramBuilder<'a> {
-    /// Returns the location of the value of a name.
     pub(super) fn name(
         &mut self,
         frame: &Frame<'a>,
@@ -78,7 +77,7 @@ impl<'a> ProgramBuilder<'a> {
         }
     }
 
-    /// Returns the constants, sorted by similarity to `name`.
+    /// Lists the constants as text, sorted by similarity to `name`.
     fn constants(&self, name: &str) -> Option<String> {
         let sorted = by_nearness(name, self.scope.constants().map(|(known, _)| known));
         let listed: Vec<String> =
@@ -97,7 +96,6 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl Frame<'_> {
-    /// Returns the local names of the formula or function, as text.
     pub(super) fn listing(&self) -> String {
         let names: Vec<String> =
             self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
@@ -118,7 +116,6 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("heaviside", "the unit step is `step`"),
 ];
 
-/// Returns advice for a name from another language.
 pub(in crate::exact::formula) fn elsewhere(name: &str) -> Option<String> {
     let known = ELSEWHERE.iter().find(|(foreign, _)| *foreign == name);
     known.map(|(_, help)| (*help).to_owned())
