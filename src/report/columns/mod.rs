@@ -57,7 +57,7 @@ impl Cell {
     }
 }
 
-/// A name or a count as text; a dash for `None`.
+/// Converts a name or a count to text, and `None` to a dash.
 pub(crate) trait Text {
     fn text(self) -> String;
 }
@@ -147,20 +147,17 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new("", key, about, move |row| Cell::json(json(row)))
     }
 
-    /// Aligns the column to the left.
     pub(crate) fn flush_left(self) -> Self {
         Self { flush_left: true, ..self }
     }
 
-    /// Adapts the column to a table whose rows contain an optional `R`; rows without it have
-    /// dashes.
+    /// Adapts the column to a table whose rows may contain an `R`. Rows without an `R` show a dash.
     pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
         TableColumn { heading, key, about, flush_left, cell: Box::new(cell) }
     }
 
-    /// Returns the value of the column in a row.
     pub(crate) fn cell(&self, row: &R) -> Cell {
         (self.cell)(row)
     }
@@ -191,7 +188,7 @@ pub(crate) fn number(value: f64) -> Value {
     }
 }
 
-/// Returns an estimate with both ends of its interval.
+/// Converts an estimate and its confidence interval to JSON.
 pub(crate) fn interval(estimate: Interval) -> Value {
     let Interval { value, low, high } = estimate;
     json!({"value": number(value), "low": number(low), "high": number(high)})

@@ -34,7 +34,6 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
     })
 }
 
-/// Returns the columns of the levels.
 pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     [
         TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
@@ -68,7 +67,6 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     ]
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     let mut list: Vec<_> = columns().into();
     list.extend([
@@ -97,7 +95,7 @@ pub(crate) fn timing(timing: Timing) -> Value {
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
 }
 
-/// Returns the number of bytes that every particle has.
+/// Returns the memory per particle (bytes), without columns that only some particles have.
 fn bytes_of_a_particle(profile: &Profile) -> usize {
     let whole = |column: &&ColumnSize| {
         column.holder == Holder::Particle && column.entries == profile.particles

@@ -73,7 +73,7 @@ pub(super) fn error(
     let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
     let counting: Vec<LevelPair<'_>> =
         pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
-    // If no level counts, for example at a floor, all levels are compared.
+    // If no level counts for the verdict, all levels are compared.
     let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
@@ -118,7 +118,6 @@ pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     case.levels.iter().map(point).collect()
 }
 
-/// Returns the name of a level in its study.
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {

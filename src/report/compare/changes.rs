@@ -8,7 +8,7 @@ use super::shared_words::SharedWord;
 pub enum Rank {
     /// The case no longer meets its expectations.
     Broken,
-    /// The verdict is worse, and the suite expects it, or expected it before.
+    /// The verdict is worse, but whether the case meets its expectations has not changed.
     WorseVerdict,
     /// The verdict is different, but neither better nor worse.
     OtherVerdict,
@@ -106,7 +106,6 @@ pub(super) struct ProblemMove {
     pub(super) rows: Vec<[String; 3]>,
 }
 
-/// A case that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moved {
     /// `SUITE::CASE`.
@@ -127,7 +126,6 @@ pub(super) struct Moved {
     pub(super) weight: f64,
 }
 
-/// An error that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ErrorMove {
     /// Old error; `None` if the level failed.
@@ -142,7 +140,7 @@ pub(super) struct ErrorMove {
 /// Change of the minimum work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
-    /// Name of the suite, and of its problem if it has several.
+    /// Name of the suite, and of the problem if the suite has several.
     pub(super) place: String,
     pub(super) target: f64,
     /// Minimum work in the old run and the method with this work; `None` if no method reaches the
@@ -192,7 +190,6 @@ impl ReportComparison {
         is_worse || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
-    /// Returns the changes of this kind.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }

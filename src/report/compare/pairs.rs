@@ -130,7 +130,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Describes differences in the judged quantity, the levels and the rows.
+/// Describes differences in the judged quantity, the levels and the rows of a stability study.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,
