@@ -98,22 +98,18 @@ impl<'a> SeriesLine<'a> {
         !self.grey
     }
 
-    /// Returns the number of drawn levels.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// Returns the values of `x` of all levels.
     pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().map(|level| level.x)
     }
 
-    /// Returns the errors of all levels that have one.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
-    /// Returns the positions of the errors in pixels.
     pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
         self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
     }
@@ -174,7 +170,6 @@ const MARKS: [(Mark, &str); 4] = [
     (Mark::Failed, "failed or not finite"),
 ];
 
-/// Returns the legend entries of the named series.
 pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
 }

@@ -37,11 +37,11 @@ pub(crate) struct Pad {
 /// fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// Minimum length of a linear axis as a fraction of its largest value, also because of rounding
-/// noise.
+/// Minimum length of a linear axis as a fraction of its largest value. A shorter axis would show
+/// rounding noise.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Magnitude below which a value is drawn as zero; slightly above the subnormal numbers.
+/// Smaller magnitudes, which include all subnormal numbers, are drawn as zero.
 const TINY: f64 = 1e-290;
 
 impl Scale {
@@ -80,7 +80,6 @@ impl Scale {
         Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
-    /// Returns the working coordinate of the axis.
     pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
     }

@@ -17,18 +17,15 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// Returns the position of the right edge.
     pub(crate) fn right(&self) -> f64 {
         self.x + self.w
     }
 
-    /// Returns the position of the lower edge.
     pub(crate) fn bottom(&self) -> f64 {
         self.y + self.h
     }
 }
 
-/// One SVG element.
 #[derive(Clone, Debug)]
 pub(crate) struct SvgElement {
     name: &'static str,
@@ -48,7 +45,6 @@ impl SvgElement {
         Self::new("g").set("transform", &shift)
     }
 
-    /// Creates a straight line.
     pub(crate) fn line(from: Pt, to: Pt) -> Self {
         Self::new("line").at("x1", from.0).at("y1", from.1).at("x2", to.0).at("y2", to.1)
     }
@@ -73,7 +69,6 @@ impl SvgElement {
         Self { content: sheet.to_owned(), ..Self::new("style") }
     }
 
-    /// Sets an attribute to a text.
     pub(crate) fn set(mut self, name: &str, value: &str) -> Self {
         let _ = write!(self.attributes, " {name}=\"{}\"", escape(value));
         self
@@ -97,7 +92,6 @@ impl SvgElement {
         self.content.push_str(&child.render());
     }
 
-    /// Converts the element to SVG text.
     pub(crate) fn render(&self) -> String {
         let Self { name, attributes, content } = self;
         if content.is_empty() {
