@@ -33,7 +33,6 @@ impl Html {
         Self(format!("<{name}{}>", self::attributes(attributes)))
     }
 
-    /// Returns the finished markup.
     pub(super) fn into_string(self) -> String {
         self.0
     }

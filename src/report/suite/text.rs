@@ -61,8 +61,7 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds the settings that all cases have in common. Differences are visible in the names of the
-/// cases.
+/// Adds the settings that all cases have in common. The other settings are part of the case names.
 fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =
