@@ -126,8 +126,8 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Returns the bytes per particle or node: first those of columns with one entry for each, then
-/// those of the other columns.
+/// Returns two sums of bytes: of columns with an entry for each particle or node, and of the other
+/// columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);
@@ -140,7 +140,6 @@ fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     [sum(true), sum(false)]
 }
 
-/// Lists the columns of particles and nodes with their bytes.
 fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     for (holder, mark) in [(Holder::Particle, "particle"), (Holder::Node, "node")] {
         let profiles = cases.iter().filter_map(|case| case.profile.as_ref());

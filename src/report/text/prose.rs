@@ -25,7 +25,7 @@ pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
     row_of_width(lines, 4, mark, paragraph);
 }
 
-/// `key` in a first column of this width, `value` wrapped in the second.
+/// Adds a row with `key` in a first column of width `column` and the wrapped `value` in the second.
 pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, value: &str) {
     let mut wrapped = Vec::new();
     wrap(&mut wrapped, WIDTH - column - 2, value);
