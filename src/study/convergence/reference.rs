@@ -101,7 +101,7 @@ const NEAR: usize = 6;
 /// Displacement and velocity of a particle lattice at the start and at every instant.
 pub(crate) struct FineGrid {
     until: f64,
-    /// The map of the body from the unit square, in which the particles form the lattice.
+    /// Map from the unit square, where the particles form a lattice, to the body.
     panel: Option<Quadrilateral>,
     lattice: Lattice,
     states: Vec<(Vec<f64>, Vec<f64>)>,
@@ -130,7 +130,8 @@ impl FineGrid {
         Ok(Self { until: case.until, panel, lattice, states })
     }
 
-    /// The coordinates of the lattice at `label` (m): those of the unit square of a mapped body.
+    /// Converts a reference position `label` (m) to coordinates of the lattice, which are in the
+    /// unit square for a mapped body.
     fn coordinates<'l>(&self, label: &'l [f64]) -> Cow<'l, [f64]> {
         match (&self.panel, label) {
             (Some(panel), [x, y]) => Cow::Owned(panel.inverse(&Vector::from([*x, *y])).to_vec()),
@@ -153,8 +154,8 @@ impl Truth for FineGrid {
     }
 }
 
-/// Coordinates of the particles of a mapped body in the unit square, without rounding errors: each
-/// particle fills one part of the square, and lies in its middle.
+/// Returns the coordinates of the particles of a mapped body in the unit square. Each particle is
+/// moved to the middle of its part of the square, which removes rounding errors.
 fn middles(panel: &Quadrilateral, level: LevelPlan, samples: &Samples) -> Vec<f64> {
     let per_axis = libm::round(level.ppc.map_or(1.0, |ppc| (ppc as f64).sqrt())) as usize;
     let counts = panel.counts(level.h, per_axis);
@@ -224,19 +225,18 @@ impl Lattice {
     }
 }
 
-/// Displacement and velocity of every label at every instant, computed by the method under test.
+/// Displacement and velocity of every particle at every instant, computed by the method under test.
 pub(crate) struct FineSteps {
     until: f64,
     dimension: usize,
-    /// Indices of the labels, sorted by reference position.
+    /// Indices of the particles, sorted by reference position.
     order: Vec<usize>,
     /// States at the start and at every instant.
     states: Vec<Samples>,
 }
 
 impl FineSteps {
-    /// Runs the method of `case` with steps of `dt` (s). Velocities start half a step before the
-    /// start.
+    /// Runs the method of `case` with steps of `dt` (s). Initial velocities are taken at t = -dt/2.
     ///
     /// # Errors
     /// The reason why the reference could not be computed.
@@ -267,8 +267,8 @@ impl FineSteps {
     }
 }
 
-/// Runs the method of `case` on `level`. Velocities start half a step before the start. Passes the
-/// states at the start and at every instant to `show`, and returns the state at the end.
+/// Runs the method of `case` on `level`, with initial velocities at t = -dt/2. Passes the states at
+/// the start and at every instant to `show`, and returns the state at the end.
 ///
 /// # Errors
 /// The reason why the run was not possible.

@@ -141,7 +141,6 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Describes the particle positions.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {

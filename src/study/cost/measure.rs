@@ -178,7 +178,7 @@ pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     }
 }
 
-/// A level that reaches a target error. One thread runs it.
+/// A level that reaches a target error and runs on one thread.
 #[derive(Debug)]
 pub struct Goal<'a> {
     plan: &'a ConvergencePlan,
@@ -215,7 +215,7 @@ impl Goal<'_> {
         &self.case.name
     }
 
-    /// Cells along the first axis.
+    /// Returns the number of cells along the first axis.
     pub fn cells(&self) -> u64 {
         self.level.cells
     }
@@ -265,7 +265,6 @@ pub(crate) struct LoadMonitor {
 }
 
 impl LoadMonitor {
-    /// Starts a measurement.
     pub(crate) fn start() -> Self {
         Self { waited: waited(), start: Instant::now() }
     }
@@ -288,7 +287,6 @@ fn waited() -> Option<f64> {
 }
 
 impl Observed {
-    /// Starts the observation.
     pub(crate) fn new() -> Self {
         let loops = Vec::new();
         Self { load: load_average(), loops, passed: Instant::now(), waited: waited() }
@@ -305,7 +303,6 @@ impl Observed {
         self.loops.push(watch.stop());
     }
 
-    /// Returns the observed state of the machine.
     pub(crate) fn seen(self) -> Machine {
         Machine {
             cores: std::thread::available_parallelism().map_or(1, usize::from),

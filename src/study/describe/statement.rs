@@ -28,7 +28,6 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     rows
 }
 
-/// Rows of name and value.
 pub(crate) type Rows = Vec<(String, String)>;
 
 /// Adds a row, unless its value is empty.
@@ -83,7 +82,6 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Adds rows that describe a scene.
 pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let one = scene.bodies.is_empty();
     if one {
