@@ -122,8 +122,8 @@ impl Extremes {
     }
 }
 
-/// Maximum angle (rad) of the motion, during the time in which a wave crosses the body, for which
-/// the body responds quasi-statically. The second harmonic of the motion then has at most a fifth
+/// The body responds quasi-statically if the phase of the motion changes by less than this angle
+/// (rad) while a wave crosses the body. The second harmonic of the motion then has at most a fifth
 /// of the frequency of the body's lowest mode.
 const SLOW: f64 = 0.3;
 
@@ -146,10 +146,11 @@ impl Linearisation {
     /// estimated from the residual, within about a factor of ten:
     ///
     /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
-    /// is therefore a force 2 r a per unit mass. Its error is r a t^2 at first. Later it is r a
-    /// t/omega if the force is in resonance with a mode, like the second harmonic of a wave without
-    /// dispersion. A stiff body that responds quasi-statically is displaced at most like a fixed
-    /// bar of its length L, by r a L^2/c^2. At rest the error is about r u.
+    /// is therefore a force 2 r a per unit mass. The error due to this force is r a t^2 at first.
+    /// Later the error is r a t/omega if the force is in resonance with a mode, like the second
+    /// harmonic of a wave without dispersion. A stiff body that responds quasi-statically is
+    /// displaced at most like a fixed bar of the same length L, by r a L^2/c^2. At rest the error
+    /// is about r u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

@@ -108,7 +108,7 @@ pub(crate) struct FineGrid {
 }
 
 impl FineGrid {
-    /// Runs the method of `case` on `level`. Velocities start half a step before the start.
+    /// Runs the method of `case` on `level`. Initial velocities are taken at t = -dt/2.
     ///
     /// # Errors
     /// The reason why the reference could not be computed.

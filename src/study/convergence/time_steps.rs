@@ -4,8 +4,8 @@
 //! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
 //! one cell. It is predicted before a run and constant during the run, because an order requires
 //! one step for each level. With linear basis functions the stability limit may decrease when
-//! particles move (`tiny-nodal-mass`). As a margin for this, an automatic step is a fraction of the
-//! stable step.
+//! particles move (suite `tiny-nodal-mass`). As a margin for this, an automatic step is a fraction
+//! of the stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;

@@ -94,7 +94,6 @@ impl<'a> Session<'a> {
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }
 
-    /// Returns the descriptions of changes that were too expensive to run.
     pub(super) fn into_skipped(self) -> Vec<String> {
         self.skipped.into_inner()
     }
@@ -105,7 +104,6 @@ pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
     /// The study with only this case and its levels.
     pub(super) plan: &'a ConvergencePlan,
-    /// Results of the levels.
     pub(super) levels: &'a [LevelOutcome],
     /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,
