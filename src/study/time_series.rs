@@ -19,7 +19,6 @@ pub(crate) struct ShownRun<'a> {
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
-    /// Number of steps.
     pub(crate) steps: u64,
     /// Exact solution, if there is one.
     pub(crate) truth: Option<&'a dyn Truth>,

@@ -66,8 +66,8 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // Particles transfer the load to the grid. The method determines the point where it
-            // acts.
+            // This is only a note, because particles transfer the load to the grid, and the method
+            // determines the point where the load acts.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()

@@ -19,7 +19,6 @@ pub(crate) struct Preflight<'a> {
 }
 
 impl<'a> Preflight<'a> {
-    /// Creates the checked study from a plan that was read from `source`.
     pub(crate) fn new(plan: &'a ConvergencePlan, source: &'a Source) -> Self {
         let mut preflight = Self { plan, extremes: None, source };
         if preflight.claims_an_order() {
@@ -86,7 +85,6 @@ impl<'a> Preflight<'a> {
         unused.map(warning).collect()
     }
 
-    /// Creates a finding about the value at `path`.
     pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message).with_severity(severity)
     }

@@ -36,7 +36,6 @@ pub(crate) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Creates the model of a body of a convergence study.
     pub(crate) fn of(plan: &'a ConvergencePlan, own: &'a Scene) -> Self {
         Self {
             scene: &plan.scene,
@@ -92,7 +91,6 @@ pub(crate) fn setup<const D: usize>(
     })
 }
 
-/// Creates the kernel, the grid and the particles of `body` on the cells of `level`.
 fn discretisation<const D: usize>(
     body: &Body<'_>,
     basis: BasisName,
@@ -293,7 +291,7 @@ fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
 }
 
 impl LatticeEdits {
-    /// Moves particles and adds particles.
+    /// Shifts and perturbs the particles, and adds the extra particles.
     pub(crate) fn apply<const D: usize>(&self, particles: &mut Particles<D>) {
         let vector =
             |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));

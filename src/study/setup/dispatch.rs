@@ -150,10 +150,10 @@ pub(crate) fn perturbable(
     with_dimension!(dimension, D => of::<D>(bodies, method, level))
 }
 
-/// An MPM subject that keeps an energy ledger: the only body of `bodies` on the cells of `level`.
+/// Creates an MPM subject with an energy ledger. `bodies` must contain exactly one body.
 ///
 /// # Errors
-/// One line with the reason why there is no such subject.
+/// The reason why there is no such subject.
 pub(crate) fn with_ledger(
     bodies: &[Body<'_>],
     method: Method,
@@ -193,7 +193,6 @@ fn mpm<const D: usize>(
     })
 }
 
-/// Creates the solver inputs of each body.
 fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,
