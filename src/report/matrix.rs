@@ -12,7 +12,6 @@ pub(crate) const COLUMNS: [&str; 8] =
 const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
-/// Explanation of the findings, printed with the matrix.
 pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
                                  this basis, over every transfer and time scheme. Instead of an \
                                  order: `floor`: the error stops falling; `grows`: it grows with \

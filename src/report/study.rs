@@ -19,7 +19,6 @@ pub(crate) const KINDS: [&dyn StudyReport; 5] =
 
 /// Report of one kind of study. Cases of other kinds add nothing to the report.
 pub(crate) trait StudyReport: Sync {
-    /// Adds the tables of all cases of a suite to `lines`.
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
 
     /// Returns the remarks on one case that no table contains.

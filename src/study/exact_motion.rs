@@ -54,7 +54,6 @@ const ALONG: [usize; 3] = [16, 8, 4];
 /// Number of sampling intervals over the run.
 const OVER: usize = 8;
 
-/// Largest values of a motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
     /// Largest |u| (m) along each axis.
@@ -74,7 +73,6 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
-    /// Computes the extremes of the motion that `problem` states.
     pub(crate) fn of(problem: &Problem) -> Self {
         let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
         let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));

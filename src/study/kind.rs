@@ -55,7 +55,6 @@ pub struct StepWarning {
 
 pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), SeriesError>;
 
-/// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
     /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;

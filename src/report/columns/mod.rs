@@ -17,7 +17,6 @@ pub(crate) mod stability;
 mod tests;
 pub(crate) mod timed_level;
 
-/// A value as text and as JSON.
 #[derive(Debug, Clone)]
 pub(crate) struct Cell {
     pub(crate) text: String,
@@ -30,12 +29,10 @@ impl Cell {
         Self { text: text.text(), json: json.into() }
     }
 
-    /// Creates a cell in text only.
     pub(crate) fn text(text: impl Text) -> Self {
         Self::new(text, Value::Null)
     }
 
-    /// Creates a cell in JSON only.
     pub(crate) fn json(json: impl Into<Value>) -> Self {
         Self::new(None::<String>, json)
     }
@@ -79,7 +76,6 @@ impl<T: Text> Text for Option<T> {
     }
 }
 
-/// Returns a function that formats a number with `count` decimals.
 pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
@@ -104,7 +100,6 @@ fn two_digit_exponent(text: &str) -> String {
     format!("{mantissa}e{sign}{digits:0>2}")
 }
 
-/// A column of a table with rows of type `R`.
 pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Heading in text and Markdown.
     pub(crate) heading: Cow<'a, str>,
@@ -129,7 +124,6 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
     }
 
-    /// Creates a column in text only.
     pub(crate) fn text<V: Text>(
         heading: impl Into<Cow<'a, str>>,
         about: &'static str,
@@ -138,7 +132,6 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new(heading, "", about, move |row| Cell::text(text(row)))
     }
 
-    /// Creates a column in JSON only.
     pub(crate) fn json<V: Into<Value>>(
         key: &'static str,
         about: &'static str,
@@ -163,7 +156,6 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
     }
 }
 
-/// Converts a row to a JSON object.
 pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {

@@ -6,7 +6,6 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};
 
-/// A level of a case with its work and time.
 pub(crate) struct TimedLevel<'a> {
     case: &'a CaseOutcome,
     level: &'a LevelOutcome,
@@ -89,7 +88,6 @@ pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     list
 }
 
-/// Converts median and quartiles (s) to JSON.
 pub(crate) fn timing(timing: Timing) -> Value {
     let Timing { median, low, high, repeats } = timing;
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})

@@ -112,7 +112,6 @@ pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     pairs.iter().map(ratio).max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
-/// Returns error and transfers of every level, in the order of the plan.
 pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     let point = |level: &LevelDocument| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
     case.levels.iter().map(point).collect()

@@ -84,7 +84,6 @@ impl Rank {
 /// Result of comparing two runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
-    /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
@@ -92,7 +91,6 @@ pub struct ReportComparison {
     pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose minimum work has changed, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
-    /// Number of unchanged cases.
     pub(super) unchanged: usize,
     /// Maximum relative difference of values that count as unchanged.
     pub(super) tolerance: f64,
@@ -162,7 +160,6 @@ impl CheapestMove {
 }
 
 impl ErrorMove {
-    /// Returns the ratio of the new to the old error.
     pub(super) fn ratio(&self) -> Option<f64> {
         Some(self.new? / self.old?)
     }

@@ -11,7 +11,6 @@ use crate::report::columns::distinct;
 use crate::verify::JudgedBox;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Implements [`compare`](super::compare()).
 pub(super) fn compare(
     old: &ReportDocument,
     new: &ReportDocument,

@@ -4,7 +4,6 @@ use super::changes::ratio_moved;
 use super::document::JsonNumber;
 use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 
-/// Changes of a stability study.
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {
     /// Descriptions of rows with a changed verdict.

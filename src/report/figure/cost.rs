@@ -76,7 +76,6 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Whether the lines of two methods would coincide.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;

@@ -43,7 +43,6 @@ impl PgfDocument {
         self.text.push('\n');
     }
 
-    /// Defines the colour `name` as `#rrggbb`.
     fn colour(&mut self, name: &str, colour: &str) {
         let digits = colour.trim_start_matches('#').to_uppercase();
         self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));

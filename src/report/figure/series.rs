@@ -45,7 +45,6 @@ pub struct PlotSeries {
     pub points: Vec<PlotPoint>,
 }
 
-/// A level as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlotLevel {
     x: f64,
@@ -72,7 +71,6 @@ fn level(&PlotPoint { x, error, mark }: &PlotPoint) -> Option<PlotLevel> {
     })
 }
 
-/// A series with its style.
 pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
@@ -93,7 +91,6 @@ impl<'a> SeriesLine<'a> {
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
     }
 
-    /// Whether the series has a name in the legend.
     pub(super) fn is_named(&self) -> bool {
         !self.grey
     }

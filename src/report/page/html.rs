@@ -15,7 +15,6 @@ impl Html {
         Self(markup.into())
     }
 
-    /// Creates an element with attributes and content.
     pub(super) fn tag(name: &str, attributes: &[(&str, &str)], content: impl Into<Self>) -> Self {
         let content: Self = content.into();
         Self(format!("<{name}{}>{}</{name}>", self::attributes(attributes), content.0))

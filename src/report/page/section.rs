@@ -179,7 +179,6 @@ fn svg_width(document: &str) -> Option<f64> {
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// Returns the ids in a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

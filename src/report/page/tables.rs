@@ -151,7 +151,6 @@ const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Expected", false),
 ];
 
-/// Creates the table of all verdicts, with one row for each case of each suite.
 pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();

@@ -98,12 +98,10 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     })
 }
 
-/// Groups suites, with the groups in alphabetical order.
 fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-/// Creates the matrix: headings, and one row for each suite in group order.
 fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
     let row = |suite: &&SuiteOutcome| {

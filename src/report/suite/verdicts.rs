@@ -134,7 +134,6 @@ fn outcome(case: &CaseOutcome) -> &'static str {
     }
 }
 
-/// Lists the distinct expectations of a suite, in the order of its cases.
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {
     distinct(cases.iter().map(CaseOutcome::expectation))
 }

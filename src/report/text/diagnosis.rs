@@ -20,7 +20,6 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Writes the paragraph with verdict, causes, evidence and remedies.
 pub(crate) fn paragraph(found: &Diagnosis) -> String {
     let judgement = &found.judgement;
     if found.is_sound() {

@@ -12,7 +12,6 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Creates a table with the values of `columns` in `rows`.
     pub(crate) fn new<R>(
         columns: &[TableColumn<'_, R>],
         rows: impl IntoIterator<Item = impl Borrow<R>>,

@@ -12,7 +12,6 @@ use crate::verify::{
     single_precision_spacing,
 };
 
-/// Creates the plan for judging a case whose errors are measured against `truth`.
 pub(super) fn judge_plan<'a>(
     plan: &'a ConvergencePlan,
     case: &'a Case,
@@ -159,7 +158,6 @@ fn begins(problem: &Problem) -> [bool; 2] {
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// Returns the error scale of a case whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: match case.load_steps(plan) {

@@ -162,10 +162,6 @@ impl<'a> ConvergenceRunner<'a> {
         outcome
     }
 
-    /// Runs every level of a case and judges the case.
-    ///
-    /// # Errors
-    /// The reason why the case cannot be run.
     fn run(
         &self,
         case: &Case,
@@ -232,7 +228,6 @@ impl<'a> ConvergenceRunner<'a> {
     }
 }
 
-/// Runs the levels of one case.
 struct CaseRuns<'r, 'a> {
     runner: &'r ConvergenceRunner<'a>,
     case: &'r Case,

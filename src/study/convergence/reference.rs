@@ -38,9 +38,6 @@ pub(crate) struct Reference {
 
 impl Reference {
     /// Runs the reference of `plan` to `until` (s).
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
     pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, SubjectError> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
@@ -109,9 +106,6 @@ pub(crate) struct FineGrid {
 
 impl FineGrid {
     /// Runs the method of `case` on `level`. Initial velocities are taken at t = -dt/2.
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -237,9 +231,6 @@ pub(crate) struct FineSteps {
 
 impl FineSteps {
     /// Runs the method of `case` with steps of `dt` (s). Initial velocities are taken at t = -dt/2.
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -269,9 +260,6 @@ impl FineSteps {
 
 /// Runs the method of `case` on `level`, with initial velocities at t = -dt/2. Passes the states at
 /// the start and at every instant to `show`, and returns the state at the end.
-///
-/// # Errors
-/// The reason why the run was not possible.
 pub(crate) fn run(
     plan: &ConvergencePlan,
     case: &Case,

@@ -23,7 +23,6 @@ use thiserror::Error;
 /// Number of finest runs in the fit of a cost model. Coarser runs are not representative.
 const FITTED: usize = 6;
 
-/// Number of measurements of each run.
 const REPEATS: usize = 3;
 
 /// Fraction of the budget above which a run is measured only once.

@@ -33,7 +33,6 @@ const LONGEST: f64 = 1.0;
 /// Maximum number of time measurements of a level.
 const MOST: usize = 200;
 
-/// The time measurement of one level.
 struct TimingJob<'a> {
     suite: &'a str,
     plan: &'a ConvergencePlan,
@@ -58,9 +57,6 @@ impl TimingJob<'_> {
 }
 
 /// Measures the time (s) of the steps of a level, until the run ends or fails.
-///
-/// # Errors
-/// The reason why the level cannot run.
 pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
@@ -167,7 +163,6 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
     }
 }
 
-/// Returns the workload of a level that has run.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Workload {

@@ -11,7 +11,6 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
-/// Returns the rows with the parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {

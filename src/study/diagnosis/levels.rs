@@ -12,8 +12,8 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum ratio of distances from the theoretical order, without the coarse levels to with them,
-/// for which the coarse levels are the cause.
+/// Coarse levels are the cause if leaving them out reduces the distance from the theoretical order
+/// to at most this fraction.
 const CLOSER: f64 = 0.5;
 
 /// Maximum difference between the order of the finest two levels and the theoretical order, if

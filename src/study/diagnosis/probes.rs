@@ -18,7 +18,6 @@ use crate::verify::Axis;
 /// Whether particles change their cell during the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Crossings {
-    /// No particle changes its cell.
     None,
     /// Some particles change their cell, or the solver does not report cell changes.
     Some,
@@ -26,7 +25,6 @@ pub(crate) enum Crossings {
 
 /// A single change, the cause that it reveals, and the remedy.
 pub(crate) struct ProbeKind {
-    /// The change, as text.
     pub(crate) change: &'static str,
     /// Cause that is inferred if the change restores the order or reduces the error.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,

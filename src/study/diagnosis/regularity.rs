@@ -139,7 +139,6 @@ const GROUPS: [Derivative; 6] = [
     (2, |now| now.second.as_flattened().as_flattened().to_vec()),
 ];
 
-/// A jump of a derivative, with its position and time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Jump {
     /// Order of the derivative.

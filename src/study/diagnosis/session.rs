@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// Maximum distance of a restored order below the theoretical order.
+/// An order counts as restored if it is at most this much below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// Maximum distance of a restored order above the theoretical order, which a case may exceed.
+/// An order counts as restored if it is at most this much above the theoretical order.
 const ABOVE: f64 = 0.8;
 
 /// Data that all runs of a case need.
@@ -50,9 +50,6 @@ impl<'a> Session<'a> {
     }
 
     /// Runs the unchanged case.
-    ///
-    /// # Errors
-    /// The reason why the case cannot run.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;

@@ -268,7 +268,7 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
-    /// Returns values of the functional for which the parameter `q` is perturbed by fractions of
+    /// Returns values of the functional with the parameter value `q` perturbed by fractions of
     /// itself.
     fn perturbed(
         &self,
@@ -289,7 +289,6 @@ impl GradientRun<'_> {
         (FIRST_LEVEL..=LAST_LEVEL).into_par_iter().map(perturbed).collect()
     }
 
-    /// Returns values and derivatives at points of an interval of the parameter.
     fn sweep(
         &self,
         problem: &LevelProblem,

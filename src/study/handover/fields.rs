@@ -27,7 +27,6 @@ struct FieldBody {
 }
 
 impl SceneFields {
-    /// Creates the fields of `scene`. `initial` contains the initial states of its bodies.
     pub(super) fn new(scene: &Scene, initial: Vec<Initial>, is_perturbed: bool) -> Self {
         let scenes = scene.each().iter().cloned().zip(initial);
         let bodies = scenes.map(|(scene, initial)| FieldBody { scene, initial }).collect();

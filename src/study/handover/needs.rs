@@ -127,9 +127,6 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
 
 /// Creates the subject of one level of a case, with `solver` if given and otherwise with the method
 /// of the case. `suite` is the name of the suite.
-///
-/// # Errors
-/// The reason why there is no such subject.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -73,7 +73,6 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
         .collect()
 }
 
-/// Returns the planes where one body ends and another one begins.
 fn interfaces(scene: &Scene) -> Vec<Plane> {
     let mut planes = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -55,13 +55,11 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Returns the path of the exact solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Returns the path of the motion in the exact solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }

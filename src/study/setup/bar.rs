@@ -12,7 +12,6 @@ use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Creates the FEM bar of `method`. Also used for references.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".into());
@@ -93,7 +92,6 @@ fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFuncti
     Ok(law.piola(young, poisson))
 }
 
-/// Returns the method that computes a reference.
 pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
     Method::Fem {
         element: plan.element,

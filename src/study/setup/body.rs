@@ -50,9 +50,6 @@ impl<'a> Body<'a> {
 }
 
 /// Creates the solver inputs of `body` on the cells of `level`.
-///
-/// # Errors
-/// The reason why there is no such solver.
 pub(crate) fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
@@ -106,9 +103,6 @@ fn discretisation<const D: usize>(
 }
 
 /// Creates the quasi-static solver of `plan`, which applies the load in `load_steps` steps.
-///
-/// # Errors
-/// The reason why there is no such solver.
 pub(crate) fn quasi_static<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
@@ -277,7 +271,7 @@ fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     }
 }
 
-/// Converts a piece of a body in the plane to a particle. Along a third axis it has unit thickness.
+/// Converts a piece of a body in the plane to a particle, with unit thickness along a third axis.
 fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
     let domain = piece.domain();
     Fragment {

@@ -85,9 +85,6 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
 /// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
 /// `rounds` power iterations. A body does not become less stable by sharing nodes with other
 /// bodies.
-///
-/// # Errors
-/// The reason why the time step cannot be computed.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -125,9 +122,6 @@ pub(crate) fn stable_time_step_of(
 
 /// Creates an MPM subject whose state can be perturbed. It contains the `bodies` of one scene on
 /// the cells of `level`.
-///
-/// # Errors
-/// The reason why there is no such subject.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,
@@ -151,9 +145,6 @@ pub(crate) fn perturbable(
 }
 
 /// Creates an MPM subject with an energy ledger. `bodies` must contain exactly one body.
-///
-/// # Errors
-/// The reason why there is no such subject.
 pub(crate) fn with_ledger(
     bodies: &[Body<'_>],
     method: Method,

@@ -10,7 +10,6 @@ use crate::exact::{Derivatives, InitialStress, Motion};
 use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// Initial state of a body.
 pub(crate) struct Initial {
     /// Exact motion from which the initial state is computed, if any.
     motion: Option<Motion>,

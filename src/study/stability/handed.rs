@@ -34,9 +34,6 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
 }
 
 /// Creates the subject of a run by `solver`. `suite` is the name of the suite.
-///
-/// # Errors
-/// The reason why the growth of the energy cannot be observed.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -55,9 +52,6 @@ pub(super) fn subject(
 
 /// Creates the problem of a run. `suite` is the name of the suite. The instants of the problem are
 /// the steps after which a trial checks the state.
-///
-/// # Errors
-/// The reason why the problem cannot be created.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);

@@ -43,7 +43,6 @@ pub(super) struct CaseRun<'a> {
 }
 
 impl CaseRun<'_> {
-    /// Returns the result row for one value of the swept parameter.
     pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
         let found = match &self.plan.sought {
@@ -57,7 +56,6 @@ impl CaseRun<'_> {
         found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
     }
 
-    /// Creates the set-up for the given parameter values.
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
         let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;

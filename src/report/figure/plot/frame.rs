@@ -13,7 +13,6 @@ pub(crate) struct Titles<'a> {
     pub(crate) y_label: &'a str,
 }
 
-/// A frame with a scale for each axis.
 #[derive(Debug)]
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
@@ -70,7 +69,6 @@ impl<'a> Plot<'a> {
         Self { titles, heading, frame, x, y }
     }
 
-    /// Converts a pair of values to pixels.
     pub(crate) fn place(&self, (x, y): Pt) -> Pt {
         (
             self.frame.x + self.x.scale.fraction(x) * self.frame.w,

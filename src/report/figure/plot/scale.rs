@@ -16,7 +16,6 @@ pub(crate) enum ScaleKind {
     Log,
 }
 
-/// The range of one axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
     kind: ScaleKind,
@@ -27,9 +26,7 @@ pub(crate) struct Scale {
 /// Empty space at the ends of an axis, as fractions of its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pad {
-    /// Fraction at the low end.
     pub(crate) lo: f64,
-    /// Fraction at the high end.
     pub(crate) hi: f64,
 }
 
@@ -143,7 +140,6 @@ impl Label {
         Self { base: base.to_owned(), exponent: Some(exponent) }
     }
 
-    /// Returns the estimated width in pixels.
     pub(crate) fn width(&self) -> f64 {
         text_width(&self.base, TEXT) + text_width(&self.superscript(), SUPERSCRIPT)
     }

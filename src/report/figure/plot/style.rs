@@ -71,7 +71,6 @@ pub(crate) fn style_sheet() -> String {
     )
 }
 
-/// Outline of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MarkerShape {
     Circle,
@@ -84,10 +83,8 @@ pub(crate) enum MarkerShape {
     Star,
 }
 
-/// Style of one series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Look {
-    /// Colour of line and marker.
     pub(crate) colour: &'static str,
     pub(crate) shape: MarkerShape,
     /// Dash pattern (`stroke-dasharray`).

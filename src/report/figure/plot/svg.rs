@@ -34,12 +34,10 @@ pub(crate) struct SvgElement {
 }
 
 impl SvgElement {
-    /// Creates an element without attributes or content.
     pub(crate) fn new(name: &'static str) -> Self {
         Self { name, attributes: String::new(), content: String::new() }
     }
 
-    /// Creates a group moved to `at`.
     pub(crate) fn group_at(at: Pt) -> Self {
         let shift = format!("translate({} {})", number(at.0), number(at.1));
         Self::new("g").set("transform", &shift)
@@ -86,7 +84,6 @@ impl SvgElement {
         self
     }
 
-    /// Appends a child element on a new line.
     pub(crate) fn add(&mut self, child: &Self) {
         self.content.push('\n');
         self.content.push_str(&child.render());

@@ -73,7 +73,6 @@ impl View {
         self.size()[1] * self.scale()[1] + 2.0 * MARGIN
     }
 
-    /// Converts a position (m) to pixels.
     pub(super) fn place(&self, (x, y): Pt) -> Pt {
         let (scale, size) = (self.scale(), self.size());
         let left = 0.5 * (WIDTH - size[0] * scale[0]);
