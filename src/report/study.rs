@@ -13,7 +13,6 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// One report for each kind of study.
 pub(crate) const KINDS: [&dyn StudyReport; 5] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 

@@ -24,7 +24,6 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// Creates a cell with different values in text and JSON.
     pub(crate) fn new(text: impl Text, json: impl Into<Value>) -> Self {
         Self { text: text.text(), json: json.into() }
     }
@@ -48,7 +47,6 @@ impl Cell {
         Self::new(value.map(format), value.map(number))
     }
 
-    /// Replaces the text by `failed` if there is a failure.
     pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
         if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
     }

@@ -62,9 +62,8 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Selects the error change to report: on the finest level that newly fails or no longer fails,
-/// otherwise on the finest level, otherwise on the level with the largest change. `None` without a
-/// change.
+/// Selects the error change to report. Levels that newly fail or no longer fail come first, then
+/// the finest level, then the level with the largest change. Returns `None` without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,

@@ -131,7 +131,6 @@ pub(super) struct ErrorMove {
     /// New error; `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// Name of the level with this error.
     pub(super) level: String,
 }
 

@@ -165,7 +165,6 @@ impl ReportDocument {
     }
 }
 
-/// Returns the name `SUITE::CASE`.
 pub(super) fn name(suite: &SuiteDocument, case: &CaseDocument) -> String {
     format!("{}::{}", suite.name, case.name)
 }

@@ -21,7 +21,7 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    // Variants of methods follow the cases of the suite.
+    // Rankings may contain variants of the cases. Variants are styled after all cases.
     let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
     let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     for row in rows {

@@ -57,6 +57,7 @@
 //! with the `bytes` of one entry. `floor` contains the error of the finest level with another
 //! spacing halved, if such a run exists. Its `cause` is one of the axes, or `none`, or null if the
 //! cause could not be determined.
+//!
 //! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
 //! lists the keys of rows.
 

@@ -32,7 +32,6 @@ impl Table {
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// Aligns the columns with these headings to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());

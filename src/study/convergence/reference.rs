@@ -172,8 +172,8 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Creates the lattice that `labels` form in any order, with `d` numbers for each label. `None`
-    /// if the labels do not form a lattice.
+    /// Creates the lattice of the reference positions `labels`, which have `d` coordinates each and
+    /// may be in any order. `None` if the positions do not form a lattice.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -245,8 +245,8 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// Copies the values of `field` at the label `wanted`, at the instant nearest to `t`; NaN if
-    /// there is no such label.
+    /// Copies the values of `field` for the particle with reference position `wanted`, at the
+    /// instant nearest to `t`; NaN if there is no such particle.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
@@ -294,7 +294,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// Changes the method to double precision and to the start of second order.
+/// Changes the method to double precision and to a start of second order.
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {

@@ -40,7 +40,7 @@ fn corner(c: &[f64]) -> String {
     c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// Formats a number with the digits that statements of problems use.
+/// Formats a number with at most six significant digits.
 pub(crate) fn stated(x: f64) -> String {
     shown(rounded(x, 6))
 }
@@ -59,13 +59,13 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// Returns the remark about rims without loads, for the row of a body.
+/// Returns the text `, free rims` if no load acts on a rim.
 fn rims(scene: &Scene) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
     if is_loaded { "" } else { ", free rims" }
 }
 
-/// Adds rows with several bodies and their coupling.
+/// Adds the rows of each body, if there are several, and of their contact.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));

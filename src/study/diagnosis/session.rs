@@ -80,7 +80,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// Judges levels. The expected order is near the theoretical one.
+    /// Judges levels against an expected order near the theoretical one.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,

@@ -73,14 +73,12 @@ impl CaseRunner for GradientRunner<'_> {
     }
 }
 
-/// Whether `solver` supports gradients with respect to a parameter.
 fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> bool {
     let of = |gradients| ProblemNeeds { gradients, ..ProblemNeeds::default() };
     let without = solver.lacks(&of(Vec::new())).len();
     solver.lacks(&of(vec![parameter.name()])).len() == without
 }
 
-/// Lists the capabilities that a case requires and `solver` lacks.
 fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
     let one = &plan.parameters[case.parameter];
     let mut gradients = vec![one.parameter.name()];

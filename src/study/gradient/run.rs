@@ -41,7 +41,6 @@ struct CachedAnswer {
     numbers: Vec<f64>,
     /// Reason why the solver does not support the run.
     cannot: Option<String>,
-    /// Reason why the solver failed.
     failed: Option<String>,
 }
 
@@ -64,11 +63,6 @@ impl CachedAnswer {
 }
 
 impl GradientRun<'_> {
-    /// Runs all checks.
-    ///
-    /// # Errors
-    /// [`GradientError::Cannot`] if the solver does not support a run, [`GradientError::Failed`] if
-    /// it fails.
     pub(super) fn study(&self, progress: Progress<'_>) -> Result<GradientStudy, GradientError> {
         let levels = self.plan.problem.refine.levels(self.context.extent);
         let on_level = |level: &LevelPlan| {

@@ -59,7 +59,6 @@ fn floor_finding(
 struct ModelError {
     /// Size of the error (m).
     size: f64,
-    /// Description of the origin of the error.
     origin: String,
     /// Advice: a solution without this error.
     remedy: &'static str,

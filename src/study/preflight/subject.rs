@@ -27,7 +27,6 @@ impl<'a> Preflight<'a> {
         preflight
     }
 
-    /// Whether the suite expects an order for at least one case.
     pub(crate) fn claims_an_order(&self) -> bool {
         self.of_an_order().next().is_some()
     }

@@ -18,7 +18,8 @@ const SUDDEN: f64 = 0.1;
 /// Number of intervals along each axis. Loads are evaluated at their ends.
 const INTERVALS: usize = 4;
 
-/// Minimum initial distance from the equilibrium, as a fraction of the equilibrium displacement.
+/// A smaller initial distance from the equilibrium, as a fraction of the equilibrium displacement,
+/// does not count.
 const AWAY: f64 = 1e-3;
 
 /// Warns if a body without dissipation does not start in its stated equilibrium, because the body

@@ -20,7 +20,7 @@ use crate::verify::{
 /// Number of values that are tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Number of values that are tested if each test is a whole run.
+/// Replaces `SCAN` if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.
@@ -29,8 +29,8 @@ const SHARP: f64 = 1e-5;
 /// Relative accuracy of limits that are observed in runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
-/// Fractions of a predicted limit at which runs check the prediction. Only full runs use the first
-/// fraction, because the second one is the stronger test.
+/// Fractions of a predicted limit at which runs check the prediction. Only full runs use 0.95,
+/// because 0.98 is the stronger test.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
 /// Rounding error of a defective eigenvalue 1, such as the eigenvalue of rigid motion.

@@ -78,7 +78,6 @@ impl SvgElement {
         self.set(name, &value)
     }
 
-    /// Appends character data.
     pub(crate) fn content(mut self, text: &str) -> Self {
         self.content.push_str(&escape(text));
         self

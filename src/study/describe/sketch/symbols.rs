@@ -119,7 +119,6 @@ fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     }
 }
 
-/// Draws symbols for the condition and the loads of a face in the plane.
 pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     let edge = Edge::of(view, face);
     let mut group = SvgElement::new("g");
