@@ -1,7 +1,7 @@
 //! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are computed at regular points of the body and the run. The points and times of the
-//! problem's survey, which resolve a narrow pulse, are included.
+//! Extremes are computed at regular points of the body and the run. The points and times of a
+//! `Survey`, which resolve a narrow pulse, are included.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
@@ -130,8 +130,8 @@ const SLOW: f64 = 0.3;
 pub struct Linearisation {
     /// Residual of the equation of motion and of tractions, relative to their terms.
     pub residual: f64,
-    /// Estimated error (m) of the displacement at the end. If the suite judges the largest error
-    /// over the instants, it is the largest error of the run.
+    /// Estimated error (m) of the displacement at the end, or the largest one during the run if the
+    /// suite judges the largest error over the instants.
     pub error: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Converts names to types. Only this file uses all families of types.
+//! Creates the solver types that methods and scenes name. Only this file uses all kinds of solvers.
 
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};

@@ -89,7 +89,7 @@ impl TriangleRow {
             return pad.lo;
         }
         let needed = (GAP + CAPTION + highest + CLEAR) / FRAME_HEIGHT;
-        // Height of the lowest data as a fraction of the range of all data.
+        // `share` is the height of the lowest data as a fraction of the range of all data.
         let height = (plot.frame.bottom() - lowest) / FRAME_HEIGHT;
         let share = (height - pad.lo) / (1.0 - pad.lo - pad.hi);
         let rest = 1.0 - share;
