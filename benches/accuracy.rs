@@ -1,5 +1,5 @@
-//! Time to reach an error: for each suite and target the methods that reach it soonest, each at the
-//! coarsest level that does.
+//! Time to reach a target error: for each suite and target, the cheapest methods, each on the
+//! coarsest level that reaches the target.
 //!
 //! An identifier has the form `accuracy/vibrating-bar/1e-3/mpm-linear-flip-musl`, and any part of
 //! it selects benchmarks: `cargo bench --bench accuracy -- 1e-3`. Only steps are timed, without
@@ -45,7 +45,7 @@ fn accuracy(criterion: &mut Criterion) {
     }
 }
 
-/// Refuses to time a wrong result.
+/// Panics if the error is zero or above the target, because a wrong result must not be timed.
 fn check(id: &str, goal: &Goal<'_>, target: f64) {
     let (case, cells, error) = (goal.case(), goal.cells(), goal.error());
     assert!(

@@ -1,10 +1,10 @@
-//! Growth: time of a whole step for each particle, on one thread and on two, from 1e3 particles on,
-//! and the memory of a particle.
+//! Time per particle of a whole step for 1e3 particles and more, on one thread and on two, and the
+//! memory per particle.
 //!
-//! `cargo bench --bench growth` goes to 1e6, `MPM_BENCH=full` to 1e7 (some 5 GB), and a number sets
-//! the maximum (`-- 3e7`); other arguments select methods (`-- 3d`), and `-- FILE.svg` writes a
-//! figure. One thread and two run in turn, and the minimum time of each is used. Each method first
-//! makes one step to check conservation of momentum.
+//! `cargo bench --bench growth` measures up to 1e6 particles. `MPM_BENCH=full` raises the maximum
+//! to 1e7 (about 5 GB), and a number sets the maximum (`-- 3e7`). Other arguments select methods
+//! (`-- 3d`), and `-- FILE.svg` writes a figure. One thread and two run in turn, and the minimum
+//! time of each is used. Each method first makes one step to check conservation of momentum.
 
 #[path = "transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]
@@ -28,7 +28,7 @@ use std::time::Instant;
 /// Length of a step (s), so short that no particle leaves its cell in any number of steps.
 const DT: f64 = 1e-12;
 
-/// Minimum time (s) of a step, over at least three steps and 0.5 s.
+/// Returns the minimum time (s) of a step, from at least three steps and 0.5 s.
 fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
     let (begin, mut steps, mut shortest) = (Instant::now(), 0, f64::INFINITY);
     while steps < 3 || begin.elapsed().as_secs_f64() < 0.5 {
@@ -40,7 +40,8 @@ fn shortest<const D: usize>(solver: &mut Solver<D>, pool: &ThreadPool) -> f64 {
     shortest
 }
 
-/// Lines of a method for one thread and for two; `first_look` is the look of the first line.
+/// Measures a method on one thread and on two, and returns a line of the figure for each.
+/// `first_look` is the index of the style of the first line.
 fn lines<const D: usize>(
     first_look: usize,
     (basis, name): (BasisName, TransferName),

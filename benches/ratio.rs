@@ -1,4 +1,5 @@
-//! Time of the loops of this crate over that of textbook loops without generic parameters.
+//! Time of textbook loops without generic parameters, divided by the time of the loops of this
+//! crate.
 //!
 //! `cargo bench --bench ratio` runs both in turn and prints the median of the ratios with its
 //! quartiles: on a machine whose speed varies, only ratios of consecutive times are comparable.
@@ -30,7 +31,7 @@ use yardstick::{
 };
 
 const H: f64 = 0.5;
-/// Cells between the body and the walls, so that cubic B-splines are uniform.
+/// Number of cells between the body and the walls, so that cubic B-splines are uniform.
 const MARGIN: usize = 3;
 
 /// Input of both loops.
@@ -41,7 +42,8 @@ struct Scene<const D: usize> {
     b: Vec<Matrix<D>>,
 }
 
-/// A cube of about `count` particles, 2^D in a cell, anywhere in its share; sorted by cell.
+/// Creates a cube of about `count` particles with random displacements, 2^D per cell, sorted by
+/// cell.
 fn scene<const D: usize>(basis: BasisName, count: f64) -> Scene<D> {
     let per_cell = f64::from(1 << D);
     let side = libm::round(libm::pow(count / per_cell, 1.0 / D as f64)).max(1.0) as usize;
@@ -72,7 +74,7 @@ fn rows<const D: usize>(of: &[Matrix<D>]) -> Vec<[[f64; D]; D]> {
     of.iter().map(|m| std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))).collect()
 }
 
-/// Refuses to time loops that differ.
+/// Panics if results differ, because a wrong loop must not be timed.
 fn same<'a>(
     id: &str,
     found: impl Iterator<Item = &'a f64>,
@@ -97,7 +99,7 @@ fn quartiles(of: impl Iterator<Item = f64>) -> Timing {
     Timing::of(&of.collect::<Vec<_>>()).expect("times are numbers")
 }
 
-/// Runs both in turn and prints the time per particle.
+/// Runs both loops in turn and prints the times per particle.
 fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn FnMut()) {
     if !words::selects(id) {
         return;
@@ -116,7 +118,7 @@ fn compare(id: &str, particles: usize, plain: &mut dyn FnMut(), ours: &mut dyn F
     println!("{id:<28} {plain:>10.2} {ours:>10.2} {ratio:>7.2}  [{low:.2}, {high:.2}] {best:>7.2}");
 }
 
-/// The three pairs of loops with APIC.
+/// Compares P2G and G2P with APIC.
 macro_rules! apic {
     ($plain:ident, $dimension:literal, $basis:ident, $id:literal, $count:expr) => {{
         const D: usize = $dimension;
@@ -199,7 +201,8 @@ fn flip(count: f64) {
 /// repeats.
 const DT: f64 = 1e-4;
 
-/// Solver of a scene whose velocities are a thousandth, with its Lame constants (Pa).
+/// Creates the solver of a scene with velocities reduced to a thousandth, and its Lame constants
+/// (Pa).
 fn solver<const D: usize>(
     basis: BasisName,
     (name, scheme): (TransferName, SchemeName),
@@ -226,10 +229,10 @@ fn solver<const D: usize>(
     (Solver::new(setup).expect("every particle is inside"), [lambda, mu])
 }
 
-/// Steps compared before they are timed.
+/// Number of steps whose results are compared before the steps are timed.
 const COMPARED: usize = 3;
 
-/// A whole step with quadratic B-splines and USL.
+/// Compares whole steps with quadratic B-splines and USL.
 macro_rules! quadratic_step {
     ($transfer:ident, $plain:ident, $step:expr, $dimension:literal, $id:literal, $count:expr) => {{
         const D: usize = $dimension;
@@ -261,10 +264,10 @@ macro_rules! quadratic_step {
     }};
 }
 
-/// A step by hand.
+/// A textbook step of a body, for (h, dt) and the Lame constants.
 type FlipStep = fn(&mut flip_1d::Body, (f64, f64), (f64, f64));
 
-/// A whole step of FLIP.
+/// Compares whole steps of FLIP.
 fn flip_step(id: &str, scheme: SchemeName, step: FlipStep, count: f64) {
     let method = (TransferName::Flip, scheme);
     let (mut ours, [lambda, mu]) = solver::<1>(BasisName::Linear, method, count);

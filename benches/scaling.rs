@@ -1,9 +1,9 @@
-//! Cost against work: time per particle of P2G and G2P, from 1e3 particles on.
+//! Time per particle of P2G and G2P for 1e3 particles and more.
 //!
-//! `cargo bench --bench scaling` goes to 1e6 and `MPM_BENCH=full` to 1e7 (some 4 GB); `-- FILE.svg`
-//! also writes a figure. For each size the minimum time is used: other processes only make passes
-//! slower. Cache sizes are visible as steps. At the end it measures particles in random order, and
-//! the cost of sorting them before ten steps.
+//! `cargo bench --bench scaling` measures up to 1e6 particles, and up to 1e7 with `MPM_BENCH=full`
+//! (about 4 GB); `-- FILE.svg` also writes a figure. For each size the minimum time is used,
+//! because other processes can only slow down a pass. Cache sizes are visible as steps. At the end,
+//! particles in random order are measured, and the cost of sorting them before ten steps.
 
 #[path = "common/clock.rs"]
 mod clock;
@@ -23,7 +23,7 @@ use scene::{Method, Order, total};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Nanoseconds per particle of P2G and of G2P.
+/// Returns the time per particle (ns) of P2G and of G2P.
 fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [f64; 2] {
     let (mut method, mut grid, mut particles) = Method::<D>::new(method, Order::Sorted, count);
     let per_particle = 1e9 / total::<D>(count) as f64;
@@ -35,7 +35,7 @@ fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [
     [p2g, g2p].map(|time| time * per_particle)
 }
 
-/// Two lines of the figure.
+/// Returns the lines of P2G and of G2P in the figure.
 fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<PlotSeries> {
     let name = |pass| format!("{D}d {} {} {pass}", method.0.name(), method.1.name());
     let mut lines = [(0, "p2g"), (1, "g2p")].map(|(look, pass)| PlotSeries {
@@ -64,7 +64,7 @@ fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) ->
     lines.into()
 }
 
-/// Seconds of P2G and G2P of a scene.
+/// Returns the total time (s) of P2G and G2P.
 fn both_passes<const D: usize>(
     (method, grid, particles): &mut (Method<D>, Grid<D>, Particles<D>),
 ) -> f64 {

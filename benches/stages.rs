@@ -1,6 +1,6 @@
-//! Time of a step, pass by pass, and the speedup of each pass by a second thread.
+//! Time of each pass of a step, and the speedup of each pass by a second thread.
 //!
-//! `cargo bench --bench stages` times steps of 1e4 particles of six methods; a number sets the
+//! `cargo bench --bench stages` times steps of six methods with 1e4 particles. A number sets the
 //! number of particles (`-- 1e6`), and other arguments select methods (`-- 1e6 3d mls`). One thread
 //! and two run in turn, and the minimum time of each pass is used. Each method first makes one step
 //! to check conservation of momentum.
@@ -31,7 +31,7 @@ struct PassTime {
     shortest: [f64; 2],
 }
 
-/// Runs at least five steps, for at least 0.5 s, on `threads` threads.
+/// Runs at least five steps, for at least 0.5 s, and stores the minimum times of `passes`.
 fn step<const D: usize>(solver: &mut Solver<D>, threads: usize, passes: &mut Vec<PassTime>) {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
     let (begin, mut steps) = (Instant::now(), 0);

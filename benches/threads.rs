@@ -1,10 +1,10 @@
-//! Speedup of P2G and G2P by a second thread, compared with that of independent loops.
+//! Speedup of P2G and G2P by a second thread, compared with the speedup of independent loops.
 //!
-//! `cargo bench --bench threads` runs in turn each pass with 1e6 particles and two probes, on one
+//! `cargo bench --bench threads` runs each pass with 1e6 particles and two probes in turn, on one
 //! thread and on two. The probes are multiply-adds in registers, and a loop that reads two columns
-//! of memory and writes one. On a machine with other load, the speedup of all may be small; compare
-//! that of a pass with that of the probes. `-- 1e5` sets the number of particles. The program first
-//! checks that results are bit-identical.
+//! of memory and writes one. On a machine with other load, all speedups may be small, so compare a
+//! pass with the probes. `-- 1e5` sets the number of particles. The program first checks that
+//! results are bit-identical.
 
 #[path = "common/random.rs"]
 mod random;
@@ -20,14 +20,14 @@ use scene::{Method, Order};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Turns that are taken.
+/// Number of repetitions.
 const TURNS: usize = 25;
 
 /// A loop that can be run on one thread or on two.
 struct Loop<'a> {
     name: String,
     run: Box<dyn FnMut() + Send + 'a>,
-    /// Seconds on one thread and on two, for each repeat.
+    /// Times (s) on one thread and on two, for each repetition.
     times: Vec<[f64; 2]>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Loop<'a> {
     }
 }
 
-/// Independent chains of sums and products, distributed over all threads.
+/// Computes independent chains of sums and products, distributed over all threads.
 fn compute() {
     let chains = || {
         let mut sums: [f64; 32] = std::array::from_fn(|k| k as f64);
@@ -71,7 +71,7 @@ fn compute() {
     rayon::join(twice, twice);
 }
 
-/// Columns in memory: too large for any cache.
+/// Columns that are too large for any cache.
 struct Triad {
     a: Vec<f64>,
     b: Vec<f64>,
@@ -91,7 +91,7 @@ fn triad(a: &mut [f64], b: &[f64], c: &[f64]) {
     }
 }
 
-/// Both passes of a method.
+/// Measures P2G and G2P of a method.
 fn passes<const D: usize>(
     basis: BasisName,
     transfer: TransferName,

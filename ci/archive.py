@@ -46,7 +46,7 @@ def main(wheel: str, target: str, folder: str) -> None:
 
 
 def anonymous(entry: tarfile.TarInfo) -> tarfile.TarInfo:
-    """Removes the user of the machine that builds."""
+    """Removes the user of the build machine from an entry."""
     entry.uid = entry.gid = 0
     entry.uname = entry.gname = ""
     return entry

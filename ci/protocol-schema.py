@@ -12,7 +12,7 @@ import sys
 
 import jsonschema
 
-# Mistakes of shape, each of a message that is sound otherwise.
+# Messages that are valid except for one mistake in their structure.
 WRONG = [
     {},
     {"type": "helo", "protocol": 1, "name": "a"},
@@ -41,7 +41,7 @@ WRONG = [
 
 
 def messages(path):
-    """The messages of a transcript, without the blocks of bytes that follow some."""
+    """Returns the messages of a transcript, without the blocks of bytes that follow some messages."""
     with open(path, "rb") as file:
         while line := file.readline():
             message = json.loads(line)

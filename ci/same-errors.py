@@ -23,7 +23,7 @@ if not theirs["levels"]:
 
 
 def is_number(level):
-    # Figures that are not finite are strings.
+    # Numbers that are not finite are strings.
     return isinstance(level["judged"], float)
 
 
@@ -32,7 +32,7 @@ worst = 0.0
 for a, b in zip(ours["levels"], theirs["levels"], strict=True):
     failed = [not is_number(level) for level in (a, b)]
     if any(failed):
-        # A level on which the method itself breaks down must break for both.
+        # If the method itself fails on a level, it must fail for both solvers.
         if not all(failed):
             sys.exit(f"{theirs['case']}, {a['cells']} cells: one failed: {a['failure']}, {b['failure']}")
         continue

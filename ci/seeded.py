@@ -1,4 +1,4 @@
-"""What ci/defects and ci/mutants share: a scratch copy of the repository with switches, and runs of suites in it."""
+"""Common functions of ci/defects and ci/mutants: a copy of the repository with switches, and runs of suites in it."""
 
 import hashlib
 import json
@@ -14,7 +14,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "tests/defects"
 THEORY = ["load", "order", "verdict", "bound", "conservation", "energy", "force", "stability"]
-# Where the tables stand in a page.
+# Marks around the tables of a page.
 BEGIN, END = "<!-- written by ci/{} -->", "<!-- end -->"
 
 
@@ -23,7 +23,7 @@ def fail(message):
 
 
 def put(path, text):
-    """Writes what has changed only: cargo looks at times."""
+    """Writes a file only if its text has changed, because cargo compares modification times."""
     if not path.is_file() or path.read_bytes() != text:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(text)
@@ -57,7 +57,7 @@ def digest(*parts):
 
 
 def suite_names():
-    """Suites that the built-in solvers run: a suite for external solvers only has no snapshot."""
+    """Returns the suites that the built-in solvers run. A suite for external solvers only has no snapshot."""
     files = (ROOT / "verification").glob("*/*.yaml")
     return sorted(path.stem for path in files if path.with_suffix(".snap").is_file())
 
@@ -68,7 +68,7 @@ def suite_file(suite, root):
 
 
 def run(copy, binary, suite, number, limit, reached=None):
-    """What the gates say of `suite` under a defect: gate -> first line; and seconds of one core."""
+    """Runs `suite` with a defect. Returns the failing gates (gate -> first line) and the time on one core (s)."""
     environment = {**os.environ, "RAYON_NUM_THREADS": "1", "SEEDED": str(number)}
     if reached:
         environment["SEEDED_REACHED"] = str(reached)
@@ -109,7 +109,7 @@ def theory(found):
 
 
 class Kept:
-    """Results, kept on disk."""
+    """Results that are stored on disk."""
 
     def __init__(self, path):
         self.path = path
@@ -130,7 +130,7 @@ class Kept:
 
 
 def baseline(suites, results, key, once, pool, work):
-    """Every suite without a defect: it passes as ever, and says which switches it comes to."""
+    """Runs every suite without a defect. Checks that it passes, and returns the switches that it reaches."""
     def one(suite):
         name = f"reached {key(suite)}"
         if name not in results.kept:
@@ -150,7 +150,7 @@ def baseline(suites, results, key, once, pool, work):
 
 
 def write_page(page, text):
-    """Puts the tables into a page, between its marks."""
+    """Writes the tables between the marks of a page."""
     begin = BEGIN.format(pathlib.Path(sys.argv[0]).name)
     head, mark, rest = page.read_text().partition(begin)
     if not mark:

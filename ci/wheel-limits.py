@@ -20,14 +20,14 @@ LEGACY = {"manylinux2014": (2, 17)}
 
 
 def promised(name: str) -> tuple[int, int] | None:
-    """The glibc version in the platform tag of a wheel; None for other platforms."""
+    """Returns the glibc version in the platform tag of a wheel; None for other platforms."""
     versions = [version for tag, version in LEGACY.items() if tag in name]
     versions += [(int(a), int(b)) for a, b in re.findall(r"manylinux_(\d+)_(\d+)", name)]
     return max(versions, default=None)
 
 
 def needed(program: bytes) -> tuple[int, int]:
-    """The latest glibc version that an ELF file names, (0, 0) without any."""
+    """Returns the latest glibc version that an ELF file names, or (0, 0)."""
     names = re.findall(rb"\0GLIBC_(\d+)\.(\d+)", program)
     return max(((int(a), int(b)) for a, b in names), default=(0, 0))
 

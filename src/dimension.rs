@@ -1,8 +1,7 @@
 //! Converts a number of space dimensions to a constant that types can use.
 
-/// Evaluates `$work` with the constant `$D` for `$dimension`, which is 1, 2 or 3 (larger values
-/// count as 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`. Space-time code uses
-/// `{ D + 1 }`.
+/// Evaluates `$work` with a constant `$D` equal to `$dimension` (1, 2 or 3; larger values count as
+/// 3): `with_dimension!(scene.dimension(), D => solve::<D>(scene))`.
 macro_rules! with_dimension {
     ($dimension:expr, $D:ident => $work:expr) => {
         match $dimension {
@@ -23,8 +22,8 @@ macro_rules! with_dimension {
 }
 pub(crate) use with_dimension;
 
-/// Declares the trait `$every`, which all types implement that implement `$contract<D>` in every
-/// dimension. An object of `$every` converts to `$contract<D>` for any D.
+/// Declares the trait `$every` for types that implement `$contract<D>` in every dimension. A `dyn
+/// $every` object converts to a `dyn $contract<D>` object for any D.
 macro_rules! in_every_dimension {
     ($(#[$meta:meta])* $every:ident: $contract:ident) => {
         $(#[$meta])*

@@ -1,5 +1,5 @@
-//! Lists the members of families whose files are in two modules, with one line for each member.
-//! Each module declares its own files from these lines and does not name files of the other module.
+//! Lists the materials and effects, one line each. Two modules have a file for each material and
+//! for most effects; both modules declare these files from the lists here.
 
 /// Calls the macro `declare` with every material. A line
 ///
@@ -8,7 +8,7 @@
 /// gives the name of the material in suites; its file and type in `mpm/material`, with the
 /// parameter keys in the argument order of `new`; and the file and type of its law in `exact/law`,
 /// whose `new` takes the same arguments. `#[serde(default)]` before a key makes it optional, with
-/// default zero. A material without `truth` has no stated solutions.
+/// default zero. Suites cannot state an exact solution for a material without `truth`.
 macro_rules! each_material {
     ($declare:ident) => {
         $declare! {
@@ -56,9 +56,9 @@ pub(crate) use each_material;
 /// `ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,`
 /// `effect thermal_expansion::ThermalExpansion, needs [Heat];`
 ///
-/// gives the member of `EffectName` and its name in suites; the file and type of its keys in
-/// `suite/scene/load`; the file and type of the effect in `mpm/effect`, if it has its own; and the
-/// members that it requires, if any.
+/// gives the member of `EffectName`, its name in suites, and the file and type of its keys in
+/// `suite/scene/load`. The file and type of the effect in `mpm/effect` and the list of required
+/// effects are optional.
 macro_rules! each_effect {
     ($declare:ident) => {
         $declare! {
@@ -68,10 +68,10 @@ macro_rules! each_effect {
             BodyForce = "body_force" => body_force::BodyForceSpec, effect body_force::BodyForce;
             /// Damping in proportion to mass.
             Damping = "damping" => damping::DampingSpec, effect damping::Damping;
-            /// A share of the force out of balance, against the motion.
+            /// A damping force against the motion, proportional to the unbalanced force.
             LocalDamping = "local_damping" => local_damping::LocalDampingSpec,
                 effect local_damping::LocalDamping;
-            /// A pressure against compression, for shocks.
+            /// A viscous pressure against compression, which smooths shocks.
             ArtificialViscosity = "artificial_viscosity" => artificial_viscosity::ViscositySpec,
                 effect artificial_viscosity::ArtificialViscosity;
             /// A traction on a face of the body, carried by the layer of particles at that face.
@@ -83,9 +83,9 @@ macro_rules! each_effect {
             /// A prescribed velocity of a set of particles.
             PrescribedVelocity = "velocity" => set_velocity::SetVelocitySpec,
                 effect prescribed_velocity::PrescribedVelocity;
-            /// Conduction of heat, with a temperature on particles and its own fields on the grid.
+            /// Heat conduction, with a temperature on particles and additional grid fields.
             Heat = "heat" => heat::HeatSpec, effect heat::Heat;
-            /// Strain that temperature makes.
+            /// Thermal strain.
             ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec,
                 effect thermal_expansion::ThermalExpansion, needs [Heat];
         }
@@ -93,7 +93,7 @@ macro_rules! each_effect {
 }
 pub(crate) use each_effect;
 
-/// Returns the key of a field, without the prefix of raw identifiers: `yield` for `r#yield`.
+/// Returns the suite key of a field: its name without `r#`, such as `yield` for `r#yield`.
 pub(crate) fn key(field: &'static str) -> &'static str {
     field.trim_start_matches("r#")
 }

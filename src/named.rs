@@ -2,8 +2,8 @@
 
 /// Declares an enum whose members have the same spelling in YAML, reports and messages.
 ///
-/// `named! { /// docs  pub enum Mass { /// docs  Lumped = "lumped", } }` derives the usual traits
-/// and adds `ALL` (in declaration order) and `name()`.
+/// `named! { pub enum Mass { Lumped = "lumped", } }` derives the usual traits and adds `ALL` (in
+/// declaration order) and `name()`.
 macro_rules! named {
     ($(#[$meta:meta])* pub enum $names:ident {
         $($(#[$member_meta:meta])* $member:ident = $text:literal,)+

@@ -6,7 +6,7 @@ use strsim::damerau_levenshtein;
 /// comparison is proportional to the product of both lengths.
 const LONGEST: usize = 64;
 
-/// Number of letters for which one typing error is allowed.
+/// One typing error is allowed per this number of letters.
 const LETTERS: usize = 3;
 
 /// Returns the nearest of the `known` names, if it is close enough. The first one is returned if

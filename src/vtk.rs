@@ -46,7 +46,7 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     file.written("UnstructuredGrid", "")
 }
 
-/// Adds the tensor ranks to the fields of a body. They follow from the numbers of components.
+/// Adds its tensor rank to each field of a body. The number of components determines the rank.
 pub(crate) fn ranked(d: usize, fields: Vec<StateField>) -> Vec<(TensorRank, StateField)> {
     fields.into_iter().map(|field| (TensorRank::of(&field, d), field)).collect()
 }

@@ -12,7 +12,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in [-1, 1).
+    /// Returns a random number, uniformly distributed in [-1, 1).
     pub(crate) fn signed(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }

@@ -1,16 +1,16 @@
 //! Arguments of the command line: a number of particles, and parts of the names of measurements.
 
-/// Arguments without the options that `cargo bench` adds.
+/// Returns the arguments without the options that `cargo bench` adds.
 fn words() -> impl Iterator<Item = String> {
     std::env::args().skip(1).filter(|word| !word.starts_with('-'))
 }
 
-/// The number of particles, or the `usual` one.
+/// Returns the number of particles, or `usual` if no argument is a number.
 pub(crate) fn count(usual: f64) -> f64 {
     words().find_map(|word| word.parse().ok()).unwrap_or(usual)
 }
 
-/// The file that ends in `suffix`, if one is named.
+/// Returns the first argument that ends in `suffix`.
 #[allow(dead_code, reason = "only some benches write one")]
 pub(crate) fn file(suffix: &str) -> Option<String> {
     words().find(|word| word.ends_with(suffix))

@@ -1,11 +1,9 @@
 //! The original MPM, written by hand: linear functions, FLIP, MUSL, linear elasticity, 1-D. It is
 //! the reference for the overhead of the general solver.
 //!
-//! The five steps of Wobbes & Tielen (2015), a loop over particles or nodes for each map, with the
-//! checks of a usable solver: no particle leaves the grid, is inverted or becomes NaN. It also
-//! counts changes of cells.
+//! The loops are the five steps of Wobbes & Tielen (2015), with the checks of a usable solver: no
+//! particle leaves the grid, is inverted or becomes NaN. Changes of cells are counted.
 
-/// A bar and its grid.
 pub(crate) struct ByHand {
     pub(crate) h: f64,
     pub(crate) young: f64,
@@ -25,7 +23,7 @@ pub(crate) struct ByHand {
 }
 
 impl ByHand {
-    /// The cell of a particle, and the weights of its two nodes.
+    /// Returns the cell of a particle, and the weights of its two nodes.
     fn seen(&self, p: usize) -> (usize, f64, f64) {
         let s = self.x[p] / self.h;
         let cell = (s as usize).min(self.node_mass.len() - 2);
@@ -33,7 +31,7 @@ impl ByHand {
         (cell, 1.0 - right, right)
     }
 
-    /// One step of `dt` (s), or the failure.
+    /// Makes one step of length `dt` (s).
     pub(crate) fn step(&mut self, dt: f64) -> Result<(), String> {
         self.map_mass_and_force();
         for i in 0..self.node_mass.len() {
@@ -61,7 +59,7 @@ impl ByHand {
         }
     }
 
-    /// Particles take the accelerations; their new momenta go to the nodes.
+    /// Accelerates the particles, and maps their new momenta to the nodes.
     fn advance_velocities(&mut self, dt: f64) {
         self.velocity.fill(0.0);
         for p in 0..self.x.len() {

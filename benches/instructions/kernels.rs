@@ -1,5 +1,5 @@
-//! Passes of P2G and G2P for counting: the loops of the particle-grid transfer, with the names of
-//! suites.
+//! Passes of P2G and G2P whose instructions are counted. Bases and transfers have the same names as
+//! in suites.
 
 use mpm_verify::mpm::{
     BasisName, Block, Grid, Kernel, Particles, Stage, Transfer, TransferName, Vector, g2p, kernel,
@@ -9,7 +9,7 @@ use mpm_verify::mpm::{
 /// Particles in a cell, along each axis.
 const PER_AXIS: usize = 2;
 
-/// Kernels with stored instruction counts, by the names `DIMENSION/BASIS/TRANSFER/PASS`.
+/// Names of the kernels with stored instruction counts: `DIMENSION/BASIS/TRANSFER/PASS`.
 pub(crate) const NAMES: [&str; 16] = [
     "1d/linear/flip/p2g",
     "1d/linear/flip/g2p",
@@ -29,7 +29,7 @@ pub(crate) const NAMES: [&str; 16] = [
     "2d/cpgimp/apic/g2p",
 ];
 
-/// A cube of about 1000 particles, anywhere in their shares.
+/// A cube of about 1000 particles that are displaced from their regular positions.
 struct Scene<const D: usize> {
     kernel: Box<dyn Kernel<D>>,
     transfer: Box<dyn Transfer<D>>,

@@ -2,9 +2,9 @@
 //! steps, and `ci/instructions` computes the instructions of a step from two such runs.
 //!
 //! `minimal` is the general solver on a bar without effects; `by_hand` is a loop written for this
-//! bar only. The program first checks that both give the same motion. Other scenes are kernels,
-//! whose passes are repeated STEPS times; `kernels` lists them with their particles. `processor`
-//! prints for which registers the loops are compiled.
+//! bar only. The program first checks that both give the same motion. The other scenes are kernels,
+//! whose passes are repeated STEPS times. `kernels` lists the kernels with their numbers of
+//! particles. `processor` prints the widest registers that the loops support on this processor.
 
 mod by_hand;
 mod kernels;
@@ -23,7 +23,7 @@ const H: f64 = 0.1;
 const DT: f64 = 1e-3;
 const YOUNG: f64 = 100.0;
 
-/// A free bar with one empty cell at each end, whose initial velocity is one of its modes.
+/// Creates a free bar with one empty cell at each end, whose initial velocity is one of its modes.
 fn bar() -> Particles<1> {
     let (from, to) = (Vector::<1>::new(H), Vector::<1>::new(H * (1 + CELLS) as f64));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, H, PER_CELL);
@@ -75,7 +75,6 @@ fn by_hand() -> ByHand {
     }
 }
 
-/// Whether both bars have the same motion.
 fn agree() -> bool {
     let (mut general, mut own) = (minimal(), by_hand());
     for _ in 0..100 {
@@ -86,7 +85,7 @@ fn agree() -> bool {
     moved.into_iter().all(|(a, b)| (a[0] - b).abs() <= 1e-12 * b.abs())
 }
 
-/// The widest registers that the loops support on this processor.
+/// Returns the widest registers that the loops support on this processor.
 fn registers() -> &'static str {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     if std::arch::is_x86_feature_detected!("avx2") {
@@ -117,7 +116,7 @@ fn main() -> ExitCode {
         Some(name) if kernels::NAMES.contains(name) => {
             kernels::run(name, steps);
         }
-        // `cargo bench` runs every bench: it counts nothing.
+        // `cargo bench` runs this program without a scene, so it only checks the motion.
         _ if agree() => println!("the general solver and the loop by hand agree"),
         _ => {
             println!("the general solver and the loop by hand do NOT agree");

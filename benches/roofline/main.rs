@@ -1,9 +1,9 @@
-//! Limits of this machine for the particle-node loops, and the measured fractions: the table of
-//! `benches/ROOFLINE.md`.
+//! Performance limits of this machine for particle-node loops, and the fraction of the limits that
+//! the loops reach: the table of `benches/ROOFLINE.md`.
 //!
-//! `cargo bench --bench roofline` measures the limits of one core (sums and products, memory,
-//! caches) and the passes in the same run, with 1e5 particles sorted by cell. Others on the machine
-//! make figures worse, never better, so the best of many counts.
+//! `cargo bench --bench roofline` measures the limits of one core (arithmetic, memory, caches) and
+//! the passes in the same run, with 1e5 particles sorted by cell. Other processes can only slow
+//! down a measurement, so the best of many measurements is used.
 
 #[path = "../common/clock.rs"]
 mod clock;

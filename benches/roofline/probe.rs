@@ -4,7 +4,6 @@ use crate::clock::shortest;
 use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdInto, dispatch, f64x4};
 use std::hint::black_box;
 
-/// Limits of one core.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     /// Floating-point operations per second, in fused multiply-adds of four numbers.
@@ -57,7 +56,6 @@ fn triad(megabytes: f64) -> f64 {
 }
 
 impl Limits {
-    /// Measures them.
     pub(crate) fn measured() -> Self {
         let times = 100_000;
         let time = shortest(|| {

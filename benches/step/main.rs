@@ -5,8 +5,9 @@
 //! scaling` uses a million particles and more, and `cargo bench --bench ratio` compares with plain
 //! loops. Each method first makes one step to check conservation of momentum.
 //!
-//! The short profile varies the transfer and the scheme, and then the law of one method;
-//! `MPM_BENCH=full` takes every basis, transfer, scheme and law, and 1e2 and 1e5 particles too.
+//! The short profile varies the transfer and the scheme, and then the law of one method.
+//! `MPM_BENCH=full` measures every basis, transfer, scheme and law, also with 1e2 and 1e5
+//! particles.
 
 #[path = "../transfer/check.rs"]
 #[allow(dead_code, reason = "those of passes are for the bench of transfers")]
@@ -37,7 +38,7 @@ const DT: f64 = 1e-12;
 /// Number of particles in the short profile.
 const SHORT: usize = 10_000;
 
-/// A method with its law.
+/// A method, its material law, and the number of particles.
 #[derive(Clone, Copy)]
 struct Scene {
     basis: BasisName,
@@ -47,10 +48,10 @@ struct Scene {
     count: usize,
 }
 
-/// The law with which methods are compared.
+/// Law of all benchmarks that compare methods.
 const LAW: MaterialPlan = MaterialPlan::NeoHookean { young: 1.0, poisson: 0.3 };
 
-/// Every other law of a body that moves.
+/// Returns all other laws, except laws of bodies at rest.
 fn other_laws() -> Vec<MaterialPlan> {
     let mut all = MaterialPlan::every(|parameter| match parameter.symbol {
         "nu" => 0.3,
@@ -79,7 +80,7 @@ fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene) {
     group.finish();
 }
 
-/// In one, two and three dimensions.
+/// Runs the benchmark in one, two and three dimensions.
 fn bench_all(criterion: &mut Criterion, scene: Scene) {
     bench::<1>(criterion, scene);
     bench::<2>(criterion, scene);

@@ -1,4 +1,4 @@
-//! Checks before anything is timed.
+//! Checks of results before they are timed.
 
 use crate::scene::{H, Method, PER_AXIS};
 use mpm_verify::mpm::{
@@ -7,14 +7,14 @@ use mpm_verify::mpm::{
 };
 use mpm_verify::subject::{Start, Subject};
 
-/// Whether `x` is zero, next to `scale`; not so if either is not a number.
+/// Whether `x` is a rounding error of a value of size `scale`; false for NaN.
 fn vanishes(x: f64, scale: f64) -> bool {
     x.abs() <= 1e-12 * scale
 }
 
-/// Panics for a wrong P2G: mass and momentum must be conserved, and a uniform stress must give zero
-/// force on nodes whose function is inside the body. The body starts one cell from the wall, and
-/// the function with index 4 at one cell or more, including cubic B-splines.
+/// Panics if P2G is wrong. Mass and momentum must be conserved, and a uniform stress must give no
+/// force on nodes whose function lies inside the body. The body starts one cell from the wall, and
+/// so do functions of index 4 and above, including cubic B-splines.
 pub(crate) fn check_p2g<const D: usize>(
     id: &str,
     method: &mut Method<D>,
@@ -45,7 +45,7 @@ pub(crate) fn check_p2g<const D: usize>(
     }
 }
 
-/// Refuses to time a wrong G2P: a grid that translates translates the particles.
+/// Panics if G2P is wrong: a translating grid must translate the particles.
 pub(crate) fn check_g2p<const D: usize>(
     id: &str,
     method: &mut Method<D>,
@@ -68,7 +68,7 @@ pub(crate) fn check_g2p<const D: usize>(
     }
 }
 
-/// A solver that has made one step with conserved momentum.
+/// Creates a solver that has made one step. Panics if the step does not conserve momentum.
 pub(crate) fn checked_solver<const D: usize>(
     id: &str,
     dt: f64,

@@ -2,11 +2,11 @@
 //!
 //! An identifier has the form `transfer/3d/quadratic/apic/sorted/1e5/p2g`, and any part of it
 //! selects benchmarks: `cargo bench --bench transfer -- 3d/quadratic`. `p2g` is mass, momentum and
-//! internal force; `g2p` is velocity, gradient and position; `step` is one step of MUSL; with the
-//! suffix `-2-threads`, on two threads. Every result is checked before it is timed.
+//! internal force; `g2p` is velocity, gradient and position; `step` is one step of MUSL. The suffix
+//! `-2-threads` marks runs on two threads. Every result is checked before it is timed.
 //!
-//! The short profile is two bases in the order of cells, one thread; `MPM_BENCH=full` adds every
-//! basis, shuffled particles, 1e6 of them and two threads.
+//! The short profile has two bases, particles sorted by cell, and one thread. `MPM_BENCH=full` adds
+//! the other bases, shuffled particles, 1e6 particles and two threads.
 
 mod check;
 #[path = "../common/random.rs"]
@@ -23,10 +23,10 @@ use scene::{Method, Order, total};
 use std::hint::black_box;
 use std::time::Duration;
 
-/// So short (s) that no particle changes its cell, however often a loop is repeated.
+/// Time step (s), so short that no particle changes its cell in any number of repetitions.
 const DT: f64 = 1e-12;
 
-/// The benched part of a method.
+/// A method, and the order and number of its particles.
 #[derive(Clone, Copy)]
 struct Scene {
     method: (BasisName, TransferName),
@@ -82,7 +82,7 @@ fn bench<const D: usize>(criterion: &mut Criterion, scene: Scene, threads: &[usi
     group.finish();
 }
 
-/// In one, two and three dimensions.
+/// Runs the benchmark in one, two and three dimensions.
 fn bench_all(criterion: &mut Criterion, scene: Scene, threads: &[usize]) {
     bench::<1>(criterion, scene, threads);
     bench::<2>(criterion, scene, threads);

@@ -1,4 +1,4 @@
-//! The benched scene: a cube of particles in random motion, and the passes over them.
+//! Scene of the benchmarks: a cube of particles in random motion, and the passes over them.
 
 use crate::random::Random;
 use mpm_verify::mpm::{
@@ -9,12 +9,12 @@ use mpm_verify::mpm::{
 pub(crate) const H: f64 = 1.0;
 pub(crate) const PER_AXIS: usize = 2;
 
-/// In which order the particles of a cube lie in memory.
+/// Order of the particles in memory.
 #[derive(Clone, Copy)]
 pub(crate) enum Order {
-    /// Cell by cell.
+    /// Sorted by cell.
     Sorted,
-    /// Anyhow.
+    /// Random.
     Shuffled,
 }
 
@@ -27,25 +27,25 @@ impl Order {
     }
 }
 
-/// Fisher-Yates.
+/// Shuffles by the Fisher-Yates algorithm.
 fn shuffle<T>(random: &mut Random, items: &mut [T]) {
     for last in (1..items.len()).rev() {
         items.swap(last, (random.next() % (last as u64 + 1)) as usize);
     }
 }
 
-/// Cells along each side of a cube of about `count` particles.
+/// Returns the number of cells along each side of a cube of about `count` particles.
 fn side<const D: usize>(count: usize) -> usize {
     let per_cell = PER_AXIS.pow(D as u32) as f64;
     libm::round(libm::pow(count as f64 / per_cell, 1.0 / D as f64)).max(1.0) as usize
 }
 
-/// Particles in it.
+/// Returns the exact number of particles in a cube of about `count` particles.
 pub(crate) fn total<const D: usize>(count: usize) -> usize {
     (PER_AXIS * side::<D>(count)).pow(D as u32)
 }
 
-/// A cube of about `count` particles in random motion, one empty cell inside the walls.
+/// Creates a cube of about `count` particles in random motion, with one empty cell along each wall.
 pub(crate) fn scene<const D: usize>(
     kernel: &dyn Kernel<D>,
     count: usize,
@@ -65,7 +65,7 @@ pub(crate) fn scene<const D: usize>(
     (grid, particles)
 }
 
-/// Subject of a bench: loops, and a transfer that is initialised with the particles.
+/// Loops of a basis, and a transfer that is initialised with the particles.
 pub(crate) struct Method<const D: usize> {
     pub(crate) kernel: Box<dyn Kernel<D>>,
     pub(crate) transfer: Box<dyn Transfer<D>>,
@@ -74,7 +74,7 @@ pub(crate) struct Method<const D: usize> {
 }
 
 impl<const D: usize> Method<D> {
-    /// The method with these names, and a scene for it.
+    /// Creates the method with these names, and its scene.
     pub(crate) fn new(
         (basis, name): (BasisName, TransferName),
         order: Order,

@@ -1,7 +1,7 @@
 //! Cubic B-splines in 3-D, APIC.
 
-/// Mass and momentum of nodes, `n` along each axis, from particles with the affine field
-/// `v + B D^-1 (x_i - x)`.
+/// Computes mass and momentum of the nodes (`n` along each axis) from particles with the affine
+/// field `v + B D^-1 (x_i - x)`.
 #[inline(never)]
 #[allow(clippy::too_many_arguments)] // as plain as can be
 pub(crate) fn p2g(
@@ -57,7 +57,7 @@ pub(crate) fn p2g(
     }
 }
 
-/// Velocity and first moment of particles from the velocities of nodes.
+/// Computes velocity and first moment of the particles from nodal velocities.
 #[inline(never)]
 pub(crate) fn g2p(
     h: f64,

@@ -1,6 +1,6 @@
-//! Whole steps of FLIP in 1-D: hats, neo-Hookean, stress updated last (USL, and MUSL).
+//! Whole steps of FLIP in 1-D: hat functions, neo-Hookean law, stress updated last (USL and MUSL).
 
-/// Body and grid, in columns.
+/// Particles and grid, with a column for each quantity.
 pub(crate) struct Body {
     pub(crate) x: Vec<f64>,
     pub(crate) v: Vec<f64>,
@@ -14,7 +14,7 @@ pub(crate) struct Body {
     pub(crate) nodes: Vec<[f64; 3]>,
 }
 
-/// The first node, and weights and slopes (1/m) of both.
+/// Returns the first of two nodes, and the weights and slopes (1/m) of both.
 #[inline(always)]
 fn hats(x: f64, h: f64) -> (usize, [f64; 2], [f64; 2]) {
     let s = x / h;
@@ -23,7 +23,7 @@ fn hats(x: f64, h: f64) -> (usize, [f64; 2], [f64; 2]) {
     (base, [1.0 - f, f], [-1.0 / h, 1.0 / h])
 }
 
-/// One step of length `dt` (s) on a grid of cells `h` (m).
+/// Makes one step of length `dt` (s) on a grid of cells `h` (m).
 #[inline(never)]
 pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
     body.nodes.fill([0.0; 3]);
@@ -58,7 +58,7 @@ pub(crate) fn step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64
     }
 }
 
-/// A step of MUSL: FLIP with a second map of momentum to the grid.
+/// Makes one step of MUSL: FLIP with a second map of momentum to the grid.
 #[inline(never)]
 pub(crate) fn musl_step(body: &mut Body, (h, dt): (f64, f64), (lambda, mu): (f64, f64)) {
     body.nodes.fill([0.0; 3]);

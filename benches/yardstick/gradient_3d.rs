@@ -1,9 +1,9 @@
-//! Whole steps of APIC and FLIP in 3-D, with forces and strains by the gradients of quadratic
-//! B-splines: update stress last, neo-Hookean.
+//! Whole steps of APIC and FLIP in 3-D, with forces and strains from gradients of quadratic
+//! B-splines. The stress is updated last (USL), and the law is neo-Hookean.
 
 use super::mls_3d::{Body, deform, weights};
 
-/// Slopes of the weights on each axis (1/m), from the distances of the nodes (m).
+/// Returns the slopes of the weights on each axis (1/m), from the distances of the nodes (m).
 #[inline(always)]
 fn slopes(d: &[[f64; 3]; 3], h: f64) -> [[f64; 3]; 3] {
     let mut slopes = [[0.0; 3]; 3];
@@ -14,7 +14,7 @@ fn slopes(d: &[[f64; 3]; 3], h: f64) -> [[f64; 3]; 3] {
     slopes
 }
 
-/// One step of APIC, or else of FLIP, of length `dt` (s) on a grid of cells `h` (m) with `n` nodes
+/// Makes one step of APIC or FLIP of length `dt` (s) on a grid of cells `h` (m) with `n` nodes
 /// along each axis.
 #[inline(never)]
 pub(crate) fn step<const APIC: bool>(

@@ -1,6 +1,6 @@
-//! Hats in 1-D, FLIP.
+//! Hat functions in 1-D, FLIP.
 
-/// Mass and momentum of nodes.
+/// Computes mass and momentum of the nodes.
 #[inline(never)]
 pub(crate) fn p2g(h: f64, x: &[f64], v: &[f64], m: &[f64], mass: &mut [f64], momentum: &mut [f64]) {
     mass.fill(0.0);
@@ -17,7 +17,8 @@ pub(crate) fn p2g(h: f64, x: &[f64], v: &[f64], m: &[f64], mass: &mut [f64], mom
     }
 }
 
-/// Change of the velocities of particles by accelerations of nodes, and where nodes carry them.
+/// Changes particle velocities by nodal accelerations, and computes positions from nodal
+/// velocities.
 #[inline(never)]
 pub(crate) fn g2p(
     (h, dt): (f64, f64),

@@ -1,6 +1,6 @@
 //! A whole step of MLS-MPM in 2-D: quadratic B-splines, update stress last, neo-Hookean.
 
-/// Body and grid, in columns.
+/// Particles and grid, with a column for each quantity.
 pub(crate) struct Body {
     pub(crate) x: Vec<[f64; 2]>,
     pub(crate) v: Vec<[f64; 2]>,
@@ -16,7 +16,7 @@ pub(crate) struct Body {
     pub(crate) nodes: Vec<[f64; 5]>,
 }
 
-/// Weights of the three nodes on each axis, their distances from the particle (m), and the first.
+/// Returns the first of three nodes on each axis, with their weights and distances (m).
 #[inline(always)]
 fn weights(x: &[f64; 2], h: f64) -> ([usize; 2], [[f64; 3]; 2], [[f64; 3]; 2]) {
     let (mut base, mut w, mut d) = ([0; 2], [[0.0; 3]; 2], [[0.0; 3]; 2]);
@@ -30,7 +30,7 @@ fn weights(x: &[f64; 2], h: f64) -> ([usize; 2], [[f64; 3]; 2], [[f64; 3]; 2]) {
     (base, w, d)
 }
 
-/// One step of length `dt` (s) on a grid of cells `h` (m) with `n` nodes along each axis.
+/// Makes one step of length `dt` (s) on a grid of cells `h` (m) with `n` nodes along each axis.
 #[inline(never)]
 pub(crate) fn step(body: &mut Body, (h, n, dt): (f64, [usize; 2], f64), (lambda, mu): (f64, f64)) {
     let inverse = 4.0 / (h * h);

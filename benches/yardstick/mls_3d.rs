@@ -1,6 +1,6 @@
 //! A whole step of MLS-MPM in 3-D: quadratic B-splines, update stress last, neo-Hookean.
 
-/// Body and grid, in columns.
+/// Particles and grid, with a column for each quantity.
 pub(crate) struct Body {
     pub(crate) x: Vec<[f64; 3]>,
     pub(crate) v: Vec<[f64; 3]>,
@@ -16,7 +16,7 @@ pub(crate) struct Body {
     pub(crate) nodes: Vec<[f64; 7]>,
 }
 
-/// Weights of the three nodes on each axis, their distances from the particle (m), and the first.
+/// Returns the first of three nodes on each axis, with their weights and distances (m).
 #[inline(always)]
 pub(super) fn weights(x: &[f64; 3], h: f64) -> ([usize; 3], [[f64; 3]; 3], [[f64; 3]; 3]) {
     let (mut base, mut w, mut d) = ([0; 3], [[0.0; 3]; 3], [[0.0; 3]; 3]);
@@ -30,7 +30,7 @@ pub(super) fn weights(x: &[f64; 3], h: f64) -> ([usize; 3], [[f64; 3]; 3], [[f64
     (base, w, d)
 }
 
-/// One step of length `dt` (s) on a grid of cells `h` (m) with `n` nodes along each axis.
+/// Makes one step of length `dt` (s) on a grid of cells `h` (m) with `n` nodes along each axis.
 #[inline(never)]
 pub(crate) fn step(body: &mut Body, (h, n, dt): (f64, [usize; 3], f64), (lambda, mu): (f64, f64)) {
     let inverse = 4.0 / (h * h);
@@ -99,7 +99,7 @@ pub(crate) fn step(body: &mut Body, (h, n, dt): (f64, [usize; 3], f64), (lambda,
     }
 }
 
-/// New F and stress of particle `p`, strained by `factor` times `rate`.
+/// Updates F and stress of particle `p` for the strain increment `factor` times `rate`.
 #[inline(always)]
 pub(super) fn deform(
     body: &mut Body,

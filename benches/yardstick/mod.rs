@@ -26,5 +26,5 @@ pub(crate) mod gradient_3d;
 /// A whole step of FLIP in 1-D.
 pub(crate) mod flip_1d;
 
-/// Hats in 1-D, FLIP.
+/// Hat functions in 1-D, FLIP.
 pub(crate) mod linear_1d;

@@ -5,16 +5,16 @@
 pub(crate) struct Bar {
     /// Lowest corner (m), cell size (m), number of cells.
     pub(crate) grid: (f64, f64, usize),
-    /// Whether the first and the last node are held.
+    /// Whether the first and the last node are fixed.
     pub(crate) held: [bool; 2],
-    /// Stress over strain (Pa).
+    /// Ratio of stress to strain (Pa).
     pub(crate) modulus: f64,
     pub(crate) x: Vec<f64>,
     pub(crate) v: Vec<f64>,
     pub(crate) mass: Vec<f64>,
     pub(crate) volume: Vec<f64>,
     pub(crate) stress: Vec<f64>,
-    /// Pairs of particle and node that were visited.
+    /// Number of particle-node pairs that were visited.
     pub(crate) visits: u64,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct Bar {
 type Cell = (usize, [f64; 2], [f64; 2]);
 
 impl Bar {
-    /// One step of length `dt` (s).
+    /// Makes one step of length `dt` (s).
     ///
     /// # Errors
     /// The number of a particle that has left the grid.
@@ -43,7 +43,8 @@ impl Bar {
             self.stress[p] += self.modulus * strain;
             self.x[p] += dt * g2p(&velocity, *node, *values);
         }
-        // Mass, force and momentum to the grid; acceleration, and velocity with its slope, back.
+        // Each particle has two nodes and five transfers: mass, force and momentum to the grid;
+        // acceleration, and velocity with its gradient, back.
         self.visits += 10 * cells.len() as u64;
         Ok(())
     }
@@ -59,7 +60,8 @@ impl Bar {
         Ok((node, [1.0 - right, right], [-1.0 / h, 1.0 / h]))
     }
 
-    /// Sums at the nodes of a term of each particle, its function's value and slope.
+    /// Sums a term of each particle at its two nodes. `term` gets the particle, and the value and
+    /// slope of the function.
     fn p2g(&self, cells: &[Cell], term: impl Fn(usize, f64, f64) -> f64) -> Vec<f64> {
         let mut nodes = vec![0.0; self.grid.2 + 1];
         for (p, (node, values, slopes)) in cells.iter().enumerate() {
@@ -70,7 +72,7 @@ impl Bar {
         nodes
     }
 
-    /// Nodal sums over masses; zero where nothing is, and where a node is held.
+    /// Divides nodal sums by nodal masses. The result is zero at empty nodes and at fixed nodes.
     fn per_mass(&self, sums: &[f64], mass: &[f64]) -> Vec<f64> {
         let [left, right] = self.held;
         let is_held = |i: usize| (left && i == 0) || (right && i == self.grid.2);
@@ -81,7 +83,7 @@ impl Bar {
     }
 }
 
-/// A nodal field at a particle.
+/// Interpolates a nodal field at a particle.
 fn g2p(nodes: &[f64], first: usize, values: [f64; 2]) -> f64 {
     nodes[first] * values[0] + nodes[first + 1] * values[1]
 }

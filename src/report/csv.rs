@@ -19,7 +19,6 @@ const OF_CASE: [&str; 9] = [
     "expected",
 ];
 
-/// Values of a row by column name.
 type CsvRow = HashMap<String, String>;
 
 /// Converts reports to CSV, with one row for each level of a convergence study, each value of a

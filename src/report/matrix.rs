@@ -12,7 +12,6 @@ pub(crate) const COLUMNS: [&str; 8] =
 const BASES: [&str; 6] =
     ["linear", "ugimp", "cpgimp", "cpdi", "quadratic_bspline", "cubic_bspline"];
 
-/// Explanation of the findings, printed with the matrix.
 pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
                                  this basis, over every transfer and time scheme. Instead of an \
                                  order: `floor`: the error stops falling; `grows`: it grows with \
@@ -23,7 +22,7 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
                                  studies. `low order` in the list above: the order is below the \
                                  expected one. The report of a suite states the reasons.";
 
-/// Class of a finding, from good to bad; determines its colour on the page.
+/// Class of a finding, from good to bad. The class determines the colour on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FindingClass {
     /// No order is measured: bounds, stability studies, and cases that do not apply.
@@ -39,7 +38,7 @@ pub(crate) enum FindingClass {
 }
 
 impl FindingClass {
-    /// Classes that have a colour of their own.
+    /// Classes with a separate colour.
     pub(crate) const SHOWN: [Self; 4] = [Self::Order, Self::LowOrder, Self::NoOrder, Self::Fails];
 
     /// Returns the name of the class in style sheets.
@@ -53,7 +52,6 @@ impl FindingClass {
         }
     }
 
-    /// Describes the class for the legend.
     pub(crate) fn meaning(self) -> &'static str {
         match self {
             Self::Other => "bounds, stability, or not applicable",
@@ -90,8 +88,8 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
     })
 }
 
-/// Counts the cases in each of [`COLUMNS`]: those with the expected order, and all with an order or
-/// an order-related verdict.
+/// Returns two counts for each of [`COLUMNS`]: cases with the expected order, and all cases whose
+/// order is judged.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
@@ -160,13 +158,12 @@ fn finding(cases: &[&CaseOutcome]) -> String {
     if parts.is_empty() { "-".to_owned() } else { parts.join("/") }
 }
 
-/// Returns the observed order of a case, if it has one.
 fn order(case: &CaseOutcome) -> Option<f64> {
     let study = case.convergence().filter(|_| word(case).is_none())?;
     study.judgement.order.map(|order| order.value)
 }
 
-/// Returns the text for a case whose verdict is not an order.
+/// Returns the text that replaces the order of a case; `None` if the order is shown.
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());

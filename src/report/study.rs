@@ -13,13 +13,11 @@ use crate::verify::{
 };
 use serde_json::{Map, Value, json};
 
-/// One report for each kind of study.
 pub(crate) const KINDS: [&dyn StudyReport; 5] =
     [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
 
 /// Report of one kind of study. Cases of other kinds add nothing to the report.
 pub(crate) trait StudyReport: Sync {
-    /// Adds the tables of all cases of a suite to `lines`.
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
 
     /// Returns the remarks on one case that no table contains.
@@ -30,7 +28,6 @@ pub(crate) trait StudyReport: Sync {
     /// Returns the JSON keys of one case; the values are null if the case is of another kind.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
-    /// Draws the figures of a suite.
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure>;
 }
 
@@ -47,7 +44,6 @@ pub(crate) fn members(object: Value) -> Map<String, Value> {
     }
 }
 
-/// Report of convergence studies ([`Convergence`]).
 pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
@@ -94,7 +90,6 @@ fn remarks(study: &Convergence) -> Vec<String> {
     too_long.into_iter().chain(failures).chain(floor).collect()
 }
 
-/// Returns quantity, norm, scale and box of the judged errors as JSON.
 fn judge(study: &Convergence) -> Value {
     let corner = |corner: &[f64]| corner.iter().map(|x| number(*x)).collect::<Vec<_>>();
     let within = study.within.as_ref();
@@ -121,7 +116,6 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-/// Report of internal-force studies ([`InternalForce`]).
 pub(crate) struct InternalForceReport;
 
 impl StudyReport for InternalForceReport {
@@ -148,7 +142,6 @@ impl StudyReport for InternalForceReport {
     }
 }
 
-/// Report of stability studies ([`StabilityStudy`]).
 pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
@@ -174,7 +167,6 @@ impl StudyReport for StabilityReport {
     }
 }
 
-/// Converts the rows of a stability study to JSON.
 fn stability_json(study: &StabilityStudy) -> Value {
     let columns = json_columns(study);
     json!({
@@ -184,7 +176,6 @@ fn stability_json(study: &StabilityStudy) -> Value {
     })
 }
 
-/// Report of gradient studies ([`GradientStudy`]).
 pub(crate) struct GradientReport;
 
 impl StudyReport for GradientReport {
@@ -206,7 +197,6 @@ impl StudyReport for GradientReport {
     }
 }
 
-/// Converts all checks of one derivative to JSON.
 fn gradient_json(study: &GradientStudy) -> Value {
     let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
     let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
@@ -225,7 +215,6 @@ fn gradient_json(study: &GradientStudy) -> Value {
     })
 }
 
-/// Report of spectrum studies ([`SpectrumStudy`]).
 pub(crate) struct SpectrumReport;
 
 impl StudyReport for SpectrumReport {

@@ -16,8 +16,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a file, which detects truncated files: the last keys are optional, and a number
-/// without its last digits is still a number.
+/// Last line of a complete file. Without this line, a truncated file could be valid, because the
+/// last keys are optional and a shortened number is still a number.
 const END: &str = "# end\n";
 
 /// A folder that stores the results of finished levels.
@@ -94,7 +94,6 @@ fn save(path: &Path, key: &str, level: &impl Serialize) -> io::Result<()> {
     write_whole(path, &unfinished, text(key, level)?.as_bytes())
 }
 
-/// Formats the contents of a file.
 fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }

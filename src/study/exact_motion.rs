@@ -1,7 +1,7 @@
 //! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are computed at regular points of the body and the run. The points and times of the
-//! problem's survey, which resolve a narrow pulse, are included.
+//! Extremes are computed at regular points of the body and the run. The points and times of a
+//! `Survey`, which resolve a narrow pulse, are included.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
@@ -54,7 +54,6 @@ const ALONG: [usize; 3] = [16, 8, 4];
 /// Number of sampling intervals over the run.
 const OVER: usize = 8;
 
-/// Largest values of a motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Extremes {
     /// Largest |u| (m) along each axis.
@@ -74,7 +73,6 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
-    /// Computes the extremes of the motion that `problem` states.
     pub(crate) fn of(problem: &Problem) -> Self {
         let labels = raster(problem, ALONG[problem.dimension().clamp(1, 3) - 1]);
         let mut motion = problem.motion.at_places(labels.iter().map(Vec::as_slice));
@@ -122,8 +120,8 @@ impl Extremes {
     }
 }
 
-/// Maximum angle (rad) of the motion, during the time in which a wave crosses the body, for which
-/// the body responds quasi-statically. The second harmonic of the motion then has at most a fifth
+/// The body responds quasi-statically if the phase of the motion changes by less than this angle
+/// (rad) while a wave crosses the body. The second harmonic of the motion then has at most a fifth
 /// of the frequency of the body's lowest mode.
 const SLOW: f64 = 0.3;
 
@@ -132,8 +130,8 @@ const SLOW: f64 = 0.3;
 pub struct Linearisation {
     /// Residual of the equation of motion and of tractions, relative to their terms.
     pub residual: f64,
-    /// Estimated error (m) of the displacement at the end. If the suite judges the largest error
-    /// over the instants, it is the largest error of the run.
+    /// Estimated error (m) of the displacement at the end, or the largest one during the run if the
+    /// suite judges the largest error over the instants.
     pub error: f64,
 }
 
@@ -146,10 +144,11 @@ impl Linearisation {
     /// estimated from the residual, within about a factor of ten:
     ///
     /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
-    /// is therefore a force 2 r a per unit mass. Its error is r a t^2 at first. Later it is r a
-    /// t/omega if the force is in resonance with a mode, like the second harmonic of a wave without
-    /// dispersion. A stiff body that responds quasi-statically is displaced at most like a fixed
-    /// bar of its length L, by r a L^2/c^2. At rest the error is about r u.
+    /// is therefore a force 2 r a per unit mass. The error due to this force is r a t^2 at first.
+    /// Later the error is r a t/omega if the force is in resonance with a mode, like the second
+    /// harmonic of a wave without dispersion. A stiff body that responds quasi-statically is
+    /// displaced at most like a fixed bar of the same length L, by r a L^2/c^2. At rest the error
+    /// is about r u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

@@ -19,7 +19,6 @@ impl Study for ForcePlan {
     }
 }
 
-/// Runs the cases of an internal-force study.
 struct ForceRunner<'a>(&'a ForcePlan);
 
 impl CaseRunner for ForceRunner<'_> {
@@ -34,7 +33,6 @@ impl CaseRunner for ForceRunner<'_> {
     }
 }
 
-/// Returns the rows that describe the study.
 fn rows(plan: &ForcePlan) -> Rows {
     let mut rows = Rows::new();
     push(&mut rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));

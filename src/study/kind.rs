@@ -53,10 +53,8 @@ pub struct StepWarning {
     pub is_too_long: bool,
 }
 
-/// Callback that shows a run.
 pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), SeriesError>;
 
-/// Runs the cases of one study.
 pub(crate) trait CaseRunner: Send + Sync {
     /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;
@@ -67,29 +65,26 @@ pub(crate) trait CaseRunner: Send + Sync {
         Vec::new()
     }
 
-    /// Calls `then` with the most informative run of a case. This is the first run that failed or
-    /// grew in `outcome`, or the last run if there is none.
+    /// Passes the most informative run of a case to the callback: the first run that failed or
+    /// grew, or the last run if there is none.
     ///
     /// # Errors
-    /// The errors of `then`, or the reason why there is no such run.
+    /// The errors of the callback, or the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to show".into())
     }
 
-    /// Runs the case with this index.
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
 /// Inputs of the runs of a suite in addition to its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
-    /// Name of the suite.
     pub(crate) suite: &'a str,
     /// Hash of the suite text.
     pub(crate) fingerprint: u64,
     /// Whether usual levels or all levels run.
     pub(crate) extent: Extent,
-    /// Cache with the results of earlier runs.
     pub(crate) cache: Option<&'a ResultCache>,
     /// Number of times that each level of a convergence study runs.
     pub(crate) repeat: usize,

@@ -179,7 +179,6 @@ impl Shard {
     }
 }
 
-/// Predicts the time (s) of each case.
 fn seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let predicted = estimates(suite, extent).into_iter();
     predicted.map(|cost| SET_UP + cost.map_or(UNKNOWN, |cost| cost.seconds)).collect()

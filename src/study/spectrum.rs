@@ -1,4 +1,4 @@
-//! The spectrum study: runs one wave after another for each case.
+//! The spectrum study: runs every wave of each case.
 
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::report::columns::distinct;
@@ -21,15 +21,13 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Relative phase error. Reports state the wavelength at which it is reached.
+/// Relative phase error for which reports state the number of cells per wavelength.
 const ONE_PERCENT: f64 = 0.01;
 
-/// Returns the capabilities that a run requires of a solver.
 fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
     of_scene(&plan.scene)
 }
 
-/// Runs the waves of one case.
 struct WaveRun<'a> {
     plan: &'a SpectrumPlan,
     case: &'a SpectrumCase,
@@ -55,7 +53,6 @@ impl WaveRun<'_> {
         self.plan.waves.iter().map(of).collect()
     }
 
-    /// Returns the result row of one wave.
     fn row(&self, wave: &Wave, cells_for_one_percent: Option<f64>) -> SpectrumRow {
         let (cells, courant) = (wave.cells, wave.courant);
         let predicted = self.case.curve.map(|curve| {
@@ -80,7 +77,6 @@ impl WaveRun<'_> {
         }
     }
 
-    /// Returns the number of steps in the run of `wave`.
     fn steps(&self, wave: &Wave) -> u64 {
         let log_kept = self
             .case
@@ -104,7 +100,6 @@ impl WaveRun<'_> {
         self.context.cached(&key, &name, |_| false, run)
     }
 
-    /// Creates the subject at the start of a run of `wave` in `scene`.
     fn subject(
         &self,
         scene: &Scene,
@@ -152,7 +147,6 @@ impl WaveRun<'_> {
     }
 }
 
-/// Lists the capabilities that the study requires and `solver` lacks.
 fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
     let mut lacks = solver.lacks(&needs(plan));
     if solver.precision() == Precision::Single {
@@ -175,7 +169,6 @@ impl Study for SpectrumPlan {
     }
 }
 
-/// Runs the cases of a spectrum study.
 struct SpectrumRunner<'a> {
     plan: &'a SpectrumPlan,
     context: RunContext<'a>,
@@ -219,7 +212,7 @@ impl CaseRunner for SpectrumRunner<'_> {
 /// Creates the part of an outcome that is known before the case runs.
 fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOutcome {
     let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
-    // A periodic row has no walls.
+    // A periodic domain has no walls.
     settings.extend(case.method.settings().into_iter().filter(|(key, _)| key != "walls"));
     let expected = case.expected.as_ref();
     CaseOutcome {
@@ -229,7 +222,6 @@ fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOut
     }
 }
 
-/// Creates the outcome of a case from its rows.
 fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) -> CaseOutcome {
     let unmet: Vec<String> = case
         .expected
@@ -251,7 +243,6 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
     }
 }
 
-/// Returns the rows that describe the study.
 fn rows(plan: &SpectrumPlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);

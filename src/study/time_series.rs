@@ -19,9 +19,7 @@ pub(crate) struct ShownRun<'a> {
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
-    /// Number of steps.
     pub(crate) steps: u64,
-    /// Exact solution, if there is one.
     pub(crate) truth: Option<&'a dyn Truth>,
 }
 
@@ -169,7 +167,6 @@ fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     all.into_iter().filter_map(field).collect()
 }
 
-/// Returns the values of a field for a range of particles.
 fn part(field: &StateField, particles: std::ops::Range<usize>) -> StateField {
     let n = field.components;
     let numbers = field.numbers[particles.start * n..particles.end * n].to_vec();

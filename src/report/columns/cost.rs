@@ -6,7 +6,6 @@ use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
-/// Returns the columns of the work for each target error.
 pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = vec![name("method")];
     for (k, target) in ranking.targets.iter().enumerate() {
@@ -49,7 +48,6 @@ fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
         .flush_left()
 }
 
-/// Returns the columns of the exponents, for methods with a known exponent.
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
     let columns = exponent().map(|column| column.within(|row: &Ranked| row.exponent.as_ref()));
     std::iter::once(name("work ~ error^k")).chain(columns).collect()
@@ -80,7 +78,6 @@ fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
     ]
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = methods(ranking);
     columns.extend([
@@ -98,7 +95,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Whether and where a series reaches a target error, and the ratio of its work to the minimum over
+/// Whether and where a method reaches a target error, and its work divided by the minimum work of
 /// all methods.
 type Reached = (Reach, Option<f64>);
 
@@ -116,7 +113,6 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
     ]
 }
 
-/// Returns the columns of the coefficients of the cost model.
 pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     let column = |k: usize, heading: &'static str, key: &'static str| {
         TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
@@ -133,11 +129,9 @@ pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
     ]
 }
 
-/// Name of a case, its cost model, and the relative error with which the model predicted the finest
-/// level.
+/// Case name, cost model, and relative error of the model's prediction for the finest level.
 pub(crate) type FittedModel = (String, Model, Option<f64>);
 
-/// Returns the columns of the cost models.
 pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     let name =
         TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
@@ -149,7 +143,6 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
-/// Describes the agreement with theory, or the main difference.
 fn agreement(found: &Exponent) -> String {
     match found.agreement() {
         Agreement::Agrees => "agrees".to_owned(),

@@ -3,7 +3,6 @@
 use super::{Cell, TableColumn, decimals, scientific};
 use crate::verify::ForceRow;
 
-/// Returns all columns.
 pub(crate) fn columns<'a>() -> [TableColumn<'a, ForceRow>; 6] {
     [
         TableColumn::<ForceRow>::new(

@@ -35,7 +35,6 @@ pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
     all.zip(taylor.differences()).map(row).collect()
 }
 
-/// Returns the columns of the levels.
 pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
     let of = |key, about, value: fn(&GradientLevel) -> f64| {
@@ -57,7 +56,6 @@ pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     ]
 }
 
-/// Returns the columns of the perturbations.
 pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
     vec![
@@ -76,7 +74,6 @@ pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     ]
 }
 
-/// Returns the columns of the points of a sweep, in JSON only.
 pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     type SweepColumn<'a> = TableColumn<'a, SweepPoint>;
     vec![
@@ -88,7 +85,6 @@ pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     ]
 }
 
-/// Converts the sweep of a study to JSON.
 pub(crate) fn sweep(study: &GradientStudy) -> Option<Value> {
     let sweep = study.sweep.as_ref()?;
     let jumps: Vec<Value> = sweep.jumps.iter().map(|jump| number(*jump)).collect();

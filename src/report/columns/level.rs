@@ -8,7 +8,6 @@ use crate::verify::{
 };
 use serde_json::Value;
 
-/// A level of a study.
 pub(crate) struct LevelRow<'a> {
     study: &'a Convergence,
     index: usize,
@@ -25,7 +24,6 @@ pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
     study.levels.iter().enumerate().map(move |(index, level)| LevelRow { study, index, level })
 }
 
-/// Returns the column of the cells along the first axis.
 pub(crate) fn cells<'a>() -> LevelColumn<'a> {
     LevelColumn::new("cells", "cells", "cells along the first axis", |row| {
         Cell::plain(row.level.cells)
@@ -40,7 +38,8 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// Returns the column of the spacing of the refined axis, which identifies a level in tables.
+/// Returns the column that identifies a level: the number of cells, the time step or the number of
+/// particles per cell, whichever is refined.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -49,13 +48,11 @@ pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     }
 }
 
-/// Returns the names of the levels of a study, as headings of its tables.
 pub(crate) fn names(study: &Convergence) -> Vec<String> {
     let name = name(study.axis);
     rows(study).map(|row| name.cell(&row).text).collect()
 }
 
-/// Returns the column of the judged error.
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     let about = "judged error; in brackets if the level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
@@ -65,13 +62,12 @@ pub(crate) fn judged<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Returns the column of the order between consecutive levels.
 pub(crate) fn order<'a>() -> LevelColumn<'a> {
     let about = "order between the next coarser level and this one";
     LevelColumn::new("order", "order", about, |row| Cell::number(row.level.order, decimals(2)))
 }
 
-/// Returns the columns of the norms of the displacement error (m) at the end.
+/// Returns the columns of the displacement error norms (m).
 fn norms<'a>() -> [LevelColumn<'a>; 5] {
     let column = |key: &'static str, about: &'static str, norm: fn(&RunErrors) -> f64| {
         LevelColumn::json(key, about, move |row| {
@@ -87,7 +83,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns the columns of the largest error at the end and its order, if another norm is judged.
+/// Returns two columns: the largest error at the end, unless it equals the judged error, and its
+/// order.
 pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
     let heading = if is_primary { "linf at end" } else { "linf of displacement at end" };
     let about = "order of linf between the next coarser level and this one";
@@ -106,7 +103,6 @@ pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
     ]
 }
 
-/// Returns the column of the largest difference between repeated runs.
 pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     let about = "largest difference between repeated runs, in the norm and over the scale of the \
                  error";
@@ -117,7 +113,6 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Returns the column of the error of the observed velocity.
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     let about = "error of the observed velocity, divided by its largest exact value";
     LevelColumn::text("velocity", about, |row| {
@@ -126,7 +121,6 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
     })
 }
 
-/// Returns the columns of the work and of values that explain the error of a level.
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     vec![
         LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
@@ -188,7 +182,6 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
     ]
 }
 
-/// Returns the column of the relative drift of a conserved sum.
 pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     let about = "largest relative change of the sum since t = 0";
     LevelColumn::new(sum.words(), sum.name(), about, move |row| {
@@ -196,7 +189,6 @@ pub(crate) fn drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// Returns the column of the largest relative drift of a conserved sum over all levels.
 pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     LevelColumn::text(sum.words(), "largest drift of any level", move |row| {
         let of_level = |row: &LevelRow<'_>| row.level.run.drift.map_or(0.0, |drift| drift.of(sum));
@@ -205,7 +197,6 @@ pub(crate) fn largest_drift<'a>(sum: Conserved) -> LevelColumn<'a> {
     })
 }
 
-/// Returns the columns of the energy rate, d ln E/dt (1/s).
 pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     let column = |heading: &'static str, about: &'static str, end: fn(Interval) -> f64| {
         LevelColumn::new(heading, "", about, move |row| {
@@ -220,7 +211,6 @@ pub(crate) fn energy_rate<'a>() -> [LevelColumn<'a>; 3] {
     ]
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
     let mut columns = vec![cells(), dt(), ppc(), judged(), order(), spread()];
     columns.extend(norms());
@@ -270,7 +260,8 @@ impl LevelRow<'_> {
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Returns the largest error at the end, for the primary unknown of the study.
+    /// Returns the largest error at the end: of the judged quantity if it is a primary unknown,
+    /// otherwise of the displacement.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =
@@ -285,7 +276,6 @@ impl LevelRow<'_> {
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))
     }
 
-    /// Whether the level counts for the verdict.
     fn counts(&self) -> bool {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();
         let is_in_window = self.level.exclusion().is_none() && window.contains(&self.index);

@@ -17,7 +17,6 @@ pub(crate) mod stability;
 mod tests;
 pub(crate) mod timed_level;
 
-/// A value as text and as JSON.
 #[derive(Debug, Clone)]
 pub(crate) struct Cell {
     pub(crate) text: String,
@@ -25,17 +24,14 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// Creates a cell with different values in text and JSON.
     pub(crate) fn new(text: impl Text, json: impl Into<Value>) -> Self {
         Self { text: text.text(), json: json.into() }
     }
 
-    /// Creates a cell in text only.
     pub(crate) fn text(text: impl Text) -> Self {
         Self::new(text, Value::Null)
     }
 
-    /// Creates a cell in JSON only.
     pub(crate) fn json(json: impl Into<Value>) -> Self {
         Self::new(None::<String>, json)
     }
@@ -51,13 +47,12 @@ impl Cell {
         Self::new(value.map(format), value.map(number))
     }
 
-    /// Replaces the text by `failed` if there is a failure.
     pub(crate) fn or_failed(self, failure: Option<&String>) -> Self {
         if failure.is_some() { Self { text: "failed".to_owned(), ..self } } else { self }
     }
 }
 
-/// A name or a count as text; a dash for `None`.
+/// Converts a name or a count to text, and `None` to a dash.
 pub(crate) trait Text {
     fn text(self) -> String;
 }
@@ -79,7 +74,6 @@ impl<T: Text> Text for Option<T> {
     }
 }
 
-/// Returns a function that formats a number with `count` decimals.
 pub(crate) fn decimals(count: usize) -> impl Fn(f64) -> String {
     move |value| format!("{value:.count$}")
 }
@@ -104,7 +98,6 @@ fn two_digit_exponent(text: &str) -> String {
     format!("{mantissa}e{sign}{digits:0>2}")
 }
 
-/// A column of a table with rows of type `R`.
 pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Heading in text and Markdown.
     pub(crate) heading: Cow<'a, str>,
@@ -129,7 +122,6 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
     }
 
-    /// Creates a column in text only.
     pub(crate) fn text<V: Text>(
         heading: impl Into<Cow<'a, str>>,
         about: &'static str,
@@ -138,7 +130,6 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new(heading, "", about, move |row| Cell::text(text(row)))
     }
 
-    /// Creates a column in JSON only.
     pub(crate) fn json<V: Into<Value>>(
         key: &'static str,
         about: &'static str,
@@ -147,26 +138,22 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         Self::new("", key, about, move |row| Cell::json(json(row)))
     }
 
-    /// Aligns the column to the left.
     pub(crate) fn flush_left(self) -> Self {
         Self { flush_left: true, ..self }
     }
 
-    /// Adapts the column to a table whose rows contain an optional `R`; rows without it have
-    /// dashes.
+    /// Adapts the column to a table whose rows may contain an `R`. Rows without an `R` show a dash.
     pub(crate) fn within<S: 'a>(self, part: impl Fn(&S) -> Option<&R> + 'a) -> TableColumn<'a, S> {
         let Self { heading, key, about, flush_left, cell } = self;
         let cell = move |row: &S| part(row).map_or_else(|| Cell::json(Value::Null), &cell);
         TableColumn { heading, key, about, flush_left, cell: Box::new(cell) }
     }
 
-    /// Returns the value of the column in a row.
     pub(crate) fn cell(&self, row: &R) -> Cell {
         (self.cell)(row)
     }
 }
 
-/// Converts a row to a JSON object.
 pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {
@@ -191,7 +178,7 @@ pub(crate) fn number(value: f64) -> Value {
     }
 }
 
-/// Returns an estimate with both ends of its interval.
+/// Converts an estimate and its confidence interval to JSON.
 pub(crate) fn interval(estimate: Interval) -> Value {
     let Interval { value, low, high } = estimate;
     json!({"value": number(value), "low": number(low), "high": number(high)})

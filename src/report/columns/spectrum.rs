@@ -5,7 +5,6 @@ use crate::verify::{SpectrumRow, WaveFigures};
 
 type WaveColumn<'a> = TableColumn<'a, SpectrumRow>;
 
-/// Returns the column of a number, whose text is formatted by `format`.
 fn figure<'a>(
     heading: &'static str,
     key: &'static str,
@@ -16,7 +15,6 @@ fn figure<'a>(
     WaveColumn::new(heading, key, about, move |row| Cell::number(value(row), format))
 }
 
-/// Formats a relative error in per cent.
 fn percent(value: f64) -> String {
     format!("{:.4} %", 100.0 * value + 0.0)
 }
@@ -53,7 +51,6 @@ fn courant<'a>() -> WaveColumn<'a> {
     )
 }
 
-/// Returns the columns of the waves.
 pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         cells(),
@@ -90,7 +87,7 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// Returns the columns of the Courant numbers: closed-form values that no run confirms.
+/// Returns the columns of closed-form values for each Courant number. No run confirms these values.
 pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),
@@ -111,7 +108,6 @@ pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<WaveColumn<'a>> {
     let mut columns = waves();
     columns.extend(curves().into_iter().skip(1));

@@ -10,14 +10,12 @@ use serde_json::{Value, json};
 type RowColumn<'a> = TableColumn<'a, StabilityRow>;
 type TrialColumn<'a> = TableColumn<'a, Trial>;
 
-/// Returns the column of the swept parameter.
 fn swept(study: &StabilityStudy) -> RowColumn<'_> {
     RowColumn::new(study.swept.as_str(), "value", "value of the swept parameter", |row| {
         Cell::new(row.value.to_string(), number(row.value))
     })
 }
 
-/// Returns the column of one quantity of a run.
 fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
     TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
         let value = figure.of(trial);
@@ -43,7 +41,7 @@ fn steps<'a>() -> TrialColumn<'a> {
 
 /// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
-    // The table of the ledger has the figures in joules.
+    // The ledger table prints the other ledger quantities in joules.
     let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;
     let figures = study.figures.iter().filter(is_here).map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
@@ -51,7 +49,7 @@ pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     std::iter::once(swept(study)).chain(columns).collect()
 }
 
-/// Returns the columns of limits of the parameter `sought`.
+/// Returns the columns of limits; `sought` is the parameter whose limit is searched.
 pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let mut columns = vec![
         swept(study),
@@ -75,7 +73,8 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
     columns
 }
 
-/// Returns one column for each fraction of the predicted limit at which a run confirms the limit.
+/// Returns one column for each fraction of the predicted limit at which a run checks the
+/// prediction.
 fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let critical = study.rows.iter().filter_map(|row| row.critical.as_ref());
     let longest = critical.max_by_key(|critical| critical.confirmed.len());
@@ -91,7 +90,6 @@ fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> 
     shares.map(column).collect()
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let mut columns = limits(study, study.sought.as_deref().unwrap_or_default());
     columns.extend([
@@ -131,15 +129,15 @@ fn confirmations(critical: &Critical) -> Value {
     critical.confirmed.iter().map(run).collect()
 }
 
-/// Returns the limit of a row, predicted or observed.
 pub(crate) fn limit_of(row: &StabilityRow) -> Option<StabilityLimit> {
     row.critical.as_ref().and_then(Critical::limit)
 }
 
-/// Share of an energy ledger below which a number is rounding.
+/// Energies below this fraction of the summed magnitudes of a ledger count as rounding errors.
 const ROUNDING: f64 = 1e-13;
 
-/// An energy (J) of a ledger with this sum of magnitudes (J); zero if it is rounding.
+/// Formats an energy (J) of a ledger whose magnitudes sum to `size` (J). A rounding error becomes
+/// `0`.
 pub(crate) fn ledger_text(energy: f64, size: f64) -> String {
     if energy.abs() <= ROUNDING * size { "0".to_owned() } else { scientific(energy) }
 }

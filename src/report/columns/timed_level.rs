@@ -6,7 +6,6 @@ use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};
 
-/// A level of a case with its work and time.
 pub(crate) struct TimedLevel<'a> {
     case: &'a CaseOutcome,
     level: &'a LevelOutcome,
@@ -34,7 +33,6 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
     })
 }
 
-/// Returns the columns of the levels.
 pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     [
         TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
@@ -68,7 +66,6 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     ]
 }
 
-/// Returns all columns with a JSON key.
 pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     let mut list: Vec<_> = columns().into();
     list.extend([
@@ -91,13 +88,12 @@ pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
     list
 }
 
-/// Converts median and quartiles (s) to JSON.
 pub(crate) fn timing(timing: Timing) -> Value {
     let Timing { median, low, high, repeats } = timing;
     json!({"median": number(median), "low": number(low), "high": number(high), "repeats": repeats})
 }
 
-/// Returns the number of bytes that every particle has.
+/// Returns the memory per particle (bytes), without columns that only some particles have.
 fn bytes_of_a_particle(profile: &Profile) -> usize {
     let whole = |column: &&ColumnSize| {
         column.holder == Holder::Particle && column.entries == profile.particles

@@ -62,9 +62,8 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Selects the error change to report: on the finest level that newly fails or no longer fails,
-/// otherwise on the finest level, otherwise on the level with the largest change. `None` without a
-/// change.
+/// Selects the error change to report. Levels that newly fail or no longer fail come first, then
+/// the finest level, then the level with the largest change. Returns `None` without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,
@@ -73,7 +72,7 @@ pub(super) fn error(
     let counts = |level: &LevelDocument| level.counts.unwrap_or(true);
     let counting: Vec<LevelPair<'_>> =
         pairs.iter().filter(|(old, new)| counts(old) || counts(new)).copied().collect();
-    // If no level counts, for example at a floor, all levels are compared.
+    // If no level counts for the verdict, all levels are compared.
     let pairs = if counting.is_empty() { pairs } else { &counting };
     let moves: Vec<ErrorMove> =
         pairs.iter().filter_map(|pair| error_of(*pair, axis, tolerance)).collect();
@@ -112,13 +111,11 @@ pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     pairs.iter().map(ratio).max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
-/// Returns error and transfers of every level, in the order of the plan.
 pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
     let point = |level: &LevelDocument| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
     case.levels.iter().map(point).collect()
 }
 
-/// Returns the name of a level in its study.
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {
     let JsonNumber(spacing) = level.spacing;
     match (axis, level.ppc) {

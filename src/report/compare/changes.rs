@@ -8,7 +8,7 @@ use super::shared_words::SharedWord;
 pub enum Rank {
     /// The case no longer meets its expectations.
     Broken,
-    /// The verdict is worse, and the suite expects it, or expected it before.
+    /// The verdict is worse, but whether the case meets its expectations has not changed.
     WorseVerdict,
     /// The verdict is different, but neither better nor worse.
     OtherVerdict,
@@ -84,7 +84,6 @@ impl Rank {
 /// Result of comparing two runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReportComparison {
-    /// Suites whose problem has changed.
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
@@ -92,7 +91,6 @@ pub struct ReportComparison {
     pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose minimum work has changed, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
-    /// Number of unchanged cases.
     pub(super) unchanged: usize,
     /// Maximum relative difference of values that count as unchanged.
     pub(super) tolerance: f64,
@@ -106,7 +104,6 @@ pub(super) struct ProblemMove {
     pub(super) rows: Vec<[String; 3]>,
 }
 
-/// A case that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moved {
     /// `SUITE::CASE`.
@@ -127,7 +124,6 @@ pub(super) struct Moved {
     pub(super) weight: f64,
 }
 
-/// An error that has changed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ErrorMove {
     /// Old error; `None` if the level failed.
@@ -135,14 +131,13 @@ pub(super) struct ErrorMove {
     /// New error; `None` if the level fails.
     pub(super) new: Option<f64>,
     pub(super) worse: bool,
-    /// Name of the level with this error.
     pub(super) level: String,
 }
 
 /// Change of the minimum work for a target error.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CheapestMove {
-    /// Name of the suite, and of its problem if it has several.
+    /// Name of the suite, and of the problem if the suite has several.
     pub(super) place: String,
     pub(super) target: f64,
     /// Minimum work in the old run and the method with this work; `None` if no method reaches the
@@ -164,7 +159,6 @@ impl CheapestMove {
 }
 
 impl ErrorMove {
-    /// Returns the ratio of the new to the old error.
     pub(super) fn ratio(&self) -> Option<f64> {
         Some(self.new? / self.old?)
     }
@@ -192,7 +186,6 @@ impl ReportComparison {
         is_worse || self.moved.iter().any(|moved| moved.rank.is_worse())
     }
 
-    /// Returns the changes of this kind.
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
     }

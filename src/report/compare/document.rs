@@ -38,7 +38,6 @@ pub(super) struct SuiteDocument {
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct RankingDocument {
     pub(super) problem: String,
-    /// Unit of the work.
     pub(super) work: String,
     pub(super) targets: Vec<JsonNumber>,
     pub(super) methods: Vec<MethodDocument>,
@@ -161,13 +160,11 @@ impl ReportDocument {
         }
     }
 
-    /// Returns all cases with their suites.
     pub(super) fn cases(&self) -> impl Iterator<Item = (&SuiteDocument, &CaseDocument)> {
         self.suites.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)))
     }
 }
 
-/// Returns the name `SUITE::CASE`.
 pub(super) fn name(suite: &SuiteDocument, case: &CaseDocument) -> String {
     format!("{}::{}", suite.name, case.name)
 }
@@ -179,7 +176,6 @@ impl LevelDocument {
         (self.failure.is_none() && error.is_finite()).then_some(error)
     }
 
-    /// Whether the level failed or its error is not finite.
     pub(super) fn is_broken(&self) -> bool {
         self.failure.is_some() || self.judged.is_some_and(|JsonNumber(error)| !error.is_finite())
     }

@@ -20,8 +20,8 @@ pub(super) struct EqualError {
     pub(super) ratio: f64,
 }
 
-/// Returns the ratio of the work of `new` to that of `old` at the smallest round error (1, 2 or 5
-/// times a power of ten) within the converging parts of both; `None` if there is no such error.
+/// Compares the work at the smallest round error (1, 2 or 5 times a power of ten) within the
+/// converging parts of both series. Returns `None` if there is no such error.
 pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<EqualError> {
     let (old, new) = (converging(old)?, converging(new)?);
     let lowest = f64::max(old.last()?.0, new.last()?.0);
@@ -31,8 +31,8 @@ pub(super) fn compare(old: &[ErrorAndWork], new: &[ErrorAndWork]) -> Option<Equa
     Some(EqualError { target, ratio })
 }
 
-/// Returns the longest sequence of levels with decreasing error and increasing work; the coarser of
-/// two equally long ones.
+/// Returns the longest sequence of levels with decreasing error and increasing work. Of two equally
+/// long sequences, the coarser one is returned.
 fn converging(points: &[ErrorAndWork]) -> Option<&[ErrorAndWork]> {
     let usable = |(error, work): ErrorAndWork| error > 0.0 && work > 0.0;
     let goes_on =

@@ -43,7 +43,8 @@ pub fn text(comparison: &ReportComparison) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Maximum number of rows of a Markdown table, because comments are limited to 65536 characters.
+/// Maximum number of rows of a Markdown table. Comments on pull requests are limited to 65536
+/// characters.
 const MAX_ROWS: usize = 40;
 
 /// Writes a comparison as Markdown, for a comment on a pull request.
@@ -97,8 +98,8 @@ fn changes(moved: &[&Moved]) -> String {
     table(&columns, moved)
 }
 
-/// Creates the table of the minimum work for target errors, unfolded if an error requires more
-/// work.
+/// Creates the table of the minimum work for target errors. The table is unfolded if an error
+/// requires more work than before.
 fn cheapest(comparison: &ReportComparison) -> String {
     let moved: Vec<&CheapestMove> = comparison.cheapest.iter().collect();
     let Some(first) = moved.first() else { return String::new() };
@@ -217,7 +218,6 @@ fn errors(error: &ErrorMove) -> String {
     format!("{} -> {}", text(error.old), text(error.new))
 }
 
-/// Returns the columns of the minimum work for target errors.
 pub(super) fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
     [
         TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
@@ -294,8 +294,7 @@ pub(super) fn code(text: &str) -> String {
     format!("`{}`", text.chars().map(plain).collect::<String>())
 }
 
-/// Escapes all markup; the result is also valid in an attribute. The arrow of a change is not
-/// escaped.
+/// Escapes all markup, so the result is also valid in an HTML attribute. ` -> ` becomes an arrow.
 pub(super) fn prose(text: &str) -> String {
     let plain = |c: char| match c {
         c if c.is_control() => "\u{fffd}".to_owned(),

@@ -11,7 +11,6 @@ use crate::report::columns::distinct;
 use crate::verify::JudgedBox;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Implements [`compare`](super::compare()).
 pub(super) fn compare(
     old: &ReportDocument,
     new: &ReportDocument,
@@ -130,7 +129,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Describes differences in the judged quantity, the levels and the rows.
+/// Describes differences in the judged quantity, the levels and the rows of a stability study.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,

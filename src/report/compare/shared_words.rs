@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Fraction that must be exceeded twice: by worse cases among all cases with a word, and by worse
+/// Two fractions must exceed this value: the worse cases among all cases with a word, and the worse
 /// cases with a shared word among all worse cases.
 const MOST: f64 = 0.5;
 
@@ -21,9 +21,9 @@ pub(super) struct SharedWord {
 /// Finds words common to the names of several worse cases. `cases` are pairs of `SUITE::CASE` and
 /// whether the case became worse.
 ///
-/// Words in more worse cases come first; among these, words in fewer cases overall come first. A
-/// case counts only for the first of its words. The result is empty if at most half of the worse
-/// cases have a shared word.
+/// Words in more worse cases come first, then words in fewer cases overall. A case counts only for
+/// the first of its words. The result is empty if at most half of the worse cases have a shared
+/// word.
 pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
     let words = |name: &str| -> BTreeSet<String> {
         let case = name.rsplit("::").next().unwrap_or_default();

@@ -8,8 +8,8 @@ use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the overview of all suites. `report` returns the report of the suite with this group
-    /// and name, if there is one.
+    /// Reads the overview of all suites. `report` returns the report of a suite, given its group
+    /// and name, or `None` if there is no report.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let mut suites: Vec<SuiteDocument> = Vec::new();
         let (mut group, mut headings) = ("", Vec::new());
@@ -79,8 +79,8 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     }
 }
 
-/// Returns the rows of a report that describe the problem. The parts of a paragraph become separate
-/// rows.
+/// Returns the rows of a report that describe the problem. The row `problem` is split at
+/// semicolons.
 fn statement(report: &str) -> Vec<(String, String)> {
     let mut rows: Vec<(String, String)> = Vec::new();
     for line in report.lines().skip_while(|line| !line.starts_with("  source ")) {

@@ -4,7 +4,6 @@ use super::changes::ratio_moved;
 use super::document::JsonNumber;
 use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 
-/// Changes of a stability study.
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {
     /// Descriptions of rows with a changed verdict.
@@ -15,7 +14,7 @@ pub(super) struct StabilityMove {
     pub(super) limits: Vec<String>,
     /// Whether any of these limits is lower, and whether any is higher.
     pub(super) limit: [bool; 2],
-    /// Largest magnitude of the logarithm of a ratio of limits.
+    /// Largest `|ln(new limit/old limit)|` of all rows.
     pub(super) weight: f64,
     /// Number of rows that are in only one run.
     pub(super) lone: usize,

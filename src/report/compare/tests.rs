@@ -160,7 +160,6 @@ fn what_failed_before_is_not_worse_now() {
     assert_eq!(rank(&after(&broken, set("/levels/3/judged", json!(1e-4)))), Some(Rank::Better));
 }
 
-/// A new failure is reported even if the finest level has improved.
 #[test]
 fn a_new_failure_outweighs_a_better_finest_level() {
     let found = after(&case("a", 1.0, 1.0), |case| {
@@ -226,7 +225,6 @@ fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) 
     assert_eq!(rank(&after(&before, set("/levels/0/judged", json!(new)))), expected);
 }
 
-/// Small errors with an order are not rounding errors.
 #[test]
 fn a_small_error_with_an_order_counts() {
     let small = case("a", 1e-12, 1.0);

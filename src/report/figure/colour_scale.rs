@@ -15,7 +15,6 @@ const SHADES: u32 = 48;
 /// Minimum ratio of the largest to the smallest value for which the scale is logarithmic.
 const SPAN: f64 = 1e3;
 
-/// Scale that assigns colours to values.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ColourScale(Scale);
 
@@ -67,8 +66,8 @@ impl ColourScale {
     }
 }
 
-/// Text colour on dark fields; `OVER_LIGHT` is the colour on light fields. Fields and their texts
-/// look the same in both themes, so these colours are not in the palette.
+/// Text colours on dark and light fields. The palette does not contain these colours because they
+/// are the same in both themes.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#222";
 

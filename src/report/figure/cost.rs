@@ -21,7 +21,7 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    // Variants of methods follow the cases of the suite.
+    // Rankings may contain variants of the cases. Variants are styled after all cases.
     let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
     let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     for row in rows {
@@ -76,11 +76,10 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Whether the lines of two methods would coincide.
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
-    // Only levels that count for one of the methods must coincide.
+    // Levels that count for neither method need not coincide.
     let same = |(a, b): (&Sample, &Sample)| {
         let counts = a.counts() || b.counts();
         !counts || (near(a.work, b.work) && near(a.error, b.error))
@@ -88,7 +87,7 @@ fn coincide(a: &Ranked, b: &Ranked) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
-/// Returns the points of the levels. The levels of a divergent series are not marked as members of
+/// Returns the points of the levels. Only levels in the converging part are marked as members of
 /// the asymptotic window.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();

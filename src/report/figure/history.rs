@@ -33,7 +33,7 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Whether this is the exact solution, which is drawn as a thick light line.
     pub exact: bool,
-    /// Whether points have markers, except where these would overlap.
+    /// Whether points have markers. Markers that would overlap are omitted.
     pub markers: bool,
 }
 

@@ -90,7 +90,6 @@ impl LogLogPlot {
         if foot > MARGIN { frame(foot) } else { draft }
     }
 
-    /// Creates the slope triangles; there are none without data to compare with.
     fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
         let positive = |order: &f64| order.is_finite() && *order > 0.0;
         let has_data = lines.iter().any(|line| line.count() > 0);
@@ -111,7 +110,6 @@ impl LogLogPlot {
         if points.is_empty() { SvgElement::new("g") } else { band(&points) }
     }
 
-    /// Returns the legend entries: named lines, the front, other lines, and the marks that occur.
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
         if !self.front.is_empty() {

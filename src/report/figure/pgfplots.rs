@@ -11,7 +11,6 @@ use crate::report::latex::escaped;
 /// print.
 const MOST_POINTS: usize = 400;
 
-/// Position and alignment of the legend.
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
 /// Minimum length (decades) of a logarithmic axis on which powers of ten are the only labels.
@@ -44,13 +43,11 @@ impl PgfDocument {
         self.text.push('\n');
     }
 
-    /// Defines the colour `name` as `#rrggbb`.
     fn colour(&mut self, name: &str, colour: &str) {
         let digits = colour.trim_start_matches('#').to_uppercase();
         self.line(&format!("\\definecolor{{{name}}}{{HTML}}{{{digits}}}"));
     }
 
-    /// Adds one curve with its data.
     fn plot(&mut self, options: &str, points: impl Iterator<Item = (f64, f64)>) {
         self.line(&format!("\\addplot[{options}] table {{"));
         self.line("x y");
@@ -74,13 +71,12 @@ impl PgfDocument {
     }
 }
 
-/// Formats a number for PGFPlots.
 fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// Returns the option that adds labels between powers of ten to a short logarithmic axis with these
-/// values; an empty text for longer axes.
+/// Returns the tick options of a short logarithmic axis, which needs labels between powers of ten.
+/// The text is empty for longer axes.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
     if !(low > 0.0 && libm::log10(high / low) < SHORT) {
@@ -103,7 +99,6 @@ fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     format!(", {axis}tick={{{}}}, {axis}ticklabels={{{}}}", ticks.join(","), labels.join(","))
 }
 
-/// Returns title and labels as axis options.
 fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     format!(
         "title={{{}}}, xlabel={{{}}}, ylabel={{{}}}",
@@ -113,7 +108,6 @@ fn titles(title: &str, x_label: &str, y_label: &str) -> String {
     )
 }
 
-/// Returns the options for a marker, filled or hollow.
 fn mark(shape: MarkerShape, is_filled: bool) -> String {
     let (mark, rotation) = match shape {
         MarkerShape::Circle => ("*", 0),

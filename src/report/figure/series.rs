@@ -45,7 +45,6 @@ pub struct PlotSeries {
     pub points: Vec<PlotPoint>,
 }
 
-/// A level as it is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlotLevel {
     x: f64,
@@ -72,7 +71,6 @@ fn level(&PlotPoint { x, error, mark }: &PlotPoint) -> Option<PlotLevel> {
     })
 }
 
-/// A series with its style.
 pub(super) struct SeriesLine<'a> {
     name: &'a str,
     look: Look,
@@ -93,27 +91,22 @@ impl<'a> SeriesLine<'a> {
         Self { name: &series.name, look, grey: true, levels: levels(&series.points) }
     }
 
-    /// Whether the series has a name in the legend.
     pub(super) fn is_named(&self) -> bool {
         !self.grey
     }
 
-    /// Returns the number of drawn levels.
     pub(super) fn count(&self) -> usize {
         self.levels.len()
     }
 
-    /// Returns the values of `x` of all levels.
     pub(super) fn xs(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().map(|level| level.x)
     }
 
-    /// Returns the errors of all levels that have one.
     pub(super) fn errors(&self) -> impl Iterator<Item = f64> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
-    /// Returns the positions of the errors in pixels.
     pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
         self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
     }
@@ -174,7 +167,6 @@ const MARKS: [(Mark, &str); 4] = [
     (Mark::Failed, "failed or not finite"),
 ];
 
-/// Returns the legend entries of the named series.
 pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
 }

@@ -15,11 +15,11 @@ const MOST_SERIES: usize = 6;
 /// Maximum number of panels in one error map.
 const MOST_PANELS: usize = 24;
 
-/// Maximum ratio of the highest to the lowest curve for which plots share an axis.
+/// Maximum ratio of the largest to the smallest curve range for which plots share a vertical axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Draws convergence plots, split to remain readable; error maps; velocity histories of cases with
-/// an observed point; and energies if requested.
+/// Draws convergence plots, error maps, velocity histories of cases with an observed point, and
+/// energies of cases with a reported energy rate.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
     figures.extend(error_maps(outcome));
@@ -53,8 +53,8 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
 /// Width and height of a thumbnail (px).
 const THUMBNAIL: (f64, f64) = (96.0, 40.0);
 
-/// Draws the lines of all convergence plots of a suite in small, without axes and texts. `None` if
-/// there is nothing to draw.
+/// Draws all convergence curves of a suite as a thumbnail without axes and texts. `None` if there
+/// is nothing to draw.
 pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     let line = |(name, study): &(&str, &Convergence)| {
         let drawn = |value: f64| value.is_finite() && value > 0.0;
@@ -116,7 +116,6 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     }
 }
 
-/// Returns the label of the spacing axis.
 fn spacing(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
@@ -255,7 +254,6 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
     Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })
 }
 
-/// Plots the forces of an internal-force study.
 pub(crate) fn forces(outcome: &SuiteOutcome) -> Option<Figure> {
     let mut curves = Vec::new();
     for case in &outcome.cases {

@@ -58,8 +58,8 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
     })
 }
 
-/// Creates the JSON document, indented and with a final newline, from timed suites and from suites
-/// whose best candidate was searched.
+/// Creates the JSON document, indented and with a final newline. `best` contains names of suites
+/// with their best candidates.
 pub fn timed_json(timed: &[TimedSuite], best: &[(String, BestCandidate)]) -> String {
     let suites = timed.iter().map(suite).chain(best.iter().map(|(name, found)| {
         json!({"suite": name, "machine": null, "cases": [], "cost": [], "best_candidate": candidate(found)})

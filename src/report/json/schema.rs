@@ -1,5 +1,5 @@
-//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Keys and
-//! descriptions of rows are taken from the table columns; tests compare the rest with documents.
+//! JSON Schema (draft 2020-12) of the document that `run --format json` prints. Rows take their
+//! keys and descriptions from the table columns. Tests check the other keys against documents.
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
 use crate::verify::{

@@ -15,7 +15,6 @@ impl Html {
         Self(markup.into())
     }
 
-    /// Creates an element with attributes and content.
     pub(super) fn tag(name: &str, attributes: &[(&str, &str)], content: impl Into<Self>) -> Self {
         let content: Self = content.into();
         Self(format!("<{name}{}>{}</{name}>", self::attributes(attributes), content.0))
@@ -33,7 +32,6 @@ impl Html {
         Self(format!("<{name}{}>", self::attributes(attributes)))
     }
 
-    /// Returns the finished markup.
     pub(super) fn into_string(self) -> String {
         self.0
     }

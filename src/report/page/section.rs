@@ -7,7 +7,6 @@ use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::{svg, text};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
-/// Creates the section of a suite.
 pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
     let (id, suite) = (suite_id(outcome), outcome.suite.as_str());
@@ -93,7 +92,6 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     group.iter().enumerate().map(row).collect()
 }
 
-/// Adds the complete text report, initially folded.
 fn report(outcome: &SuiteOutcome) -> Html {
     let text = Html::text(&text(outcome));
     folded(
@@ -181,7 +179,6 @@ fn svg_width(document: &str) -> Option<f64> {
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-/// Returns the ids in a document, without duplicates.
 fn ids(document: &str) -> Vec<&str> {
     let mut ids: Vec<&str> = document
         .match_indices(" id=\"")

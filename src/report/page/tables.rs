@@ -22,7 +22,7 @@ pub struct SuiteSource<'a> {
     pub sketch: Option<&'a str>,
 }
 
-/// Creates a table of how many cases reach the order of theory, for each group of suites and each
+/// Creates the table that counts the cases with the formal order, for each group of suites and each
 /// basis.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
@@ -78,7 +78,7 @@ fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
 }
 
-/// Creates the table of all suites with their results, grouped under the names of their groups.
+/// Creates the table of all suites with their results, in groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
     let heads = Html::tag(
@@ -151,7 +151,6 @@ const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Expected", false),
 ];
 
-/// Creates the table of all verdicts, with one row for each case of each suite.
 pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();
@@ -199,7 +198,7 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     )
 }
 
-/// Wraps content that scrolls separately, also by keyboard, if it is wider than the screen.
+/// Wraps content in an element that scrolls, also by keyboard, if it is wider than the screen.
 pub(super) fn scrolled(label: &str, content: Html) -> Html {
     let attributes =
         [("class", "wide"), ("role", "region"), ("tabindex", "0"), ("aria-label", label)];
@@ -240,12 +239,11 @@ fn number(figure: Option<(f64, String)>) -> Html {
     Html::tag("td", &[("class", "number"), ("data-value", &value)], text)
 }
 
-/// Returns the id of a suite's section.
 pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
     format!("suite-{}", outcome.suite)
 }
 
-/// Returns the id of a case's row in the section of its suite. Names of suites contain no dot.
+/// Returns the id of a case's row. Ids are unique because names of suites contain no dot.
 pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }

@@ -68,7 +68,6 @@ fn tags(page: &str) -> Vec<(String, String)> {
     seen
 }
 
-/// Returns the values of an attribute, in the order of the page.
 fn values<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
     let key = format!(" {name}=\"");
     let value = |(at, _)| page[at + key.len()..].split('"').next();

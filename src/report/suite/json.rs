@@ -54,9 +54,9 @@
 //! `stable_time_step` (s) is present if the step is automatic or if the stated step is longer.
 //! `profile` is the cost of one step on the coarsest level, if the subject reports it (MPM): its
 //! `passes` in order, the particles that each part of them `visits`, and the `columns` of memory,
-//! with the `bytes` of one entry. `floor` contains the error of the finest level with half of
-//! another spacing, if this level was run. Its `cause` is one of the axes, or `none`, or null if it
-//! could not be determined.
+//! with the `bytes` of one entry. `floor` contains the error of the finest level with another
+//! spacing halved, if such a run exists. Its `cause` is one of the axes, or `none`, or null if the
+//! cause could not be determined.
 //!
 //! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
 //! lists the keys of rows.

@@ -10,7 +10,8 @@ use super::figure::cost;
 use super::study::KINDS;
 use crate::verify::{self, SuiteOutcome};
 
-/// Draws all figures of a suite: those of its kind of study, and error against work.
+/// Draws all figures of a suite: the figures of its kind of study, and diagrams of error against
+/// work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
     let rankings = verify::by_transfers(&outcome.cases);

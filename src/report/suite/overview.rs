@@ -80,8 +80,8 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Reports how many 95 % intervals of limits contain the exact value, and how many limits are
-/// refused.
+/// Reports how many 95 % intervals of extrapolated values contain the exact value, and how many
+/// cases have no estimate.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let studies: Vec<&Convergence> = cases.iter().filter_map(|case| case.convergence()).collect();
     let results = studies.iter().filter_map(|study| study.observed_limit);
@@ -98,12 +98,10 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     })
 }
 
-/// Groups suites, with the groups in alphabetical order.
 fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-/// Creates the matrix: headings, and one row for each suite in group order.
 fn matrix(outcomes: &[SuiteOutcome]) -> Table {
     let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
     let row = |suite: &&SuiteOutcome| {

@@ -33,7 +33,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
 
 /// Adds the statement of the problem: parameters and functions in rows, the rest in one paragraph.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The heading of the errors states the judged quantity.
+    // The judged quantity is left out, because the heading of the error table states it.
     let is_told = |(key, value): &&(String, String)| {
         key == "judged" || (key == "crossing levels" && value == "counted")
     };
@@ -61,8 +61,7 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds the settings that all cases have in common. Differences are visible in the names of the
-/// cases.
+/// Adds the settings that all cases have in common. The other settings are part of the case names.
 fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =

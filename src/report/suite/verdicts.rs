@@ -75,14 +75,12 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
     parts.join("; ")
 }
 
-/// Creates the table of verdicts, with one line for each case.
 pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {
     Table::new(&columns(rankings, &[]), cases).without_empty_columns()
 }
 
 type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-/// Returns the columns of the verdict table, with letters that refer to expectations.
 fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColumn<'a>; 10] {
     let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
     [
@@ -136,7 +134,6 @@ fn outcome(case: &CaseOutcome) -> &'static str {
     }
 }
 
-/// Lists the distinct expectations of a suite, in the order of its cases.
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {
     distinct(cases.iter().map(CaseOutcome::expectation))
 }
@@ -147,7 +144,7 @@ fn letter(k: usize) -> String {
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Adds the remarks on single cases.
+/// Adds the remarks on cases. Equal remarks are merged.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));

@@ -1,6 +1,6 @@
-//! Cost tables: the work of each method for a target error and for one more digit, compared with
-//! theory. Also reports of timed suites; their times depend on the machine and are not in
-//! snapshots.
+//! Cost tables: the work of each method for a target error, and the exponent k in work ~ error^k,
+//! compared with theory. Also reports of timed suites, whose times depend on the machine and are
+//! therefore not in snapshots.
 //!
 //! Snapshots count work in particle-node transfers, which are equal on all machines.
 
@@ -8,7 +8,6 @@ use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
 use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, TimedSuite};
 
-/// Unit of counted work.
 const TRANSFERS: &str = "particle-node transfers";
 
 /// Returns the tables of a ranking. `work` is the name of the unit of work.
@@ -83,7 +82,6 @@ fn lines(lines: &[String]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Describes the cores, load and noise of the machine.
 pub(crate) fn machine(machine: &Machine) -> String {
     let cores = if machine.cores == 1 { "core" } else { "cores" };
     let load = machine.load.map_or("load not known".to_owned(), |[before, after]| {
@@ -100,14 +98,12 @@ pub(crate) fn machine(machine: &Machine) -> String {
         + &row("noise", &format!("{waited}{noise}"))
 }
 
-/// Returns the table of the error and the time of every level of every case.
 fn levels(timed: &TimedSuite) -> Vec<String> {
     let cases = 0..timed.outcome.cases.len();
     let rows = cases.flat_map(|case| timed_level::rows(timed, case));
     Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
 }
 
-/// Returns the table of each case's cost model, with its prediction error on the finest level.
 fn models(timed: &TimedSuite) -> Option<Vec<String>> {
     let cases = timed.outcome.cases.iter().enumerate();
     let rows = cases.filter_map(|(index, case)| {

@@ -20,7 +20,6 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Writes the paragraph with verdict, causes, evidence and remedies.
 pub(crate) fn paragraph(found: &Diagnosis) -> String {
     let judgement = &found.judgement;
     if found.is_sound() {
@@ -88,7 +87,7 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
     }
 }
 
-/// Describes the finest error of a changed run, compared with that of the unchanged case.
+/// Describes the finest error of a changed run, compared with the error of the unchanged case.
 fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     let (before, after) = (found.finest_error, run.error);
     if !run.ratio.is_finite() {
@@ -104,7 +103,7 @@ fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
 }
 
-/// Writes a positive ratio as text to be followed by the reference value, such as `1/8 of`.
+/// Formats a positive ratio for a text in which the reference value follows, such as `1/8 of`.
 fn share(ratio: f64) -> String {
     if ratio < 1e-4 {
         format!("{ratio:.0e} of")

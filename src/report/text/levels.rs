@@ -76,7 +76,7 @@ fn setting(study: &Convergence) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
-/// Groups studies that have equal level names and equal judged errors.
+/// Groups studies with equal level names and the same judged quantity and norm.
 fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     let key = |study: &Convergence| format!("{} {}", study.judged(), level::names(study).join(" "));
     let compared = studies.iter().filter(|(_, study)| study.compared);
@@ -84,7 +84,6 @@ fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// Adds the table of the judged errors and their orders.
 fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
@@ -161,7 +160,6 @@ fn by_case<'a>(
     }
 }
 
-/// Adds the table of the measured values on the finest levels.
 fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
@@ -171,7 +169,6 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, "on the finest level", studies, columns);
 }
 
-/// Adds the table of the reported drifts of conserved sums.
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
@@ -184,7 +181,6 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     );
 }
 
-/// Adds the table of the energy rate on the finest level, if it is reported.
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let rated: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| study.rated).copied().collect();
@@ -218,7 +214,7 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
 }
 
-/// Rounds the limit to two digits of the half-width of its interval.
+/// Rounds the limit to the second significant digit of its half-width.
 fn limit_shown(estimate: &LimitEstimate) -> String {
     let (value, half_width) = (estimate.limit.value, estimate.limit.half_width());
     let digits = libm::floor(libm::log10(value.abs())) - libm::floor(libm::log10(half_width));

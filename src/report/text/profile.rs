@@ -31,7 +31,8 @@ pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, Strin
     changed.flat_map(|((key, before), (_, after))| [(key, before), ("  becomes", after)]).collect()
 }
 
-/// Lists the visits of a step: `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
+/// Lists how many particles each part of a step visits: `p2g mass, p2g momentum x 2, p2g point
+/// force at 4 of 20 particles`.
 fn visits(profile: &Profile) -> String {
     let particles = profile.particles as u64;
     let part = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {
@@ -126,8 +127,8 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Returns the bytes per particle or node: first those of columns with one entry for each, then
-/// those of the other columns.
+/// Returns two sums of bytes: of columns with an entry for each particle or node, and of the other
+/// columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);
@@ -140,7 +141,6 @@ fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     [sum(true), sum(false)]
 }
 
-/// Lists the columns of particles and nodes with their bytes.
 fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     for (holder, mark) in [(Holder::Particle, "particle"), (Holder::Node, "node")] {
         let profiles = cases.iter().filter_map(|case| case.profile.as_ref());

@@ -1,9 +1,7 @@
 //! Wraps prose for text reports.
 
-/// Width to which prose is wrapped.
 const WIDTH: usize = 100;
 
-/// Adds a paragraph over the full width.
 pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
     wrap(lines, WIDTH, paragraph);
 }
@@ -25,7 +23,7 @@ pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
     row_of_width(lines, 4, mark, paragraph);
 }
 
-/// `key` in a first column of this width, `value` wrapped in the second.
+/// Adds a row with `key` in a first column of width `column` and the wrapped `value` in the second.
 pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, value: &str) {
     let mut wrapped = Vec::new();
     wrap(&mut wrapped, WIDTH - column - 2, value);
@@ -35,7 +33,6 @@ pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, va
     }
 }
 
-/// Wraps prose at word boundaries.
 pub(crate) fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
     let mut line = String::new();
     for word in prose.split_whitespace() {

@@ -41,8 +41,8 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
 /// Name of a case and its study.
 type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
 
-/// Adds tables of limits, with a row for each case and a column for each value of the swept
-/// parameter, and tables of runs, with a row for each case and value.
+/// Adds tables of limits (a row for each case, a column for each value of the swept parameter) and
+/// tables of runs (a row for each case and value).
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let (seeking, others): (Vec<NamedSweep<'_>>, Vec<NamedSweep<'_>>) =
         studies.iter().partition(|(_, study)| study.sought.is_some());
@@ -77,8 +77,8 @@ fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     lines.extend(Table::new(&columns, tried).merged().lines());
 }
 
-/// Energy ledgers: a block of rows for each case, a row for each stage, and a column for each value
-/// of the parameter that is swept. Stages whose entries are rounding have no row.
+/// Adds the energy ledgers: a block of rows for each case, a row for each stage, and a column for
+/// each value of the swept parameter. Stages whose entries are all rounding errors have no row.
 fn ledgers(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let values = first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value));
@@ -95,7 +95,6 @@ fn ledgers(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     }
 }
 
-/// Rows of the ledgers of one case.
 fn ledger(balances: &[EnergyBalance]) -> Vec<Vec<String>> {
     let row = |head: String, value: &dyn Fn(&EnergyBalance) -> f64| {
         let cells = balances.iter().map(|balance| ledger_text(value(balance), balance.size()));

@@ -12,7 +12,6 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Creates a table with the values of `columns` in `rows`.
     pub(crate) fn new<R>(
         columns: &[TableColumn<'_, R>],
         rows: impl IntoIterator<Item = impl Borrow<R>>,
@@ -33,7 +32,6 @@ impl Table {
         Self { rows: std::iter::once(headings).chain(rows).collect(), flush_left }
     }
 
-    /// Aligns the columns with these headings to the left.
     pub(crate) fn flush_left(mut self, headings: &[&str]) -> Self {
         for (flush_left, heading) in self.flush_left.iter_mut().zip(&self.rows[0]) {
             *flush_left |= headings.contains(&heading.as_str());
@@ -72,7 +70,6 @@ impl Table {
         self
     }
 
-    /// Returns the number of columns.
     pub(crate) fn columns(&self) -> usize {
         self.rows[0].len()
     }
@@ -128,8 +125,8 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     merged_blocks(rows.into_iter().map(block))
 }
 
-/// Rows of all blocks, each row after the name of its block. Equal blocks are one, with the names
-/// of all.
+/// Puts the name of its block in front of each row. Equal blocks are merged and get a combined
+/// name.
 pub(crate) fn merged_blocks(
     blocks: impl Iterator<Item = (String, Vec<Vec<String>>)>,
 ) -> Vec<Vec<String>> {
@@ -152,8 +149,8 @@ pub(crate) fn merged_blocks(
     kept.into_iter().flat_map(rows).collect()
 }
 
-/// Lists the distinct values, each followed by the names with this value in brackets. The names are
-/// omitted if all have the same value.
+/// Lists the distinct values, each with its names in brackets. The brackets are omitted if all
+/// names have the same value.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {
@@ -195,7 +192,8 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Combines names that are all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`.
+/// Combines names if they are all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`.
+/// Returns `None` otherwise.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)

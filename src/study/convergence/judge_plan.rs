@@ -12,7 +12,6 @@ use crate::verify::{
     single_precision_spacing,
 };
 
-/// Creates the plan for judging a case whose errors are measured against `truth`.
 pub(super) fn judge_plan<'a>(
     plan: &'a ConvergencePlan,
     case: &'a Case,
@@ -69,7 +68,7 @@ pub(super) fn rounding_sizes(
 ) -> Option<RoundingSizes> {
     let is_single = case.method.is_single_precision();
     let unit = if is_single { f64::from(f32::EPSILON) / 2.0 } else { f64::EPSILON / 2.0 };
-    // The size of a sum over the body is the scale of its error.
+    // If the largest exact value is zero, as for a sum over the body, the error scale is used.
     let value = Some(largest_exact(plan, case, truth)).filter(|size| *size > 0.0).or(plan.scale)?;
     let scene = &plan.scene;
     let positions = scene.from.iter().chain(&scene.to).fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -83,11 +82,11 @@ pub(super) fn rounding_sizes(
     Some(RoundingSizes { value, number, unit })
 }
 
-/// Order of the midpoint rule. Particles are the quadrature points of the weak form, but theory
-/// gives no general order for their number. Integrands jump where the derivatives of a basis do,
-/// and the midpoint rule holds only while particles stay in the middle of their parts of the body
-/// (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76, 922). The judge uses this order
-/// to detect floors, and as the centre of the expected range of a suite without `order`.
+/// Assumed order in the particle spacing: the order of the midpoint rule. Theory gives no general
+/// order, because integrands jump where derivatives of the basis jump, and because particles leave
+/// the centres of their volumes (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76,
+/// 922). The judge uses this order to detect floors, and as the centre of the expected range of a
+/// suite without `order`.
 const MIDPOINT: f64 = 2.0;
 
 /// Fraction of the largest velocity (or acceleration) above which the initial value counts as
@@ -154,12 +153,11 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Number of sampling intervals along each axis and in time, in 1-D and 2-D; 3-D uses fewer. These
-/// numbers are even, so the middle is a sampling point.
+/// Number of sampling intervals along each axis and in time: `FINE` in 1-D and 2-D, `COARSE` in
+/// 3-D. The numbers are even, so the middle is a sampling point.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
-/// Returns the error scale of a case whose errors are measured against `truth`.
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: match case.load_steps(plan) {
@@ -183,7 +181,7 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
 
 /// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
-    // A reference run with shorter steps has values at its own labels only. A formula for the
+    // A reference run of the same method has values at its own points only, while a formula for the
     // motion has values everywhere.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
     let is_same = matches!(case.against, Against::SameMethod(_));
@@ -211,8 +209,8 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
 }
 
-/// Returns the theoretical growth of the work, as a power of 1/spacing. The growth of the number of
-/// steps is computed from the levels, because the time step may be any formula.
+/// Returns the theoretical exponent k in work ~ spacing^-k. The number of steps is taken from the
+/// levels, because the time step may be any formula.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

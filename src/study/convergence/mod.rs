@@ -124,7 +124,7 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // Cases that choose their own time steps have different times.
+        // Cases with automatic time steps have different times, so they do not share forces.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
         if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
             exact.shared_forces = Some(Arc::default());
@@ -162,10 +162,6 @@ impl<'a> ConvergenceRunner<'a> {
         outcome
     }
 
-    /// Runs every level of a case and judges the case.
-    ///
-    /// # Errors
-    /// The reason why the case cannot be run.
     fn run(
         &self,
         case: &Case,
@@ -232,7 +228,6 @@ impl<'a> ConvergenceRunner<'a> {
     }
 }
 
-/// Runs the levels of one case.
 struct CaseRuns<'r, 'a> {
     runner: &'r ConvergenceRunner<'a>,
     case: &'r Case,
@@ -288,7 +283,7 @@ impl CaseRuns<'_, '_> {
         Ok(LevelOutcome { spread, ..outcome })
     }
 
-    /// Quantities that a run compares with the exact solution.
+    /// Returns the quantities that a run compares with the exact solution.
     fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);

@@ -38,9 +38,6 @@ pub(crate) struct Reference {
 
 impl Reference {
     /// Runs the reference of `plan` to `until` (s).
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
     pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, SubjectError> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
@@ -101,17 +98,14 @@ const NEAR: usize = 6;
 /// Displacement and velocity of a particle lattice at the start and at every instant.
 pub(crate) struct FineGrid {
     until: f64,
-    /// The map of the body from the unit square, in which the particles form the lattice.
+    /// Map from the unit square, where the particles form a lattice, to the body.
     panel: Option<Quadrilateral>,
     lattice: Lattice,
     states: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
 impl FineGrid {
-    /// Runs the method of `case` on `level`. Velocities start half a step before the start.
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
+    /// Runs the method of `case` on `level`. Initial velocities are taken at t = -dt/2.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -130,7 +124,8 @@ impl FineGrid {
         Ok(Self { until: case.until, panel, lattice, states })
     }
 
-    /// The coordinates of the lattice at `label` (m): those of the unit square of a mapped body.
+    /// Converts a reference position `label` (m) to coordinates of the lattice, which are in the
+    /// unit square for a mapped body.
     fn coordinates<'l>(&self, label: &'l [f64]) -> Cow<'l, [f64]> {
         match (&self.panel, label) {
             (Some(panel), [x, y]) => Cow::Owned(panel.inverse(&Vector::from([*x, *y])).to_vec()),
@@ -153,8 +148,8 @@ impl Truth for FineGrid {
     }
 }
 
-/// Coordinates of the particles of a mapped body in the unit square, without rounding errors: each
-/// particle fills one part of the square, and lies in its middle.
+/// Returns the coordinates of the particles of a mapped body in the unit square. Each particle is
+/// moved to the middle of its part of the square, which removes rounding errors.
 fn middles(panel: &Quadrilateral, level: LevelPlan, samples: &Samples) -> Vec<f64> {
     let per_axis = libm::round(level.ppc.map_or(1.0, |ppc| (ppc as f64).sqrt())) as usize;
     let counts = panel.counts(level.h, per_axis);
@@ -177,8 +172,8 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Creates the lattice that `labels` form in any order, with `d` numbers for each label. `None`
-    /// if the labels do not form a lattice.
+    /// Creates the lattice of the reference positions `labels`, which have `d` coordinates each and
+    /// may be in any order. `None` if the positions do not form a lattice.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -224,22 +219,18 @@ impl Lattice {
     }
 }
 
-/// Displacement and velocity of every label at every instant, computed by the method under test.
+/// Displacement and velocity of every particle at every instant, computed by the method under test.
 pub(crate) struct FineSteps {
     until: f64,
     dimension: usize,
-    /// Indices of the labels, sorted by reference position.
+    /// Indices of the particles, sorted by reference position.
     order: Vec<usize>,
     /// States at the start and at every instant.
     states: Vec<Samples>,
 }
 
 impl FineSteps {
-    /// Runs the method of `case` with steps of `dt` (s). Velocities start half a step before the
-    /// start.
-    ///
-    /// # Errors
-    /// The reason why the reference could not be computed.
+    /// Runs the method of `case` with steps of `dt` (s). Initial velocities are taken at t = -dt/2.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -254,8 +245,8 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// Copies the values of `field` at the label `wanted`, at the instant nearest to `t`; NaN if
-    /// there is no such label.
+    /// Copies the values of `field` for the particle with reference position `wanted`, at the
+    /// instant nearest to `t`; NaN if there is no such particle.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
@@ -267,11 +258,8 @@ impl FineSteps {
     }
 }
 
-/// Runs the method of `case` on `level`. Velocities start half a step before the start. Passes the
-/// states at the start and at every instant to `show`, and returns the state at the end.
-///
-/// # Errors
-/// The reason why the run was not possible.
+/// Runs the method of `case` on `level`, with initial velocities at t = -dt/2. Passes the states at
+/// the start and at every instant to `show`, and returns the state at the end.
 pub(crate) fn run(
     plan: &ConvergencePlan,
     case: &Case,
@@ -306,7 +294,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// Changes the method to double precision and to the start of second order.
+/// Changes the method to double precision and to a start of second order.
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {

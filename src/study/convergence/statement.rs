@@ -10,7 +10,6 @@ use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
 
-/// Returns the rows that describe the whole study.
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
     scene(&plan.scene, &mut rows);
@@ -141,7 +140,6 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     push(rows, "--full adds", &full);
 }
 
-/// Describes the particle positions.
 fn placed(scatter: &LatticeOffsets) -> String {
     let LatticeOffsets { shift, perturb, seed } = scatter;
     if scatter.is_none() {
@@ -155,7 +153,6 @@ fn placed(scatter: &LatticeOffsets) -> String {
     format!("{} of their spacing", both.join(" and "))
 }
 
-/// Returns the rows with the settings of one case.
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
     let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
@@ -191,7 +188,6 @@ pub(crate) fn described(
     }
 }
 
-/// Creates the outcome of a case that does not apply to its solver.
 pub(crate) fn not_applicable(
     plan: &ConvergencePlan,
     case: &Case,

@@ -4,8 +4,8 @@
 //! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
 //! one cell. It is predicted before a run and constant during the run, because an order requires
 //! one step for each level. With linear basis functions the stability limit may decrease when
-//! particles move (`tiny-nodal-mass`). As a margin for this, an automatic step is a fraction of the
-//! stable step.
+//! particles move (suite `tiny-nodal-mass`). As a margin for this, an automatic step is a fraction
+//! of the stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -49,7 +49,7 @@ pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A step that the suite states is the same for any number of particles.
+            // A time step that the suite states needs no prediction.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -123,7 +123,8 @@ type Stepped = (LevelPlan, Option<f64>);
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
-    /// Returns the step on one level, and the stable step if it is known.
+    /// Returns the level with its time step. The stable step is included if the time step is
+    /// automatic or too long.
     pub(crate) fn of(
         &self,
         plan: &ConvergencePlan,

@@ -20,11 +20,9 @@ use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 use thiserror::Error;
 
-/// Number of finest runs in the fit of a cost model. Coarse runs are not representative of long
-/// ones.
+/// Number of finest runs in the fit of a cost model. Coarser runs are not representative.
 const FITTED: usize = 6;
 
-/// Number of measurements of each run.
 const REPEATS: usize = 3;
 
 /// Fraction of the budget above which a run is measured only once.

@@ -18,7 +18,6 @@ const FINER: u64 = 8;
 /// Maximum refinement relative to the judged levels for which an error is predicted.
 pub(crate) const REACH: u64 = 2;
 
-/// A method that may be chosen for a budget.
 pub(crate) struct Candidate {
     /// A plan with only this case.
     pub(crate) plan: ConvergencePlan,
@@ -78,7 +77,7 @@ impl Candidate {
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }
 
-    /// Predicts the workload of a level by scaling that of the finest level that has run.
+    /// Predicts the workload of a level from the workload of the finest level that has run.
     pub(crate) fn load(&self, level: LevelPlan) -> Option<Workload> {
         let clock = self.case.clock(&self.plan, level.dt)?;
         let finest = self.finest();

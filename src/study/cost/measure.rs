@@ -33,7 +33,6 @@ const LONGEST: f64 = 1.0;
 /// Maximum number of time measurements of a level.
 const MOST: usize = 200;
 
-/// The time measurement of one level.
 struct TimingJob<'a> {
     suite: &'a str,
     plan: &'a ConvergencePlan,
@@ -58,9 +57,6 @@ impl TimingJob<'_> {
 }
 
 /// Measures the time (s) of the steps of a level, until the run ends or fails.
-///
-/// # Errors
-/// The reason why the level cannot run.
 pub(crate) fn seconds(
     plan: &ConvergencePlan,
     case: &Case,
@@ -167,7 +163,6 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
     }
 }
 
-/// Returns the workload of a level that has run.
 pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Workload {
@@ -178,7 +173,7 @@ pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
     }
 }
 
-/// A level that reaches a target error. One thread runs it.
+/// A level that reaches a target error and runs on one thread.
 #[derive(Debug)]
 pub struct Goal<'a> {
     plan: &'a ConvergencePlan,
@@ -215,7 +210,7 @@ impl Goal<'_> {
         &self.case.name
     }
 
-    /// Cells along the first axis.
+    /// Returns the number of cells along the first axis.
     pub fn cells(&self) -> u64 {
         self.level.cells
     }
@@ -265,7 +260,6 @@ pub(crate) struct LoadMonitor {
 }
 
 impl LoadMonitor {
-    /// Starts a measurement.
     pub(crate) fn start() -> Self {
         Self { waited: waited(), start: Instant::now() }
     }
@@ -288,7 +282,6 @@ fn waited() -> Option<f64> {
 }
 
 impl Observed {
-    /// Starts the observation.
     pub(crate) fn new() -> Self {
         let loops = Vec::new();
         Self { load: load_average(), loops, passed: Instant::now(), waited: waited() }
@@ -305,7 +298,6 @@ impl Observed {
         self.loops.push(watch.stop());
     }
 
-    /// Returns the observed state of the machine.
     pub(crate) fn seen(self) -> Machine {
         Machine {
             cores: std::thread::available_parallelism().map_or(1, usize::from),

@@ -11,7 +11,6 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::sources;
 use crate::verify::rounded;
 
-/// Returns the rows with the parameters and functions of a suite.
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
@@ -28,7 +27,6 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     rows
 }
 
-/// Rows of name and value.
 pub(crate) type Rows = Vec<(String, String)>;
 
 /// Adds a row, unless its value is empty.
@@ -42,7 +40,7 @@ fn corner(c: &[f64]) -> String {
     c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
 }
 
-/// Formats a number with the digits that statements of problems use.
+/// Formats a number with at most six significant digits.
 pub(crate) fn stated(x: f64) -> String {
     shown(rounded(x, 6))
 }
@@ -61,13 +59,13 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// Returns the remark about rims without loads, for the row of a body.
+/// Returns the text `, free rims` if no load acts on a rim.
 fn rims(scene: &Scene) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
     if is_loaded { "" } else { ", free rims" }
 }
 
-/// Adds rows with several bodies and their coupling.
+/// Adds the rows of each body, if there are several, and of their contact.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
@@ -83,7 +81,6 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Adds rows that describe a scene.
 pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let one = scene.bodies.is_empty();
     if one {

@@ -12,26 +12,28 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum ratio of distances from the theoretical order, without the coarse levels to with them,
-/// for which the coarse levels are the cause.
+/// Coarse levels are the cause if leaving them out reduces the distance from the theoretical order
+/// to at most this fraction.
 const CLOSER: f64 = 0.5;
 
-/// Maximum distance of the finest pair's order from the theoretical order, for which the coarse
-/// levels are the cause.
+/// Maximum difference between the order of the finest two levels and the theoretical order, if
+/// coarse levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
 /// Minimum error that counts as large as the solution, as a fraction of the largest exact value.
 const WHOLE: f64 = 0.1;
 
-/// Maximum ratio of the largest to the smallest error, for which the errors do not depend on the
-/// cells.
+/// Maximum ratio of the largest to the smallest error for which the errors count as independent of
+/// the cells.
 const CONSTANT: f64 = 1.5;
 
-/// Minimum ratio of cell size to length scale of the solution, for which a level is too coarse.
+/// A level is too coarse if the ratio of its cell size to the length scale of the solution is
+/// larger.
 const COARSE: f64 = 0.5;
 
-/// Checks whether coarse levels do not resolve the exact solution. If so, the order without them is
-/// the theoretical one, or the orders between neighbouring levels rise to it.
+/// Checks whether coarse levels do not resolve the exact solution. This is the cause if the order
+/// without these levels is much closer to the theoretical order, or if the orders between
+/// neighbouring levels rise to the theoretical order.
 pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let (session, axis) = (known.session, known.plan.refine.axis);
     let p = session.formal_order;
@@ -103,7 +105,6 @@ fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     share.is_finite().then_some((share, text))
 }
 
-/// Lists the names of levels for a sentence.
 fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     let names: Vec<String> = levels.iter().map(|level| level.name(axis)).collect();
     let noun = if names.len() == 1 { "level" } else { "levels" };

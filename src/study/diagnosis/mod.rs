@@ -61,7 +61,7 @@ const PROBES: [&ProbeKind; 14] = [
     &CELLS,
 ];
 
-/// Checks for causes that do not change the method.
+/// Checks that look for specific causes before any change is tried.
 const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     steps::check,
     walls::check,
@@ -194,8 +194,8 @@ fn changed_plans(
     changed
 }
 
-/// Returns the ratio of the size of the judged quantity in `smaller`, a plan with a smaller motion,
-/// to the size in `plan`. Each size is relative to the divisor of its errors.
+/// Returns the ratio of the judged quantity's size in `smaller`, a plan with a smaller motion, to
+/// its size in `plan`. Each size is divided by the divisor of the errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {

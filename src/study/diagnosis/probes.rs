@@ -18,7 +18,6 @@ use crate::verify::Axis;
 /// Whether particles change their cell during the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Crossings {
-    /// No particle changes its cell.
     None,
     /// Some particles change their cell, or the solver does not report cell changes.
     Some,
@@ -26,7 +25,6 @@ pub(crate) enum Crossings {
 
 /// A single change, the cause that it reveals, and the remedy.
 pub(crate) struct ProbeKind {
-    /// The change, as text.
     pub(crate) change: &'static str,
     /// Cause that is inferred if the change restores the order or reduces the error.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
@@ -36,7 +34,8 @@ pub(crate) struct ProbeKind {
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
-/// Reduces the amplitude. The plan is compiled from the suite text with a smaller amplitude.
+/// Reduces the amplitude. `apply` is not used, because the suite text is compiled again with a
+/// smaller amplitude.
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
@@ -47,7 +46,6 @@ pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     apply: |_| None,
 };
 
-/// Compares with the reference instead of the formula.
 pub(super) const REFERENCE: ProbeKind = ProbeKind {
     change: "the reference in place of the formula",
     cause: |_, _| "the exact formula solves another model than the method does",
@@ -58,7 +56,6 @@ pub(super) const REFERENCE: ProbeKind = ProbeKind {
     },
 };
 
-/// Compares with the formula instead of the reference.
 pub(super) const FORMULA: ProbeKind = ProbeKind {
     change: "the formula in place of the reference",
     cause: |_, _| "the reference solves another model than the method does",
@@ -69,7 +66,6 @@ pub(super) const FORMULA: ProbeKind = ProbeKind {
     },
 };
 
-/// Aligns grid lines with every interface and loaded face.
 pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
     change: "cells whose lines meet every interface and loaded face",
     cause: |_, _| "an interface or a loaded face inside a cell, where the solution is smeared",
@@ -88,7 +84,6 @@ pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
     },
 };
 
-/// Increases the number of particles.
 pub(super) const PARTICLES: ProbeKind = ProbeKind {
     change: "twice as many particles along each axis of a cell",
     cause: |_, _| "too few particles per cell: the particles are the quadrature points",
@@ -100,7 +95,6 @@ pub(super) const PARTICLES: ProbeKind = ProbeKind {
     },
 };
 
-/// Runs longer until an equilibrium.
 pub(super) const DURATION: ProbeKind = ProbeKind {
     change: "twice the duration of the run",
     cause: |_, _| "the body has not come to rest at the end of the run",
@@ -113,7 +107,6 @@ pub(super) const DURATION: ProbeKind = ProbeKind {
     },
 };
 
-/// Shortens the time steps.
 pub(super) const STEP: ProbeKind = ProbeKind {
     change: "a quarter of the time step",
     cause: |_, _| "the error of the time step",
@@ -129,7 +122,6 @@ pub(super) const STEP: ProbeKind = ProbeKind {
     },
 };
 
-/// Refines the cells.
 pub(super) const CELLS: ProbeKind = ProbeKind {
     change: "cells of half the size",
     cause: |_, _| "the cells: the levels are too coarse",
@@ -144,7 +136,6 @@ pub(super) const CELLS: ProbeKind = ProbeKind {
     },
 };
 
-/// Copies the plan, with its case compared with another solution.
 fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.cases.iter_mut().for_each(|case| case.against = against);
@@ -169,7 +160,6 @@ fn changed_levels(
     Some(plan)
 }
 
-/// Starts velocities half a step before the start.
 pub(super) const START: ProbeKind = ProbeKind {
     change: "`start: half_step_back`",
     cause: |_, _| "the start: v(0) is used for v(-dt/2), an error of first order in time",
@@ -187,7 +177,6 @@ pub(super) const START: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses MUSL instead of USF.
 pub(super) const SCHEME: ProbeKind = ProbeKind {
     change: "`scheme: musl`",
     cause: |_, _| "the scheme: USF updates the stress half a step late, first order in time",
@@ -202,7 +191,6 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses particle domains that follow the deformation.
 pub(super) const DOMAINS: ProbeKind = ProbeKind {
     change: "`basis: cpgimp`",
     cause: |_, _| {
@@ -220,7 +208,6 @@ pub(super) const DOMAINS: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses gradients of the basis instead of gradients from a fit.
 pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     change: "`transfer: apic`",
     cause: |_, _| {
@@ -244,7 +231,6 @@ pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses the consistent mass matrix.
 pub(super) const MASS: ProbeKind = ProbeKind {
     change: "the consistent mass matrix",
     cause: |_, _| "lumping: row sums are not the mass that a smooth acceleration acts on",
@@ -261,7 +247,6 @@ pub(super) const MASS: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses a grid that moves with the body.
 pub(super) const FRAME: ProbeKind = ProbeKind {
     change: "`frame: total_lagrangian`",
     cause: |case, crossings| match case.method {
@@ -288,7 +273,6 @@ pub(super) const FRAME: ProbeKind = ProbeKind {
     },
 };
 
-/// Uses a basis with continuous gradients.
 pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     change: "`basis: quadratic_bspline`",
     cause: |_, crossings| match crossings {

@@ -9,10 +9,10 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// Minimum relative change of the strain within a cell that affects the order like a jump.
+/// If the strain changes over less than this fraction of a cell, the change counts as a jump.
 const STEEP: f64 = 0.5;
 
-/// Maximum distance of the observed order below a limit that explains the order.
+/// A jump explains an observed order that is at most this much below the limit.
 const BELOW: f64 = 0.5;
 
 /// Returns the maximum order that a method of order `p` can reach if the derivative of order `jump`
@@ -139,7 +139,6 @@ const GROUPS: [Derivative; 6] = [
     (2, |now| now.second.as_flattened().as_flattened().to_vec()),
 ];
 
-/// A jump of a derivative, with its position and time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Jump {
     /// Order of the derivative.
@@ -207,7 +206,6 @@ pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     None
 }
 
-/// A line through the body.
 struct LocalLine {
     axis: usize,
     from: Vec<f64>,

@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// Maximum distance of a restored order below the theoretical order.
+/// An order counts as restored if it is at most this much below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// Maximum distance of a restored order above the theoretical order, which a case may exceed.
+/// An order counts as restored if it is at most this much above the theoretical order.
 const ABOVE: f64 = 0.8;
 
 /// Data that all runs of a case need.
@@ -50,9 +50,6 @@ impl<'a> Session<'a> {
     }
 
     /// Runs the unchanged case.
-    ///
-    /// # Errors
-    /// The reason why the case cannot run.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;
@@ -83,7 +80,7 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// Judges levels. The expected order is near the theoretical one.
+    /// Judges levels against an expected order near the theoretical one.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -94,7 +91,6 @@ impl<'a> Session<'a> {
         judge(&levels, &OrderHypothesis::within(p, p - NEAR, p + ABOVE).over(axis))
     }
 
-    /// Returns the descriptions of changes that were too expensive to run.
     pub(super) fn into_skipped(self) -> Vec<String> {
         self.skipped.into_inner()
     }
@@ -105,7 +101,6 @@ pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
     /// The study with only this case and its levels.
     pub(super) plan: &'a ConvergencePlan,
-    /// Results of the levels.
     pub(super) levels: &'a [LevelOutcome],
     /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,

@@ -16,12 +16,12 @@ const OF_PREDICTED: f64 = 0.5;
 /// wave crosses a cell. Longer steps are doubtful.
 const IN_QUESTION: f64 = 0.5;
 
-/// Step with which such levels run again, as a fraction of the time in which a wave crosses a cell.
+/// If no stable step is predicted, levels run again with this fraction of the crossing time.
 const CAUTIOUS: f64 = 0.2;
 
-/// Maximum ratio of the error with a stable step to the error with a longer one, for which the step
-/// is the cause. For comparison: if the step is shortened to 2/5, an accurate method of order 2 in
-/// time has a ratio of 1/6.
+/// The step is the cause if a stable step reduces the error to at most this fraction. Without
+/// instability, a step of 2/5 (`CAUTIOUS / IN_QUESTION`) reduces the error of a method of order 2
+/// in time to 1/6 only.
 const MENDED: f64 = 0.03;
 
 /// A level whose step exceeds a limit (s), and its repetition with a stable step.
@@ -81,7 +81,6 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
 }
 
 impl Mended<'_> {
-    /// Returns the ratio of the step to its limit.
     fn times(&self) -> f64 {
         self.before.dt / self.limit
     }

@@ -18,8 +18,7 @@ const ROUNDING: f64 = 1e-6;
 /// Number of sampling intervals of walls, along each axis and over the run.
 const INTERVALS: usize = 8;
 
-/// Maximum ratio of the error in a frame that moves with the body to the error of the case, for
-/// which a moving wall is the cause.
+/// `frame: total_lagrangian` is recommended if it reduces the error to at most this fraction.
 const MENDED: f64 = 0.1;
 
 /// Checks whether a wall moves, or particles have left the grid.
@@ -86,8 +85,8 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     longest
 }
 
-/// Whether `check` accepts the case in a frame that moves with the body, and the error is much
-/// smaller in this frame.
+/// Whether `check` accepts the case with `frame: total_lagrangian`, and the error is then much
+/// smaller.
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();

@@ -1,5 +1,6 @@
-//! Gradient studies check the derivatives of a differentiable solver. They are compared with the
-//! solver's own values, with exact sensitivities, and with values over an interval of a parameter.
+//! Gradient studies check the derivatives of a differentiable solver. The derivatives are compared
+//! with the solver's own values, with exact sensitivities, and with values over an interval of a
+//! parameter.
 
 mod run;
 use self::run::GradientRun;
@@ -28,7 +29,6 @@ impl Study for GradientPlan {
     }
 }
 
-/// Runs the cases of a gradient study.
 struct GradientRunner<'a> {
     plan: &'a GradientPlan,
     context: RunContext<'a>,
@@ -73,14 +73,12 @@ impl CaseRunner for GradientRunner<'_> {
     }
 }
 
-/// Whether `solver` supports gradients with respect to a parameter.
 fn has_gradient(solver: &dyn SolverFactory, parameter: GradientParameter) -> bool {
     let of = |gradients| ProblemNeeds { gradients, ..ProblemNeeds::default() };
     let without = solver.lacks(&of(Vec::new())).len();
     solver.lacks(&of(vec![parameter.name()])).len() == without
 }
 
-/// Lists the capabilities that a case requires and `solver` lacks.
 fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory) -> Vec<String> {
     let one = &plan.parameters[case.parameter];
     let mut gradients = vec![one.parameter.name()];
@@ -110,7 +108,6 @@ fn described(
     }
 }
 
-/// Creates the outcome of a case that has run.
 fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {
     let (state, reason) = study.state();
     let unmet = case.expected.as_ref().map_or(Vec::new(), |(terms, _)| terms.unmet(&study));
@@ -123,7 +120,6 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
     }
 }
 
-/// Creates the outcome of a case whose solver failed.
 fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let reason = format!("the solver {reason}");
     let is_expected = described.expected.is_some();
@@ -131,7 +127,6 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
 }
 
-/// Returns the rows that describe the study.
 fn rows(plan: &GradientPlan) -> Rows {
     let mut rows = statement::rows(&plan.problem);
     rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));

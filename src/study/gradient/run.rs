@@ -18,14 +18,13 @@ use serde::{Deserialize, Serialize};
 /// Rounding error of a functional value, in units of the rounding error of its largest term.
 const ROUNDING: f64 = 4.0;
 
-/// Exponent of the perturbation for comparing all entries. The perturbation is the parameter times
-/// 2^-exponent.
+/// Exponent k of the perturbation that checks the entries of a wrong gradient. The perturbation is
+/// the parameter times 2^-k.
 const EVIDENCE_LEVEL: u32 = 8;
 
 /// Young's modulus of a run without stress, relative to the modulus of the problem.
 const NO_STRESS: f64 = 1e-9;
 
-/// Runs of one case.
 pub(super) struct GradientRun<'a> {
     pub(super) context: RunContext<'a>,
     pub(super) plan: &'a GradientPlan,
@@ -42,7 +41,6 @@ struct CachedAnswer {
     numbers: Vec<f64>,
     /// Reason why the solver does not support the run.
     cannot: Option<String>,
-    /// Reason why the solver failed.
     failed: Option<String>,
 }
 
@@ -65,11 +63,6 @@ impl CachedAnswer {
 }
 
 impl GradientRun<'_> {
-    /// Runs all checks.
-    ///
-    /// # Errors
-    /// [`GradientError::Cannot`] if the solver does not support a run, [`GradientError::Failed`] if
-    /// it fails.
     pub(super) fn study(&self, progress: Progress<'_>) -> Result<GradientStudy, GradientError> {
         let levels = self.plan.problem.refine.levels(self.context.extent);
         let on_level = |level: &LevelPlan| {
@@ -116,7 +109,7 @@ impl GradientRun<'_> {
         Ok(study)
     }
 
-    /// Runs the solver without derivatives. The results are compared with a wrong derivative.
+    /// Runs the solver without derivatives, for values that help to explain a wrong derivative.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
         let Gradient { gradient, .. } = self.gradient(problem)?;
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
@@ -135,7 +128,7 @@ impl GradientRun<'_> {
         let young = GradientParameter::Young;
         let soft = problem.parameter(young).map(|young| NO_STRESS * young);
         let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
-        // The solver may fail in either of these runs. The result is then missing.
+        // The solver may fail in either of these runs. The value is then NaN.
         let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
         Ok(GradientEvidence {
             entries,
@@ -173,8 +166,8 @@ impl GradientRun<'_> {
         (relative * plain.value.abs()).max(near_zero)
     }
 
-    /// Runs one level. Returns the level, the reported value, and the partial derivative as
-    /// reported.
+    /// Runs one level. Returns the level, and the value and the partial derivative that the solver
+    /// reports.
     fn level(&self, level: LevelPlan) -> Result<(GradientLevel, f64, f64), GradientError> {
         let (problem, one) = (self.problem(level)?, self.parameter());
         let exact = exact_derivative(self.plan, one, &problem);
@@ -253,7 +246,6 @@ impl GradientRun<'_> {
         answer.map_err(|error| GradientError::Failed(error.to_string()))?.numbers()
     }
 
-    /// Returns the value of the functional after a run of the solver without derivatives.
     fn plain_run(&self, problem: LevelProblem) -> Result<FunctionalValue, GradientError> {
         let (steps, dt) = (problem.steps, problem.dt);
         let mass = problem.particles.mass.clone();
@@ -270,7 +262,7 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
-    /// Returns values of the functional for which the parameter `q` is perturbed by fractions of
+    /// Returns values of the functional with the parameter value `q` perturbed by fractions of
     /// itself.
     fn perturbed(
         &self,
@@ -291,7 +283,6 @@ impl GradientRun<'_> {
         (FIRST_LEVEL..=LAST_LEVEL).into_par_iter().map(perturbed).collect()
     }
 
-    /// Returns values and derivatives at points of an interval of the parameter.
     fn sweep(
         &self,
         problem: &LevelProblem,
@@ -311,7 +302,8 @@ impl GradientRun<'_> {
     }
 }
 
-/// Returns the value of a parameter in the problem.
+/// Returns the value of a parameter in the problem. A zero value is an error, because perturbations
+/// are relative.
 fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, GradientError> {
     let lacks = || GradientError::Cannot(format!("the problem has no `{}`", parameter.name()));
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
@@ -330,7 +322,7 @@ pub(super) fn exact_derivative(
 ) -> f64 {
     let slope = slope(plan.of, one, problem);
     match one.parameter {
-        // This parameter of the problem is a factor on the suite's parameter.
+        // `InitialVelocity` is a factor on the parameter of the suite.
         GradientParameter::InitialVelocity => one.motion.value * slope,
         _ => slope,
     }

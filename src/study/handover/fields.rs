@@ -21,14 +21,12 @@ pub(super) struct SceneFields {
     is_perturbed: bool,
 }
 
-/// One body of the scene.
 struct FieldBody {
     scene: Scene,
     initial: Initial,
 }
 
 impl SceneFields {
-    /// Creates the fields of `scene`. `initial` contains the initial states of its bodies.
     pub(super) fn new(scene: &Scene, initial: Vec<Initial>, is_perturbed: bool) -> Self {
         let scenes = scene.each().iter().cloned().zip(initial);
         let bodies = scenes.map(|(scene, initial)| FieldBody { scene, initial }).collect();
@@ -126,7 +124,7 @@ impl SceneFields {
         Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
     }
 
-    /// Returns the values of the load numbers named `what`.
+    /// Returns the values of a load or a face condition, named `what` in messages, at each point.
     fn numbers(
         &self,
         (what, numbers): (&str, &LoadNumbers),
@@ -153,7 +151,6 @@ impl SceneFields {
         Ok(places.flat_map(value).collect())
     }
 
-    /// Checks that all points are on the face.
     fn check_on_face(&self, number: usize, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let d = self.scene.dimension();
         let Some(face) = self.scene.faces.get(number) else {
@@ -174,7 +171,6 @@ impl SceneFields {
 }
 
 impl SceneFields {
-    /// Checks that all points are on the rim.
     fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let Circle { name, centre, radius, .. } = circle;
         let near = self.scene.rounding();
@@ -270,7 +266,6 @@ impl FieldSource for SceneFields {
     }
 }
 
-/// Formats a point for a message.
 fn shown(label: &[f64]) -> String {
     let all: Vec<String> = label.iter().map(ToString::to_string).collect();
     format!("({}) m", all.join(", "))

@@ -60,7 +60,6 @@ pub(crate) struct HandedRun {
     /// Numbers of the steps after which states are compared with the exact solution.
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
-    /// Initial states of the bodies.
     pub(crate) initial: Vec<Initial>,
     /// Whether random numbers were added to the state of the particles.
     pub(crate) is_perturbed: bool,
@@ -189,7 +188,6 @@ fn material(scene: &Scene) -> ProblemMaterial {
     }
 }
 
-/// Lists the terms of the body forces on each body.
 fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     let is_force = |load: &&ListedLoad| {
         matches!(load.effect, EffectName::Gravity | EffectName::BodyForce)
@@ -205,7 +203,6 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
 /// The body force of a scene: stated forces and a manufactured force.
 #[derive(Clone)]
 struct SceneForce {
-    /// Stated forces of each body.
     terms: Vec<Vec<Arc<dyn Term>>>,
     /// Motion with a manufactured force, if any.
     made: Option<Problem>,

@@ -31,7 +31,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Returns the capabilities that a scene requires. They do not depend on the judged quantities.
+/// Returns the capabilities that a scene requires, independent of the judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -76,7 +76,7 @@ pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Su
 }
 
 /// Replaces the methods of the suite by `solver`. With `terms` of the solver's author, the suite is
-/// a gate. If nothing deforms, the solver may use another law.
+/// a gate. If nothing deforms, the law may be replaced by one that the solver supports.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -125,11 +125,8 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// Creates the subject of one level of a case. It is run by `solver` if there is one, and otherwise
-/// by the method of the case. `suite` is the name of the suite.
-///
-/// # Errors
-/// The reason why there is no such subject.
+/// Creates the subject of one level of a case, with `solver` if given and otherwise with the method
+/// of the case. `suite` is the name of the suite.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -13,7 +13,6 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// Creates the initial particles of a level.
 pub(super) fn particles(
     plan: &ConvergencePlan,
     level: LevelPlan,
@@ -31,9 +30,6 @@ pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
 
 /// Creates the initial particles of all bodies, after `disturb` has modified them. Each law
 /// computes the initial stress from the initial deformation.
-///
-/// # Errors
-/// The reason why there is no such initial state.
 pub(crate) fn start(
     bodies: &[Body<'_>],
     level: LevelPlan,

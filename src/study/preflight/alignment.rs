@@ -66,14 +66,13 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // Particles transfer the load to the grid. The method determines the point where it
-            // acts.
+            // This is only a note, because particles transfer the load to the grid, and the method
+            // determines the point where the load acts.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })
         .collect()
 }
 
-/// Returns the planes where one body ends and another one begins.
 fn interfaces(scene: &Scene) -> Vec<Plane> {
     let mut planes = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Reports errors that refinement does not lower, and the first level on which they are visible.
 //!
-//! - `small_strain`: the solver does not have the simplification of the exact solution, which is
-//!   linearised or for small strains.
+//! - `small_strain`: the exact solution is linearised or assumes small strains, but the solver is
+//!   not limited to small strains.
 //! - `single_precision`: the external solver uses single precision.
 //! - `loose_tolerance`: the tolerance of a linearised solution is unnecessarily large.
 
@@ -59,15 +59,14 @@ fn floor_finding(
 struct ModelError {
     /// Size of the error (m).
     size: f64,
-    /// Description of the origin of the error.
     origin: String,
     /// Advice: a solution without this error.
     remedy: &'static str,
 }
 
-/// Determines the model error of `case`, if it has one. For a linearised solution it is computed
-/// from the residual. For a small-strain solution it is estimated, because MPM uses a law in rate
-/// form, which differs from the law of the solution.
+/// Determines the model error of `case`, if there is one. The error of a linearised solution is
+/// computed from the residual. The error of a small-strain solution is estimated, because MPM uses
+/// a law in rate form, which differs from the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
@@ -131,8 +130,9 @@ struct LevelPrediction {
 }
 
 /// Predicts the first level on which the error of a solver in single precision lies below the
-/// rounding bound. If fewer than four levels lie above the bound, this is a warning. It suggests an
-/// amplitude and an origin for which four levels lie above the bound. Otherwise it is a note.
+/// rounding bound. The finding is a warning if fewer than four levels lie above the bound, and
+/// otherwise a note. The warning suggests an amplitude and an origin for which four levels lie
+/// above the bound.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());

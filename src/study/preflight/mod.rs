@@ -32,7 +32,6 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::Axis;
 
-/// A rule, which returns its findings.
 type PreflightRule = fn(&Preflight<'_>) -> Vec<Diagnostic>;
 
 /// Rules for suites with an expected order, with the names by which suites acknowledge them.
@@ -223,7 +222,6 @@ pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     each.map(|(case, level)| SECONDS[index] * particle_steps(plan, case, *level)).collect()
 }
 
-/// Returns the number of particles times the number of steps of a level.
 fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
     size::particles(&plan.scene, level) * steps as f64

@@ -19,7 +19,6 @@ pub(crate) struct Preflight<'a> {
 }
 
 impl<'a> Preflight<'a> {
-    /// Creates the checked study from a plan that was read from `source`.
     pub(crate) fn new(plan: &'a ConvergencePlan, source: &'a Source) -> Self {
         let mut preflight = Self { plan, extremes: None, source };
         if preflight.claims_an_order() {
@@ -28,7 +27,6 @@ impl<'a> Preflight<'a> {
         preflight
     }
 
-    /// Whether the suite expects an order for at least one case.
     pub(crate) fn claims_an_order(&self) -> bool {
         self.of_an_order().next().is_some()
     }
@@ -56,13 +54,11 @@ impl<'a> Preflight<'a> {
         })
     }
 
-    /// Returns the path of the exact solution.
     pub(crate) fn truth(&self) -> Path {
         let keys = ["exact", "manufactured", "equilibrium"].map(Path::top);
         keys.into_iter().find(|path| self.stands(path)).unwrap_or_else(|| Path::top("exact"))
     }
 
-    /// Returns the path of the motion in the exact solution.
     pub(crate) fn motion(&self) -> Path {
         let motion = self.truth().then("displacement");
         if self.stands(&motion) { motion } else { self.truth() }
@@ -86,7 +82,6 @@ impl<'a> Preflight<'a> {
         unused.map(warning).collect()
     }
 
-    /// Creates a finding about the value at `path`.
     pub(crate) fn finding(&self, severity: Severity, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message).with_severity(severity)
     }

@@ -12,18 +12,19 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::StepKind;
 
-/// Minimum fraction of the final load at the start for which the loading counts as sudden.
+/// Loading counts as sudden if more than this fraction of the final load acts at the start.
 const SUDDEN: f64 = 0.1;
 
 /// Number of intervals along each axis. Loads are evaluated at their ends.
 const INTERVALS: usize = 4;
 
-/// Minimum initial distance from the equilibrium, as a fraction of the equilibrium displacement.
+/// A smaller initial distance from the equilibrium, as a fraction of the equilibrium displacement,
+/// does not count.
 const AWAY: f64 = 1e-3;
 
-/// Warns of a body that does not start in the stated equilibrium of a scene without dissipation,
-/// because it oscillates about the equilibrium. If the load grows slowly, the oscillations are
-/// small, and the finding is a note.
+/// Warns if a body without dissipation does not start in its stated equilibrium, because the body
+/// then oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and
+/// the finding is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -43,8 +44,8 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
-/// Whether a case without dissipation is compared with an equilibrium in which the body does not
-/// start. External solvers are assumed to have no dissipation.
+/// Whether a case without dissipation is compared with an equilibrium, but does not start in this
+/// equilibrium. External solvers are assumed to have no dissipation.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     plan.steps == StepKind::Time

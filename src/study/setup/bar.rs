@@ -12,7 +12,6 @@ use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
 use crate::suite::scene::grid_size::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Creates the FEM bar of `method`. Also used for references.
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {
     let Method::Fem { element, mass, law, start, sampling } = method else {
         return Err("not an FEM method".into());
@@ -27,7 +26,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
         cells: elements as usize,
         element,
         mass,
-        // `compile::run` rejects a varying density with FEM.
+        // The density is uniform, because `compile::run` rejects a varying density with FEM.
         density: scene.density.largest(),
         law: piola(law, &scene.material)?,
         fixed: [&scene.faces[0], &scene.faces[1]].map(|face| !face.hold.is_free()),
@@ -93,7 +92,6 @@ fn piola(law: EquationName, material: &MaterialPlan) -> Result<fem::ScalarFuncti
     Ok(law.piola(young, poisson))
 }
 
-/// Returns the method that computes a reference.
 pub(crate) fn reference_method(plan: &ReferencePlan) -> Method {
     Method::Fem {
         element: plan.element,
@@ -179,7 +177,7 @@ mod tests {
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
         // The return mapping of clay has order 1 in the step, so a single step does not give the
-        // exact stress. `mpm::material::clay_paths` compares the two.
+        // exact stress. `mpm::material::clay_paths` tests clay in many steps.
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];

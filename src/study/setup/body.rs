@@ -36,7 +36,6 @@ pub(crate) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Creates the model of a body of a convergence study.
     pub(crate) fn of(plan: &'a ConvergencePlan, own: &'a Scene) -> Self {
         Self {
             scene: &plan.scene,
@@ -51,9 +50,6 @@ impl<'a> Body<'a> {
 }
 
 /// Creates the solver inputs of `body` on the cells of `level`.
-///
-/// # Errors
-/// The reason why there is no such solver.
 pub(crate) fn setup<const D: usize>(
     body: &Body<'_>,
     method: Method,
@@ -92,7 +88,6 @@ pub(crate) fn setup<const D: usize>(
     })
 }
 
-/// Creates the kernel, the grid and the particles of `body` on the cells of `level`.
 fn discretisation<const D: usize>(
     body: &Body<'_>,
     basis: BasisName,
@@ -108,9 +103,6 @@ fn discretisation<const D: usize>(
 }
 
 /// Creates the quasi-static solver of `plan`, which applies the load in `load_steps` steps.
-///
-/// # Errors
-/// The reason why there is no such solver.
 pub(crate) fn quasi_static<const D: usize>(
     plan: &ConvergencePlan,
     basis: BasisName,
@@ -279,7 +271,7 @@ fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     }
 }
 
-/// Converts a piece of a body in the plane to a particle. Along a third axis it has unit thickness.
+/// Converts a piece of a body in the plane to a particle, with unit thickness along a third axis.
 fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
     let domain = piece.domain();
     Fragment {
@@ -293,7 +285,7 @@ fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
 }
 
 impl LatticeEdits {
-    /// Moves particles and adds particles.
+    /// Shifts and perturbs the particles, and adds the extra particles.
     pub(crate) fn apply<const D: usize>(&self, particles: &mut Particles<D>) {
         let vector =
             |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));

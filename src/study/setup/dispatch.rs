@@ -1,4 +1,4 @@
-//! Converts names to types. Only this file uses all families of types.
+//! Creates the solver types that methods and scenes name. Only this file uses all kinds of solvers.
 
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
@@ -85,9 +85,6 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
 /// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
 /// `rounds` power iterations. A body does not become less stable by sharing nodes with other
 /// bodies.
-///
-/// # Errors
-/// The reason why the time step cannot be computed.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -125,9 +122,6 @@ pub(crate) fn stable_time_step_of(
 
 /// Creates an MPM subject whose state can be perturbed. It contains the `bodies` of one scene on
 /// the cells of `level`.
-///
-/// # Errors
-/// The reason why there is no such subject.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,
@@ -150,10 +144,7 @@ pub(crate) fn perturbable(
     with_dimension!(dimension, D => of::<D>(bodies, method, level))
 }
 
-/// An MPM subject that keeps an energy ledger: the only body of `bodies` on the cells of `level`.
-///
-/// # Errors
-/// One line with the reason why there is no such subject.
+/// Creates an MPM subject with an energy ledger. `bodies` must contain exactly one body.
 pub(crate) fn with_ledger(
     bodies: &[Body<'_>],
     method: Method,
@@ -193,7 +184,6 @@ fn mpm<const D: usize>(
     })
 }
 
-/// Creates the solver inputs of each body.
 fn setups<const D: usize>(
     plan: &ConvergencePlan,
     method: Method,

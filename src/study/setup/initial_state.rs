@@ -1,16 +1,15 @@
 //! Initial states of bodies.
 //!
 //! If the exact solution is a motion and the stress depends on the deformation only, the initial
-//! state is the exact motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise it
-//! is the state in the scene, by default at rest and undeformed. The initial stress is always that
-//! of the scene.
+//! state is the exact motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise
+//! the scene states the initial state, by default at rest and undeformed. The scene always states
+//! the initial stress.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
 use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
 use crate::suite::model::{ConvergencePlan, Scene};
 
-/// Initial state of a body.
 pub(crate) struct Initial {
     /// Exact motion from which the initial state is computed, if any.
     motion: Option<Motion>,

@@ -11,13 +11,12 @@ use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
 use crate::verify::is_looked_at;
 
-/// Returns the capabilities that a run requires of a solver.
 pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let start = handed("", setup).map(|problem| problem.particles);
     let mut needs = ProblemNeeds {
         // A trial observes the stored energy, which requires stresses.
         column: Some("stress"),
-        // If a run cannot be passed to a solver, it reports the reason later.
+        // If the problem cannot be created, the run reports the reason later.
         initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
         ..of_scene(&setup.scene)
     };
@@ -35,9 +34,6 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
 }
 
 /// Creates the subject of a run by `solver`. `suite` is the name of the suite.
-///
-/// # Errors
-/// The reason why the growth of the energy cannot be observed.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -56,9 +52,6 @@ pub(super) fn subject(
 
 /// Creates the problem of a run. `suite` is the name of the suite. The instants of the problem are
 /// the steps after which a trial checks the state.
-///
-/// # Errors
-/// The reason why the problem cannot be created.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
@@ -96,8 +89,8 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each number of the state if the run requests it. Every mode is then
-/// present.
+/// Adds a random number to each component of the state, if the run requests it. This excites every
+/// mode.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

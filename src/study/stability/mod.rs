@@ -29,7 +29,6 @@ impl Study for StabilityPlan {
     }
 }
 
-/// Runs the cases of a stability study.
 struct StabilityRunner<'a> {
     plan: &'a StabilityPlan,
     context: RunContext<'a>,
@@ -96,7 +95,6 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
     }
 }
 
-/// Creates the outcome of a case from its rows.
 fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
     let unmet: Vec<String> = case
@@ -123,7 +121,7 @@ fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -
     }
 }
 
-/// Returns the rows that describe the study. The set-up is that of the first row.
+/// Returns the rows that describe the study, with the set-up of the first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
     let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();

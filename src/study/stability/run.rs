@@ -20,7 +20,7 @@ use crate::verify::{
 /// Number of values that are tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Number of values that are tested if each test is a whole run.
+/// Replaces `SCAN` if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.
@@ -29,15 +29,13 @@ const SHARP: f64 = 1e-5;
 /// Relative accuracy of limits that are observed in runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
-/// Fractions of a predicted limit at which runs confirm it: agreement within 2 %, and the usual 5
-/// %. Below the limit the fraction nearer to the limit is the stronger test. A full run, with all
-/// its steps, uses both.
+/// Fractions of a predicted limit at which runs check the prediction. Only full runs use 0.95,
+/// because 0.98 is the stronger test.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// Change of a defective eigenvalue 1, such as that of rigid motion, due to rounding.
+/// Rounding error of a defective eigenvalue 1, such as the eigenvalue of rigid motion.
 const DEFECT: f64 = 1e-5;
 
-/// One case of a stability study.
 pub(super) struct CaseRun<'a> {
     pub(super) plan: &'a StabilityPlan,
     pub(super) case: &'a StabilityCase,
@@ -45,7 +43,6 @@ pub(super) struct CaseRun<'a> {
 }
 
 impl CaseRun<'_> {
-    /// Returns the result row for one value of the swept parameter.
     pub(super) fn row(&self, value: f64) -> StabilityRow {
         let empty = StabilityRow { value, trial: None, critical: None, refused: None };
         let found = match &self.plan.sought {
@@ -59,7 +56,6 @@ impl CaseRun<'_> {
         found.unwrap_or_else(|reason| StabilityRow { refused: Some(reason), ..empty })
     }
 
-    /// Creates the set-up for the given parameter values.
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
         let setup = self.plan.template.setup(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
@@ -93,7 +89,6 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// Runs the case with the given parameter values, and returns the result.
     fn run(&self, values: &ParameterValues<'_>) -> Result<Trial, SubjectError> {
         let run = || {
             let setup = self.setup(values)?;
@@ -108,7 +103,6 @@ impl CaseRun<'_> {
         self.context.cached(&key, &name, broken, run)
     }
 
-    /// Creates the subject at the start of a run.
     fn started(&self, setup: &RunSetup) -> Result<Box<dyn Subject>, SubjectError> {
         if let Some(solver) = self.context.solver {
             return handed::subject(solver, self.context.suite, setup);
@@ -133,8 +127,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// Returns the limit of the parameter whose limit is sought. If the particles are frozen, the
-    /// limit is predicted and then confirmed by runs; otherwise it is observed in runs.
+    /// Searches the limit of the sought parameter. If the particles are frozen, the limit is
+    /// predicted and then checked by runs. Otherwise the limit is observed in runs.
     fn critical(
         &self,
         value: f64,

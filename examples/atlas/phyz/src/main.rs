@@ -1,8 +1,8 @@
-//! Particles of `phyz-particle`, stepped for the adapter `phyz.py`: little-endian doubles on
-//! standard input and output.
+//! Runs particles of `phyz-particle` for the adapter `phyz.py`. Input and output are little-endian
+//! doubles on standard input and output.
 //!
-//! Input: number of particles, h, dt, size of the box, E, nu, mass and volume of a particle, share
-//! of FLIP; then position and velocity of each particle. After that, each input is a number of
+//! Input: number of particles, h, dt, size of the box, E, nu, mass and volume of a particle, FLIP
+//! fraction; then position and velocity of each particle. After that, each input is a number of
 //! steps, and each output the position and velocity of each particle.
 
 use phyz_math::Vec3;

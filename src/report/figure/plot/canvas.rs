@@ -4,7 +4,7 @@
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
 
-/// Margin at both ends of a title, and above it (px).
+/// Margin on the left and right of a title (px).
 const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a title line (px).
@@ -38,7 +38,6 @@ pub(crate) struct Heading {
 }
 
 impl Heading {
-    /// Wraps `title` into lines that fit a figure of this `width`.
     pub(crate) fn new(title: &str, width: f64) -> Self {
         Self { lines: wrap(title, 1.12 * TITLE, width - 2.0 * LEFT, LINES), width }
     }
@@ -48,7 +47,6 @@ impl Heading {
         TOP + LEADING * self.lines.len() as f64
     }
 
-    /// Adds the lines to `svg`.
     pub(crate) fn draw(&self, svg: &mut SvgElement) {
         for (i, line) in self.lines.iter().enumerate() {
             let at = (self.width / 2.0, TOP + 4.0 + LEADING * i as f64);

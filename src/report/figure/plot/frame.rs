@@ -6,7 +6,6 @@ use super::style::{FRAME_HEIGHT, GRID, INK, NEUTRAL, TEXT, WIDTH};
 use super::svg::{Pt, Rect, SvgElement, number};
 use super::ticks::{self, Tick};
 
-/// The texts around a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Titles<'a> {
     pub(crate) title: &'a str,
@@ -14,7 +13,6 @@ pub(crate) struct Titles<'a> {
     pub(crate) y_label: &'a str,
 }
 
-/// A frame with a scale for each axis.
 #[derive(Debug)]
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
@@ -71,7 +69,6 @@ impl<'a> Plot<'a> {
         Self { titles, heading, frame, x, y }
     }
 
-    /// Converts a pair of values to pixels.
     pub(crate) fn place(&self, (x, y): Pt) -> Pt {
         (
             self.frame.x + self.x.scale.fraction(x) * self.frame.w,
@@ -79,25 +76,23 @@ impl<'a> Plot<'a> {
         )
     }
 
-    /// Converts a value to a horizontal pixel position.
     pub(crate) fn place_x(&self, x: f64) -> f64 {
         self.frame.x + self.x.scale.fraction(x) * self.frame.w
     }
 
-    /// Returns the number of pixels per working unit along both axes. On logarithmic axes the unit
-    /// is a decade.
+    /// Returns the pixels per unit of the working coordinate along both axes. The unit of a
+    /// logarithmic axis is a decade.
     pub(crate) fn pace(&self) -> Pt {
         (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
     }
 
-    /// Creates a text at the centre of an empty frame.
     pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
-    /// Creates the complete document: `layers` above the grid, and `legend` and `notes` below the
-    /// frame.
+    /// Creates the complete document: `layers` are drawn over the grid, and `legend` and `notes`
+    /// below the frame.
     pub(crate) fn document(
         &self,
         layers: &[SvgElement],
@@ -204,7 +199,6 @@ const LEGEND_MARGIN: f64 = 10.0;
 /// Maximum number of columns of a legend.
 const MAX_COLUMNS: usize = 4;
 
-/// One entry of the legend.
 #[derive(Clone, Debug)]
 pub(crate) struct LegendEntry {
     key: SvgElement,
@@ -231,7 +225,6 @@ pub(crate) struct Legend {
 }
 
 impl Legend {
-    /// Creates the legend of `entries`.
     pub(crate) fn new(entries: Vec<LegendEntry>) -> Self {
         let rows = |columns: usize| entries.len().div_ceil(columns).max(1);
         let fits = |rows: &usize| legend_width(&entries, *rows) <= WIDTH - 2.0 * LEGEND_MARGIN;

@@ -3,7 +3,6 @@
 use super::style::{MarkerShape, PAPER};
 use super::svg::{Pt, SvgElement};
 
-/// Filling of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fill {
     /// Filled with the colour of the series.
@@ -20,7 +19,6 @@ pub(crate) const RADIUS: f64 = 4.2;
 /// Radius of a crossed marker (px). The larger radius keeps the cross visible in print.
 const CROSSED_RADIUS: f64 = 5.6;
 
-/// Draws a marker centred at `at`.
 pub(crate) fn draw(shape: MarkerShape, fill: Fill, colour: &str, at: Pt) -> SvgElement {
     let radius = match fill {
         Fill::Solid | Fill::Hollow => RADIUS,

@@ -16,7 +16,6 @@ pub(crate) enum ScaleKind {
     Log,
 }
 
-/// The range of one axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
     kind: ScaleKind,
@@ -27,9 +26,7 @@ pub(crate) struct Scale {
 /// Empty space at the ends of an axis, as fractions of its length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pad {
-    /// Fraction at the low end.
     pub(crate) lo: f64,
-    /// Fraction at the high end.
     pub(crate) hi: f64,
 }
 
@@ -37,11 +34,11 @@ pub(crate) struct Pad {
 /// fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// Minimum length of a linear axis as a fraction of its largest value, also because of rounding
-/// noise.
+/// Minimum length of a linear axis as a fraction of its largest value. A shorter axis would show
+/// rounding noise.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Magnitude below which a value is drawn as zero; slightly above the subnormal numbers.
+/// Smaller magnitudes, which include all subnormal numbers, are drawn as zero.
 const TINY: f64 = 1e-290;
 
 impl Scale {
@@ -80,7 +77,6 @@ impl Scale {
         Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
-    /// Returns the working coordinate of the axis.
     pub(crate) fn kind(&self) -> ScaleKind {
         self.kind
     }
@@ -144,7 +140,6 @@ impl Label {
         Self { base: base.to_owned(), exponent: Some(exponent) }
     }
 
-    /// Returns the estimated width in pixels.
     pub(crate) fn width(&self) -> f64 {
         text_width(&self.base, TEXT) + text_width(&self.superscript(), SUPERSCRIPT)
     }

@@ -1,4 +1,4 @@
-//! Sizes, colours and marks that distinguish series.
+//! Sizes and colours of figures, and styles that distinguish series.
 
 /// Width of a figure (px). At this width, texts have at least 9 pixels on a narrow screen.
 pub(crate) const WIDTH: f64 = 440.0;
@@ -22,7 +22,7 @@ pub(crate) const INK: &str = "#222222";
 pub(crate) const GRID: &str = "#e3e3e3";
 /// Colour of the inside of slope triangles.
 pub(crate) const SHADE: &str = "#f3f3f3";
-/// Colour of elements that belong to no series: keys of marks, slope triangles.
+/// Colour of elements that belong to no series, such as slope triangles.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
 /// Colour of the exact solution. It is light, because computed curves are drawn over it.
 pub(crate) const EXACT: &str = "#929292";
@@ -71,7 +71,6 @@ pub(crate) fn style_sheet() -> String {
     )
 }
 
-/// Outline of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MarkerShape {
     Circle,
@@ -84,12 +83,9 @@ pub(crate) enum MarkerShape {
     Star,
 }
 
-/// Style of one series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Look {
-    /// Colour of line and marker.
     pub(crate) colour: &'static str,
-    /// Outline of the marker.
     pub(crate) shape: MarkerShape,
     /// Dash pattern (`stroke-dasharray`).
     pub(crate) dash: &'static str,

@@ -17,18 +17,15 @@ pub(crate) struct Rect {
 }
 
 impl Rect {
-    /// Returns the position of the right edge.
     pub(crate) fn right(&self) -> f64 {
         self.x + self.w
     }
 
-    /// Returns the position of the lower edge.
     pub(crate) fn bottom(&self) -> f64 {
         self.y + self.h
     }
 }
 
-/// One SVG element.
 #[derive(Clone, Debug)]
 pub(crate) struct SvgElement {
     name: &'static str,
@@ -37,18 +34,15 @@ pub(crate) struct SvgElement {
 }
 
 impl SvgElement {
-    /// Creates an element without attributes or content.
     pub(crate) fn new(name: &'static str) -> Self {
         Self { name, attributes: String::new(), content: String::new() }
     }
 
-    /// Creates a group moved to `at`.
     pub(crate) fn group_at(at: Pt) -> Self {
         let shift = format!("translate({} {})", number(at.0), number(at.1));
         Self::new("g").set("transform", &shift)
     }
 
-    /// Creates a straight line.
     pub(crate) fn line(from: Pt, to: Pt) -> Self {
         Self::new("line").at("x1", from.0).at("y1", from.1).at("x2", to.0).at("y2", to.1)
     }
@@ -73,7 +67,6 @@ impl SvgElement {
         Self { content: sheet.to_owned(), ..Self::new("style") }
     }
 
-    /// Sets an attribute to a text.
     pub(crate) fn set(mut self, name: &str, value: &str) -> Self {
         let _ = write!(self.attributes, " {name}=\"{}\"", escape(value));
         self
@@ -85,19 +78,16 @@ impl SvgElement {
         self.set(name, &value)
     }
 
-    /// Appends character data.
     pub(crate) fn content(mut self, text: &str) -> Self {
         self.content.push_str(&escape(text));
         self
     }
 
-    /// Appends a child element on a new line.
     pub(crate) fn add(&mut self, child: &Self) {
         self.content.push('\n');
         self.content.push_str(&child.render());
     }
 
-    /// Converts the element to SVG text.
     pub(crate) fn render(&self) -> String {
         let Self { name, attributes, content } = self;
         if content.is_empty() {

@@ -84,8 +84,8 @@ fn decades(scale: &Scale, stride: i32) -> Vec<Tick> {
     })
 }
 
-/// Creates ticks with labels at 1, 2 and 5 times a power of ten. If these are fewer than three
-/// labels, more digits get a label.
+/// Creates possible sets of ticks, the densest first. Labels are at 1, 2 and 5 times a power of
+/// ten. If there are fewer than three such labels, more digits are labelled.
 fn short_log(scale: &Scale) -> Vec<Vec<Tick>> {
     // All labels of the axis have the same notation.
     let (lo, hi) = scale.ends();

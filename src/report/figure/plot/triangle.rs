@@ -27,7 +27,7 @@ impl Triangle {
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleRow {
     triangles: Vec<Triangle>,
-    /// Maximum width of the row (px), for any vertical axis.
+    /// Maximum width of the row (px) over all scalings of the vertical axis.
     widest: f64,
 }
 
@@ -50,7 +50,6 @@ const CAPTION_GAP: f64 = 5.0;
 const CLEAR: f64 = 14.0;
 
 impl TriangleRow {
-    /// Creates triangles for `orders` on the axes of `plot`.
     pub(crate) fn new(orders: &[f64], plot: &Plot) -> Self {
         let (across, up) = plot.pace();
         let slot = WIDEST * plot.frame.w / orders.len().max(1) as f64;
@@ -90,14 +89,14 @@ impl TriangleRow {
             return pad.lo;
         }
         let needed = (GAP + CAPTION + highest + CLEAR) / FRAME_HEIGHT;
-        // Height of the lowest data as a fraction of the range of all data.
+        // `share` is the height of the lowest data as a fraction of the range of all data.
         let height = (plot.frame.bottom() - lowest) / FRAME_HEIGHT;
         let share = (height - pad.lo) / (1.0 - pad.lo - pad.hi);
         let rest = 1.0 - share;
         if rest > 0.0 { f64::max(pad.lo, (needed - share * (1.0 - pad.hi)) / rest) } else { pad.lo }
     }
 
-    /// Draws the triangles, each with its run and its slope.
+    /// Draws the triangles with captions: `1` for the run, and the order for the rise.
     pub(crate) fn draw(&self, plot: &Plot) -> SvgElement {
         let bottom = plot.frame.bottom() - GAP - CAPTION;
         let width: f64 = self.drawn().map(|triangle| triangle.run + triangle.captions).sum();

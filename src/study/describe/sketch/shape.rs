@@ -1,11 +1,11 @@
-//! Draws bodies as rims with their holes, coloured by material.
+//! Draws bodies by their boundary lines (rims), including holes, with one colour for each material.
 
 use super::view::View;
 use crate::report::figure::plot::style::{INK, look};
 use crate::report::figure::plot::svg::{Pt, SvgElement, number};
 use crate::suite::model::Scene;
 
-/// Opacity of a body. It leaves the grid visible.
+/// Opacity of a body, which leaves the grid visible.
 const OPACITY: &str = "0.35";
 
 /// Maximum distance between points that count as equal, relative to the size of the body.

@@ -8,15 +8,15 @@ use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Distances (px) between hatches or rollers, and between arrows, along a face.
+/// Distance (px) between hatches or rollers along a face; `ARROW_STEP` is the distance of arrows.
 const STEP: f64 = 9.0;
 const ARROW_STEP: f64 = 26.0;
 
-/// Distances (px) by which hatches or rollers, and arrows, extend from a face.
+/// Distance (px) by which hatches or rollers extend from a face; `ARROW` is the length of an arrow.
 const REACH: f64 = 8.0;
 const ARROW: f64 = 20.0;
 
-/// A traction is drawn along the face if its normal component is below this fraction of it.
+/// A traction is drawn along the face if its normal component is below this fraction of its size.
 const ALONG: f64 = 0.3;
 
 /// A face on the canvas: its ends and its outward direction.
@@ -119,7 +119,6 @@ fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     }
 }
 
-/// Draws symbols for the condition and the loads of a face in the plane.
 pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
     let edge = Edge::of(view, face);
     let mut group = SvgElement::new("g");
@@ -181,7 +180,6 @@ const PER_AXIS: usize = 5;
 /// Minimum velocity that gets an arrow, as a fraction of the largest velocity.
 const SMALLEST: f64 = 0.05;
 
-/// Draws an arrow from `tail` to `tip`.
 pub(super) fn arrow(tail: Pt, tip: Pt, colour: &str) -> SvgElement {
     let (dx, dy) = (tip.0 - tail.0, tip.1 - tail.1);
     let length = libm::hypot(dx, dy).max(1e-9);

@@ -47,13 +47,13 @@ impl View {
         Self { scene, from, to, h }
     }
 
-    /// Lengths (m) of the grid along the first two axes.
+    /// Returns the lengths (m) of the grid along the first two axes.
     pub(super) fn size(&self) -> [f64; 2] {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Returns the scale (px/m) along each axis. Both scales differ for bodies that would otherwise
-    /// be too flat.
+    /// Returns the scale (px/m) along each axis. The second scale is larger for bodies that would
+    /// otherwise be too flat.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);
@@ -63,7 +63,6 @@ impl View {
         }
     }
 
-    /// Whether both axes have the same scale.
     pub(super) fn is_to_scale(&self) -> bool {
         let [across, up] = self.scale();
         self.scene.dimension() == 1 || across == up
@@ -74,7 +73,6 @@ impl View {
         self.size()[1] * self.scale()[1] + 2.0 * MARGIN
     }
 
-    /// Converts a position (m) to pixels.
     pub(super) fn place(&self, (x, y): Pt) -> Pt {
         let (scale, size) = (self.scale(), self.size());
         let left = 0.5 * (WIDTH - size[0] * scale[0]);
@@ -98,7 +96,6 @@ impl View {
         (0..body.dimension()).map(coordinate).collect()
     }
 
-    /// Whether a body covers a position in the plane.
     pub(super) fn covers(body: &Scene, place: Pt) -> bool {
         let place = Self::in_scene(body, place);
         let inside = |(axis, x): (usize, &f64)| (body.from[axis]..=body.to[axis]).contains(x);
