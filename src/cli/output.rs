@@ -20,7 +20,6 @@ pub(super) fn print(text: &str) {
     note(anstream::stdout().lock(), painted.as_bytes());
 }
 
-/// Prints bytes, which may be binary.
 pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
@@ -35,7 +34,6 @@ pub(super) fn complain(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", painted(text.trim_end()));
 }
 
-/// Prints a diagnostic to standard error.
 pub(super) fn diagnose(diagnostic: &Diagnostic) {
     complain(&diagnostic.styled());
 }
@@ -59,7 +57,7 @@ const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
 const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Beginnings of lines that are coloured, after leading spaces.
+/// Line beginnings (after leading spaces) that are coloured, with their styles.
 const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
@@ -71,7 +69,7 @@ const FIRST: [(&str, Style); 8] = [
     ("n/a ", DOUBTFUL),
 ];
 
-/// Texts that are coloured in the line with the result of a case.
+/// Texts that are coloured in the result line of a case, with their styles.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
 /// Colours the verdicts in a text.

@@ -15,7 +15,8 @@ const FOLDER: &str = "verification";
 /// Name of the target that is standard input.
 const STDIN: &str = "-";
 
-/// Loads the suites that `targets` name. An element is a suite, or a diagnostic about the failure.
+/// Loads the suites that `targets` name, or returns a diagnostic for each one that cannot be
+/// loaded.
 ///
 /// Without targets, loads all suites in `verification/`, or the built-in suites if there is no such
 /// folder.
@@ -46,9 +47,8 @@ fn everything() -> Sources {
     }
 }
 
-/// Returns the names of the suites that `targets` name individually: by a file, by name or on
-/// standard input, instead of by a folder, a group or a pattern. `suites` are all suites that the
-/// targets select.
+/// Returns the names of the suites that `targets` name individually: by file, by name or on
+/// standard input, not by folder, group or pattern. `suites` are all selected suites.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
     #[derive(serde::Deserialize)]
     struct Name {
@@ -123,7 +123,7 @@ fn named(name: &str) -> Option<Sources> {
     Some(group).filter(|group| !group.is_empty())
 }
 
-/// Returns the suites whose name, or group and name, match a pattern.
+/// Returns the suites whose `NAME` or `GROUP/NAME` matches a pattern.
 fn fitting(glob: &str) -> Sources {
     let fits = |path: &Path| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -186,7 +186,6 @@ pub(super) fn suite_names() -> Vec<String> {
     names
 }
 
-/// Returns all suites in a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {

@@ -64,8 +64,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// Replaces the methods of the suite by the solver, if there is one. Prints a note and returns
-/// `None` if external solvers cannot run the suite, because it tests internals of a method.
+/// Replaces the methods of the suite by the solver, if there is one. If the suite tests internals
+/// of a method, which external solvers do not have, prints a note and returns `None`.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,

@@ -5,7 +5,6 @@ use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
 
-/// One suite with all its runs, which use its own methods, external solvers, or both.
 pub(super) struct SuiteRuns {
     /// One run by the methods of the suite, and one by each solver.
     parts: Vec<SuitePart>,
@@ -87,7 +86,7 @@ impl SuiteRuns {
         &self.parts[0].suite
     }
 
-    /// Returns the first name that two of the cases have.
+    /// Returns a name that two cases share, if any.
     fn twice(&self) -> Option<String> {
         let mut names = BTreeSet::new();
         let all = self.parts.iter().flat_map(|part| part.suite.case_names());
@@ -95,10 +94,11 @@ impl SuiteRuns {
     }
 }
 
-/// Checks that the name of a solver differs from the names of all cases.
+/// Checks that case names are unique within each suite. Cases of an external solver have the name
+/// of the solver.
 ///
 /// # Errors
-/// The first name that two cases have.
+/// If a case of a suite has the name of a solver.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
     let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
     else {

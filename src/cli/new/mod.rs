@@ -20,7 +20,7 @@ pub(super) struct NewArgs {
     /// Name of the suite: lower-case letters, digits and hyphens
     #[arg(value_name = "NAME")]
     name: String,
-    /// Dimension of space [default: 1]
+    /// Number of space dimensions [default: 1]
     #[arg(long, value_name = "D", value_parser = ["1", "2", "3"])]
     dimension: Option<String>,
     /// Material of the body [default: neo_hookean, or the one for the exact solution]
@@ -97,7 +97,7 @@ fn setting(
     NamedChoice { value, known }
 }
 
-/// Chooses the material. It determines the exact solution.
+/// Chooses the material, which determines the exact solution.
 fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth

@@ -96,11 +96,10 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Writes cases as time series into a folder.
+/// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether the series of all cases in the run are written, instead of those with unexpected
-    /// results.
+    /// Whether all cases are written, not only those with unexpected results.
     all: bool,
 }
 

@@ -18,7 +18,6 @@ pub(super) struct JudgedSolver {
     pub(super) gate: Option<SolverGate>,
 }
 
-/// The gate of a run.
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.
     named: BTreeSet<String>,
@@ -55,8 +54,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and all reasons except failed cases why the solver does not pass.
-    /// Returns whether there are no such reasons.
+    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
+    /// Returns true if there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -100,7 +99,7 @@ const HIGHEST_ORDER: f64 = 20.0;
 struct ConfigSpec {
     /// Formal order of the solver in h.
     formal_order: Option<f64>,
-    /// Terms for suites. The keys are names, groups or patterns of suites.
+    /// Requirements by suite name, group or pattern.
     #[serde(default)]
     suites: Ordered<TermsSpec>,
 }
@@ -122,7 +121,7 @@ struct TermsSpec {
 #[derive(Debug, Default)]
 struct SolverConfig {
     formal_order: Option<f64>,
-    /// Terms for suites, with the name, group or pattern that they apply to.
+    /// Requirements, with the suite name, group or pattern that they apply to.
     suites: Vec<(String, GateTerms)>,
 }
 
@@ -148,7 +147,7 @@ impl SolverConfig {
         Ok(Self { formal_order: spec.formal_order, suites: checked })
     }
 
-    /// Returns the terms for a suite, from the first entry that matches its name or group.
+    /// Returns the requirements of the first entry that matches the name or group of a suite.
     fn terms(&self, suite: &Suite) -> GateTerms {
         let in_group = format!("{}/{}", suite.group, suite.name);
         let names = [&suite.name, &suite.group, &in_group];

@@ -16,11 +16,8 @@ const FEW: usize = 5;
 /// Format and amount of the printed text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printing {
-    /// One JSON document.
     Json,
-    /// One table of comma-separated values.
     Csv,
-    /// LaTeX tables.
     Latex,
     /// All reports, followed by one line for each case.
     Reports,
@@ -33,7 +30,6 @@ pub(super) enum Printing {
 }
 
 impl Printing {
-    /// Determines what is printed from the options and the number of suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
         match args.format {
@@ -83,7 +79,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// States in one line where the reports are.
+/// Returns one line with the location of the reports.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());

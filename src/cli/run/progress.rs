@@ -15,7 +15,6 @@ const INTERRUPTED: i32 = 130;
 /// Fraction of the predicted time that must have passed before the remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
-/// Progress over the suites of a run.
 pub(super) struct RunProgress {
     bar: ProgressBar,
     state: Mutex<ProgressState>,
@@ -23,9 +22,9 @@ pub(super) struct RunProgress {
 
 struct ProgressState {
     suite: String,
-    /// Predicted time (s) of each remaining unit of the current suite, in decreasing order.
+    /// Predicted times (s) of the remaining levels of the current suite, in decreasing order.
     units: Vec<f64>,
-    /// Predicted time (s) of the finished units, and of all units.
+    /// Predicted time (s) of the finished levels.
     done: f64,
     all: f64,
     start: Instant,
@@ -76,7 +75,6 @@ impl RunProgress {
         self.bar.suspend(print);
     }
 
-    /// Removes the bar.
     pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }
