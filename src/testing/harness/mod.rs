@@ -91,8 +91,9 @@ impl SuiteFolder {
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on rayon threads, and a test thread only waits. A rayon thread that has
-        // finished its part of one case starts another case, which then delays the first.
+        // Cases run on rayon threads, and a test thread only waits. A rayon thread that finishes
+        // its part of one case may start another case, which delays the first. More tests than
+        // threads therefore wait at the same time.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());
