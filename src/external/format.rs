@@ -35,7 +35,7 @@ impl LevelProblem {
     /// Converts the problem to the bytes of a file.
     ///
     /// # Errors
-    /// An error of the zip library.
+    /// If the zip library fails.
     pub fn written(&self, format: ProblemFormat) -> io::Result<Vec<u8>> {
         match format {
             ProblemFormat::Csv => Ok(csv_table(self).into_bytes()),
@@ -45,7 +45,7 @@ impl LevelProblem {
         }
     }
 
-    /// Formats the protocol message in several lines.
+    /// Returns the `problem` message of the protocol as indented JSON.
     fn document(&self) -> String {
         let mut document = json!(self);
         let columns = self.particles.columns();

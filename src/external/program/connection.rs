@@ -24,8 +24,7 @@ const LAST_BYTES: usize = 2000;
 /// Maximum number of lines of standard error in an error message.
 const LAST_LINES: usize = 3;
 
-/// Maximum time for a process to exit without being killed. The response timeout also applies if it
-/// is shorter.
+/// Maximum time for a process to exit by itself, unless the response timeout is shorter.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Polling interval for a process that does not respond.
@@ -34,7 +33,7 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// Limits on each process of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// Maximum time without an answer.
+    /// Response timeout.
     pub silence: Duration,
     /// Maximum address space (bytes), on Unix; `None` for the limit of the operating system.
     pub memory: Option<u64>,

@@ -193,7 +193,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // A capability that is missing for another reason too is reported only once.
+            // A capability that is also missing for another reason is reported only once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated
@@ -305,7 +305,6 @@ fn checked(
     }
 }
 
-/// Lists the names of the parameters in a request.
 fn names(request: &GradientRequest) -> Vec<&'static str> {
     request.with_respect_to.iter().map(|one| one.name()).collect()
 }
