@@ -1,4 +1,5 @@
-//! Expectations of cases (exactly one for each case, or none at all), and the key `any_method`.
+//! Compiles the expectations of cases, and the key `any_method`. A suite has one expectation for
+//! each case, or none at all.
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
@@ -15,7 +16,7 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
-/// Expectation of a case, and a second one for a full run if it differs.
+/// Expectation of a case, and its expectation for a full run if different.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
 /// Returns the expectations in the order of `cases`; all `None` if the suite states none.
@@ -85,7 +86,7 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Returns the expectation for a full run, if an entry states a different one.
+/// Returns the expectation for a full run, if an entry states one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -261,13 +262,12 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points per axis, and of times, at which a motion is tested for being a translation.
+/// Number of points per axis and of times at which `is_translation` evaluates a motion.
 const PLACES: usize = 5;
 
-/// Displacement gradients up to this value count as rounding errors of a translation.
+/// Maximum displacement gradient of a translation, due to rounding.
 const UNDEFORMED: f64 = 1e-14;
 
-/// Compiles the key `any_method`.
 pub(crate) fn any_method(
     evaluator: &Evaluator<'_>,
     spec: &AnyMethodSpec,

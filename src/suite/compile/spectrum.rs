@@ -25,16 +25,15 @@ const MOST: usize = 500;
 /// Maximum number of particles per cell. The closed form has one term per particle.
 const MOST_PPC: u64 = 64;
 
-/// Minimum mass symbol (see the glossary) of a wave that the grid represents.
+/// Minimum mass symbol (see the glossary) of a wave that the grid can represent.
 const SMALLEST_MASS: f64 = 1e-9;
 
-/// Largest imaginary part of the symbol of TPIC that counts as rounding.
+/// Maximum imaginary part of the symbol of TPIC that counts as rounding error.
 const LARGEST_ASYMMETRY: f64 = 1e-12;
 
-/// Deviation of a number of periods from an integer that is treated as rounding error.
+/// Maximum deviation of a number of periods from an integer that counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Compiles a spectrum study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -99,7 +98,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// Compiles the translation of the particles (m), by which no particle may leave its cell.
+/// Compiles the translation of the particles (m). It must keep every particle in its cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");
@@ -164,7 +163,8 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// Compiles the cases (combinations of the lists in `methods`), closed forms and expectations.
+/// Compiles the cases, one for each combination of the lists in `methods`, with closed forms and
+/// expectations.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -257,7 +257,7 @@ fn expectation(
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
-/// Refuses a solver that refers to the prediction of an unknown case.
+/// Refuses the key `solvers` if it assigns an unknown case to a solver.
 fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
     let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let Some((solver, case)) =
@@ -270,8 +270,8 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     Err(diagnostic.with_help(&suggestion("cases", case, &names)))
 }
 
-/// Refuses a time step above the stability limit of a case, and a wave that the grid of a case does
-/// not represent.
+/// Refuses time steps above the stability limit of a case, and waves that its grid cannot
+/// represent.
 fn refuse_unfit_waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

@@ -16,7 +16,7 @@ pub(crate) struct MethodDraft {
     pub(crate) method: Method,
     /// Name of the solver; `None` for built-in methods.
     solver: Option<String>,
-    /// Whether each setting is part of the name, in the order of [`settings`].
+    /// Whether each setting appears in the name, in the order of [`settings`].
     said: Vec<bool>,
 }
 
@@ -68,8 +68,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// Compiles entry number `entry` to methods, one for each combination of list values. A setting is
-/// part of the name if the entry lists several values, or if the setting has no default.
+/// Compiles entry number `entry` to methods, one for each combination of list values. A setting
+/// appears in the name if the entry lists several values, or if the setting has no default.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -226,7 +226,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// Gives the methods their final names. Refuses an empty list, and equal methods.
+/// Gives the methods their final names. Refuses an empty list and duplicate methods.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
@@ -255,8 +255,8 @@ fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds settings to equal names. Returns whether a name has changed: the new name may equal that of
-/// another method, so this step must be repeated.
+/// Adds settings to equal names, and returns whether a name has changed. A new name may equal that
+/// of another method, so the caller repeats this step.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -287,7 +287,6 @@ fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
     list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
-/// Returns the length of an optional list; 1 if absent.
 fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
 }

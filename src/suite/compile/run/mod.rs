@@ -24,8 +24,8 @@ const MOST_CASES: usize = 1000;
 /// Maximum number of load steps in a run.
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// Compiles the ends of the runs. Returns for each end its text in case names, and its value (s, or
-/// number of load steps).
+/// Compiles the ends of the runs. Returns for each end its text in case names and its value (s, or
+/// the number of load steps).
 pub(crate) fn ends(
     evaluator: &Evaluator<'_>,
     run: &RunSpec,
@@ -46,7 +46,6 @@ pub(crate) fn ends(
     }
 }
 
-/// Compiles the numbers of load steps.
 fn load_steps(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -67,7 +66,6 @@ fn load_steps(
     Ok(counts)
 }
 
-/// Compiles the end times of the runs (s).
 fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -137,7 +135,6 @@ pub(crate) fn expected(
     Ok(cases.iter().zip(expectations).map(with).collect())
 }
 
-/// A case without expectation.
 struct Draft {
     name: String,
     method: Method,
@@ -206,7 +203,7 @@ fn combined(
     })
 }
 
-/// Refuses too many combinations of list values before they are computed.
+/// Refuses too many combinations of list values, before they are computed.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -278,8 +275,8 @@ fn possible(
     }
 }
 
-/// Returns the reason why the scene's walls cannot be combined with a consistent mass matrix;
-/// `None` if they can.
+/// Returns the reason why walls of the scene exclude a consistent mass matrix; `None` if they do
+/// not.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
@@ -294,8 +291,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// Returns the default law of an FEM case, which is the law of the material. The check
-/// `fem_support` has already refused materials without such a law.
+/// Returns the default law of an FEM case: the law of the material. The check `fem_support` has
+/// already refused materials without such a law.
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

@@ -8,7 +8,6 @@ use crate::suite::model::Scene;
 use crate::suite::scene::load::EffectName;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Returns the path of the density of a body.
 fn path(own: &Listed<'_>) -> Path {
     own.at.then("material").then(own.material.name()).then("density")
 }
@@ -29,7 +28,8 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether `diagnostic` reports that a coordinate is an unknown name in the formula of a number.
+/// Whether `diagnostic` reports a coordinate as an unknown name, because a formula must be a
+/// constant.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)
@@ -78,7 +78,7 @@ fn not_positive(
     evaluator.unusable(path, text, &message, label)
 }
 
-/// Returns why a part of the scene does not support a varying density; `None` if all parts do.
+/// Returns the reason why the scene does not support a varying density; `None` if it does.
 fn unsupported(scene: &Scene) -> Option<&'static str> {
     if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
         return Some("masses are integrated in a box or a round body only");

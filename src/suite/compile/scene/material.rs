@@ -8,7 +8,6 @@ use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Compiles the material at `path`.
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -33,7 +32,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// Adds help to a diagnostic about a parameter that varies in space.
+/// Adds help to a diagnostic if a parameter varies in space.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     if !names_coordinate(&diagnostic) {
         return diagnostic;
@@ -106,7 +105,7 @@ const COMPONENTS: [(&str, usize, usize); 6] =
 /// Compiles the initial displacement (m); empty if not stated.
 ///
 /// # Errors
-/// A diagnostic about a formula, or about a `material` that cannot start deformed.
+/// A diagnostic about a formula, or about a material that cannot start deformed.
 pub(crate) fn displacement(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -138,8 +137,8 @@ pub(crate) fn velocity(
 /// Compiles the initial stress of the reference configuration.
 ///
 /// # Errors
-/// A diagnostic about a `material` without initial stress, about a component on a missing axis, or
-/// about a formula.
+/// A diagnostic about a material without initial stress, a component on a missing axis, or a
+/// formula.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -168,7 +167,7 @@ pub(crate) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// Returns text with the stress components that a scene of this dimension can state.
+/// Lists the stress components that a scene of this dimension can state.
 fn known(dimension: usize) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();

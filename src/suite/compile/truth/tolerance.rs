@@ -5,7 +5,8 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Default tolerance of an exact solution (relative residual): rounding of second derivatives.
+/// Default tolerance of an exact solution (relative residual). It allows for rounding of second
+/// derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Maximum tolerance that a suite may state.
@@ -40,8 +41,8 @@ pub(crate) fn linearised(
     Ok(Some(Linearised { tolerance, because }))
 }
 
-/// Returns the diagnostic about a violation in `problem`. The text includes the residual of the law
-/// if the suite states, or could state, the key `linearised`.
+/// Returns the diagnostic about a violation in `problem`. It includes the residual of the law if
+/// the suite states, or could state, the key `linearised`.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -73,7 +74,7 @@ pub(crate) fn violated(
 /// Maximum relative residual that rounding or a truncated series can explain.
 const ROUNDING: f64 = 1e-5;
 
-/// Returns advice on accepting a small violation of a solution with this `tolerance`.
+/// Returns advice for accepting a small violation of a solution with this `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(

@@ -12,13 +12,11 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Shape of a body.
 pub(crate) enum BodyShape<'a> {
-    /// A box, given by its keys.
     Box(&'a BoxSpec),
-    /// A body with a free rim.
+    /// A body with a free surface, such as a disk or a polygon.
     Free(Arc<dyn Outline>),
-    /// A quadrilateral, which is a mapped box.
+    /// A quadrilateral, which is the bilinear map of a box.
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
@@ -67,7 +65,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Refuses conditions on rims, and loads on rims other than the few that round rims support.
+/// Refuses conditions on rims, and loads on rims except those that round rims support.
 ///
 /// # Errors
 /// A diagnostic about the first condition or load on a rim.
@@ -149,7 +147,8 @@ pub(crate) fn corners(
             let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
             return Err(diagnostic.with_label("expected a number above that of `from`"));
         }
-        // Second derivatives contain squares of lengths; volumes contain cubes.
+        // Second derivatives contain squares of the length, and volumes contain cubes; both must be
+        // finite.
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));

@@ -1,5 +1,3 @@
-//! Compiles quadrilaterals.
-
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
@@ -36,7 +34,8 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// Refuses conditions and loads on faces of the bounding box on which no whole side lies.
+/// Refuses conditions and loads on a face of the bounding box that contains no side of the
+/// quadrilateral.
 ///
 /// # Errors
 /// A diagnostic about the first condition or load on such a face.

@@ -1,5 +1,3 @@
-//! Compiles round bodies.
-
 use crate::exact::{Outline, Round};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, RoundSpec};
