@@ -1,4 +1,4 @@
-//! Names that a suite declares: tables, and errors about reserved, unused or undeclared names.
+//! Declares tables, and checks declared names: reserved, unused or undeclared ones are errors.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};

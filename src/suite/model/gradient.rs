@@ -30,7 +30,7 @@ pub struct GradientPlan {
 pub struct Differentiated {
     /// The parameter of the problem that is differentiated.
     pub parameter: GradientParameter,
-    /// Name of the suite parameter that sets it.
+    /// Name of the suite parameter that sets the problem parameter.
     pub name: String,
     /// The exact motion as a function of the suite parameter.
     pub motion: ParametricMotion,
@@ -61,7 +61,7 @@ pub struct GradientCase {
     pub parameter: usize,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(GradientTerms, String)>,
-    /// Treatment by `run --gate`, for a solver without an expectation.
+    /// Role in `run --gate` (required, not gated or excepted), for a solver without an expectation.
     pub gating: Option<Gating>,
 }
 
