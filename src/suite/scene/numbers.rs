@@ -61,7 +61,7 @@ impl NumberField {
         self.formulas.iter().map(Formula::constant).collect()
     }
 
-    /// Returns whether the value depends on the coordinates, on time and on the displacement, in
+    /// Returns whether the value depends on the coordinates, on time, and on the displacement, in
     /// `d` dimensions.
     pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
         let reads = |from: usize, to: usize| {
@@ -111,8 +111,8 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// Evaluates a formula at the reference position `label` (m) and time `t` for the displacement `u`
-/// (m). The formula need not depend on the displacement.
+/// Evaluates a formula at the reference position `label` (m) and time `t`, for the displacement `u`
+/// (m), on which the formula need not depend.
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
     label: &[f64],

@@ -5,10 +5,11 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use std::fmt;
 use std::ops::Range;
 
-/// Maximum length of a text in a diagnostic: a file may contain a key of 60 000 characters.
+/// Maximum length of a text in a diagnostic (characters). A file may contain a key of 60 000
+/// characters.
 const MAX_WORDS: usize = 300;
 
-/// Maximum length of advice, which may list all names of a family.
+/// Maximum length of advice (characters), which may list many names.
 const MAX_HELP: usize = 500;
 
 /// Severity of the diagnostic.
@@ -81,7 +82,6 @@ impl Diagnostic {
         self
     }
 
-    /// Adds advice for the author.
     #[must_use]
     pub fn with_help(mut self, help: &str) -> Self {
         self.0.help = Some(shortened(help, MAX_HELP)).filter(|help| !help.is_empty());
@@ -95,7 +95,6 @@ impl Diagnostic {
         self
     }
 
-    /// Returns the severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
     }
@@ -120,7 +119,6 @@ impl Diagnostic {
         self.0.label.as_deref()
     }
 
-    /// Returns the advice for the author.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
@@ -179,7 +177,7 @@ fn printable(words: &str) -> String {
     shortened(words, MAX_WORDS)
 }
 
-/// Printable text of at most `most` characters.
+/// Converts text to one safe line of at most `most` characters.
 fn shortened(words: &str, most: usize) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {

@@ -153,7 +153,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         Vec::new()
     }
 
-    /// Returns the heat conduction; `None` for other loads.
+    /// Returns the heat conduction; `None` for all other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }

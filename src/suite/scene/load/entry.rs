@@ -11,7 +11,7 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Facts about a convergence study against which a load is checked.
+/// Properties of a convergence study that may exclude a load.
 pub(crate) struct StudyFacts {
     /// Whether the body force is manufactured.
     pub(crate) manufactured: bool,
@@ -21,8 +21,8 @@ pub(crate) struct StudyFacts {
 
 /// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
-    /// Returns example YAML for a load of strength `s` (zero: no effect) with vector value
-    /// `vector`, on the face `right` or the set `some`. Used by tests of all loads.
+    /// Returns the YAML of an example load with strength `s` (zero: no effect) and the vector value
+    /// `vector`, on the face `right` or the set `some`. Tests of all loads use it.
     fn example(vector: &str) -> String
     where
         Self: Sized;
@@ -33,7 +33,7 @@ pub(crate) trait LoadKeys {
     /// The first error in the keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
-    /// Refuses a convergence study that does not support the load.
+    /// Refuses a convergence study in which the load is not supported.
     ///
     /// # Errors
     /// A diagnostic about the unsupported part of the study.
@@ -82,7 +82,6 @@ pub(crate) struct LoadEntry<'a> {
 }
 
 impl LoadEntry<'_> {
-    /// Returns the number of space dimensions.
     pub(crate) fn dimension(&self) -> usize {
         self.scene.dimension()
     }
@@ -114,8 +113,8 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
     }
 
-    /// Compiles one formula for each component. Variables are the coordinates and t, and the
-    /// displacement if one of the formulas uses it.
+    /// Compiles one formula of the coordinates, t and optionally the displacement for each
+    /// component.
     pub(crate) fn of_displacement(
         &self,
         path: &Path,
@@ -188,7 +187,7 @@ impl LoadEntry<'_> {
 /// A face on which a load acts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedFace {
-    /// Index in axis order, the low face of each axis before the high face.
+    /// Index in axis order, with the low face of each axis before the high face.
     pub(crate) number: usize,
     pub(crate) name: &'static str,
 }
@@ -242,7 +241,8 @@ impl LoadedSet {
     }
 }
 
-/// Refuses tractions and pressures on a set: they are forces per area, and a set has no area.
+/// Refuses tractions and pressures on a set, because they are forces per area and a set has no
+/// area.
 fn refuse_surface_load(
     evaluator: &Evaluator<'_>,
     path: &Path,

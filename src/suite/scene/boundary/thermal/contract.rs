@@ -32,8 +32,8 @@ pub struct SceneHeat {
     pub capacity: f64,
     /// Heat source (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t. Default: that of the exact
-    /// solution.
+    /// Initial temperature (K), a formula of the coordinates and t. By default it is that of the
+    /// exact solution.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub(crate) faces: Vec<ThermalFace>,
@@ -69,8 +69,7 @@ in_every_dimension! {
     BuildThermals: BuildThermal
 }
 
-/// A thermal condition on one face of the body, with all numbers computed. The implementations are
-/// in `suite/scene/boundary/thermal`.
+/// A thermal condition on one face of the body, with all numbers computed.
 pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
     /// Returns the text for the report row of the face; `None` for a periodic face.
     fn row(&self) -> Option<String>;

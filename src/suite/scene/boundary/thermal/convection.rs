@@ -10,7 +10,7 @@ use crate::suite::scene::numbers::scalar;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Heat transfer; the temperature of the surroundings is a formula of the coordinates and t.
+/// Newton's law of cooling. The ambient temperature is a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
