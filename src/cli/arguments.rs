@@ -40,7 +40,6 @@ pub(super) struct SolversArgs {
     pub(super) limits: SolverLimitArgs,
 }
 
-/// A value of `--solver`.
 #[derive(Debug, Clone)]
 pub(super) struct SolverCommand {
     /// Name in reports; `None` for the solver's own name.
@@ -162,7 +161,6 @@ enum Color {
 }
 
 impl ColorArgs {
-    /// Applies the colour choice to both output streams.
     pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,

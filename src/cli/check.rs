@@ -116,7 +116,6 @@ struct ApplicableSuites {
     names: Vec<String>,
     /// Number of suites that require each missing capability.
     lacking: BTreeMap<String, usize>,
-    /// Number of suites that the solver cannot run.
     others: usize,
 }
 
@@ -228,7 +227,6 @@ impl CheckFindings {
         }));
     }
 
-    /// Prints the summary, or the JSON document with all findings.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
             if let Some(applicable) = self.applicable {

@@ -41,7 +41,6 @@ pub(super) enum Page {
     Json,
 }
 
-/// File name of the overview snapshot.
 const OVERVIEW: &str = "OVERVIEW.snap";
 
 /// File name of the JSON results in a folder of `run --out`.
@@ -131,7 +130,6 @@ fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedR
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))
 }
 
-/// Returns the text of a file in a commit.
 fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
         return Err(io::Error::other("the name of a commit cannot begin with a dash"));
@@ -145,7 +143,6 @@ fn committed(commit: &str, file: &str) -> io::Result<String> {
     }
 }
 
-/// Loads the results of a run from its JSON.
 fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {

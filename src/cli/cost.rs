@@ -52,7 +52,6 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     Ok(if refused.is_empty() { found } else { Status::BadInput })
 }
 
-/// Finds and prints the most accurate setting within the budget for each suite.
 fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     let mut found: Vec<(String, BestCandidate)> = Vec::new();
     let mut code = Status::Passed;

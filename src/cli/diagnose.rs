@@ -26,7 +26,6 @@ pub(super) struct DiagnoseArgs {
     solver: SolverArgs,
 }
 
-/// Prints the diagnosis of each requested case.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);

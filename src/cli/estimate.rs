@@ -42,7 +42,6 @@ pub(super) fn estimate(args: &EstimateArgs) -> Result<Status, CommandError> {
     Ok(if result.is_ok() { Status::Passed } else { Status::Failed })
 }
 
-/// Reads the input, and returns its name and text.
 fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     let file = file.filter(|file| file.as_os_str() != "-");
     let name = file.map_or_else(|| "<stdin>".to_owned(), |file| file.display().to_string());
@@ -70,7 +69,6 @@ struct InputLine {
     spacing: Range<usize>,
 }
 
-/// Parses the levels in `text`, which is the content of `file`.
 fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     let mut lines: Vec<InputLine> = Vec::new();
     let mut is_first = true;

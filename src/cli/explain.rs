@@ -27,7 +27,6 @@ pub(super) struct ExplainArgs {
     format: FormatArgs,
 }
 
-/// Prints a page for each suite.
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
     if let Some(file) = &args.sketch {

@@ -57,7 +57,6 @@ pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     Status::Passed
 }
 
-/// Prints the manual page of the program or of one of its commands.
 pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> {
     let mut cli = cli.disable_help_subcommand(true);
     cli.build();

@@ -11,7 +11,6 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use thiserror::Error;
 
-/// First failure to write to standard output.
 static FAILURE: OnceLock<String> = OnceLock::new();
 
 /// Prints to standard output, in colour if it is a terminal.
@@ -72,7 +71,6 @@ const FIRST: [(&str, Style); 8] = [
 /// Texts that are coloured in the result line of a case, with their styles.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
-/// Colours the verdicts in a text.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
@@ -95,7 +93,6 @@ fn line(line: &str) -> String {
     line.to_owned()
 }
 
-/// Exit status of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
     /// All results are as expected; in a comparison, nothing has become worse.
@@ -123,12 +120,10 @@ pub(super) enum CommandError {
 }
 
 impl CommandError {
-    /// Creates an error about a suite, a case or an option.
     pub(super) fn about(subject: impl Display, reason: impl Display) -> Self {
         Self::Message(format!("{subject}: {reason}"))
     }
 
-    /// Creates an error about the value of an option.
     pub(super) fn option(option: &str, value: impl Display, reason: impl Display) -> Self {
         Self::about(format_args!("{option} {value}"), reason)
     }

@@ -34,7 +34,6 @@ fn format(name: &str) -> Result<ProblemFormat, Expected> {
     found.copied().ok_or_else(|| Expected(format!("one of {}", names()).into()))
 }
 
-/// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
     if args.format.is_binary() && stdout().is_terminal() {
         let format = args.format.name();

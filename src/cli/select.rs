@@ -12,7 +12,6 @@ use std::path::{Path, PathBuf};
 /// Default folder of suites.
 const FOLDER: &str = "verification";
 
-/// Name of the target that is standard input.
 const STDIN: &str = "-";
 
 /// Loads the suites that `targets` name, or returns a diagnostic for each one that cannot be
@@ -24,7 +23,6 @@ pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// Loads the suites that `targets` name, each with its source, or returns a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
@@ -73,7 +71,6 @@ pub(super) fn is_known(target: &str) -> bool {
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether the target is a pattern of suite names instead of a file name.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
@@ -174,7 +171,6 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Returns the names of local and built-in suites and groups.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));

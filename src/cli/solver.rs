@@ -11,9 +11,6 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Starts the solver that the command line names, if any.
-///
-/// # Errors
-/// If the solver does not start or violates the protocol.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
@@ -43,9 +40,6 @@ pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, Comman
 }
 
 /// Starts a solver and requests its capabilities.
-///
-/// # Errors
-/// If the solver does not start or violates the protocol.
 pub(super) fn greet(
     command: &str,
     limits: &SolverLimitArgs,
@@ -106,7 +100,6 @@ pub(super) fn suites_of_solver(
     (judged, left_out)
 }
 
-/// Whether the solver can run at least one case.
 pub(super) fn is_applicable(outcomes: &[SuiteOutcome]) -> bool {
     outcomes.iter().flat_map(|outcome| &outcome.cases).any(|case| case.lacks.is_empty())
 }

@@ -35,7 +35,6 @@ pub struct HandedValues {
     pub asked: Vec<(&'static str, Vec<&'static str>)>,
 }
 
-/// Serializes pairs of key and value as an object.
 pub(super) fn as_map<V: Serialize, S: Serializer>(
     all: &[(&'static str, V)],
     to: S,
@@ -242,7 +241,6 @@ impl BodyForceField {
     }
 }
 
-/// Copies points together with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

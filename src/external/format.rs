@@ -62,12 +62,10 @@ impl LevelProblem {
     }
 }
 
-/// Whether a column has one number for each particle.
 fn is_scalar(column: &str) -> bool {
     ["mass", "reference_volume", "volume", "body", "hoop_stress"].contains(&column)
 }
 
-/// Whether a column has a tensor for each particle.
 fn is_tensor(column: &str) -> bool {
     ["deformation_gradient", "stress", "initial_stress"].contains(&column)
 }
@@ -132,7 +130,6 @@ fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     Ok(file.finish()?.into_inner())
 }
 
-/// Creates an array of doubles in the `npy` format.
 fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     let mut head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     let magic = b"\x93NUMPY\x01\x00";

@@ -87,7 +87,6 @@ pub struct ProblemParticles {
 }
 
 impl ProblemParticles {
-    /// Names of the optional columns.
     pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
 
     /// Returns the number of particles.

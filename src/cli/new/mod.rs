@@ -45,7 +45,6 @@ pub(super) struct NewArgs {
     format: FormatArgs,
 }
 
-/// Writes a suite, and prints its path and the next steps.
 pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
     let path = written(args)?.display().to_string();
     output::print(&if args.format.is_json() {
@@ -69,7 +68,6 @@ fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     Ok(path)
 }
 
-/// Collects all choices from options, answers to questions, and defaults.
 fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");

@@ -37,7 +37,6 @@ impl LawChoice {
         }
     }
 
-    /// Returns the kind of exact solution that is known for the material.
     pub(super) fn truth(self) -> TruthChoice {
         match self {
             Self::LinearElastic => TruthChoice::StandingWave,
@@ -63,7 +62,6 @@ impl TruthChoice {
     }
 }
 
-/// Choices for a new suite. Their names are those in suites.
 pub(super) struct Choices {
     pub(super) name: String,
     pub(super) dimension: String,
@@ -73,10 +71,8 @@ pub(super) struct Choices {
     pub(super) scheme: NamedChoice,
 }
 
-/// Chosen value of a method setting.
 pub(super) struct NamedChoice {
     pub(super) value: String,
-    /// Allowed values of the setting.
     pub(super) known: Vec<&'static str>,
 }
 

@@ -122,10 +122,8 @@ pub(in crate::cli) struct JudgedSolverArgs {
     pub(super) allow_not_applicable: bool,
 }
 
-/// A value of `--label`.
 #[derive(Debug, Clone)]
 pub(super) struct CaseLabel {
-    /// Name of the case.
     pub(super) case: String,
     /// Text that replaces the name in drawings and tables.
     pub(super) text: String,

@@ -111,7 +111,6 @@ impl Series {
         Ok(Self { folder, all })
     }
 
-    /// Writes the time series of the selected cases of a suite, and prints the paths of the files.
     pub(super) fn write(
         &self,
         runner: &Runner<'_>,
@@ -144,7 +143,6 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
     fs::write(path, &file.bytes)
 }
 
-/// Creates the error for an `option` whose file or folder cannot be written.
 fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
     CommandError::option(option, path.display(), error)
 }

@@ -29,9 +29,6 @@ pub(super) struct SolverGate {
 }
 
 /// Replaces the methods of the suites by the solver. Also returns the gate, if requested.
-///
-/// # Errors
-/// The first error in the configuration file.
 pub(super) fn prepare(
     suites: Vec<Suite>,
     program: &SolverProgram,
@@ -93,7 +90,6 @@ fn cases(outcomes: &[SuiteOutcome]) -> impl Iterator<Item = (&str, &CaseOutcome)
 /// Maximum order that the configuration may state.
 const HIGHEST_ORDER: f64 = 20.0;
 
-/// Content of the configuration file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ConfigSpec {
@@ -107,7 +103,6 @@ struct ConfigSpec {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
-    /// Order that the solver must reach.
     order: Option<f64>,
     /// Bound on errors that are accepted without an order.
     error_below: Option<f64>,
@@ -127,9 +122,6 @@ struct SolverConfig {
 
 impl SolverConfig {
     /// Reads the file and checks it for a run of `suites`.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;
@@ -224,7 +216,6 @@ fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnos
     Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
 }
 
-/// Returns the names of all suites and groups that an entry may refer to.
 fn known_names(suites: &[Suite]) -> Vec<String> {
     let mut known = select::suite_names();
     for suite in suites {

@@ -27,7 +27,6 @@ pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| chosen(args, suites))
 }
 
-/// Merges the results of a sharded run and reports them like a single run.
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
@@ -35,7 +34,6 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts))))
 }
 
-/// Chooses the suites, the cache and the solvers of a run from its arguments.
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
     let repeat = repetitions(args)?;
     let kept = args.resume.as_deref().map(open).transpose()?;

@@ -13,7 +13,6 @@ use std::path::Path;
 /// Maximum number of individually named suites for which full reports are printed.
 const FEW: usize = 5;
 
-/// Format and amount of the printed text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printing {
     Json,
@@ -50,7 +49,6 @@ impl Printing {
         }
     }
 
-    /// Prints the text at the end of the run.
     pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),

@@ -50,7 +50,6 @@ impl RunProgress {
         Self { bar, state: Mutex::new(state) }
     }
 
-    /// Starts the levels of `suite`.
     pub(super) fn start(&self, suite: &Suite, extent: Extent) {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
@@ -62,7 +61,6 @@ impl RunProgress {
         self.bar.set_message(state.message());
     }
 
-    /// Counts a finished level.
     pub(super) fn inc(&self) {
         let mut state = self.state();
         state.done += state.units.pop().unwrap_or_default();
@@ -137,7 +135,6 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
 }
 
-/// Quotes an argument for a shell, if necessary.
 fn quoted(word: &str) -> Cow<'_, str> {
     shlex::try_quote(word).unwrap_or(word.into())
 }

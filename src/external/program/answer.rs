@@ -102,11 +102,9 @@ pub(super) struct State {
     pub(super) min_j: Option<f64>,
 }
 
-/// A request of the solver for values of a field.
 pub(super) struct ValueRequest {
     /// Name of the requested field; absent in a `body_force` request.
     pub(super) of: Option<String>,
-    /// Time (s).
     pub(super) t: Option<f64>,
     pub(super) reference_position: Option<ColumnText>,
     pub(super) displacement: Option<ColumnText>,
@@ -265,7 +263,6 @@ impl Answer {
         }
     }
 
-    /// Returns the type of the answer, as in the protocol.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Hello(_) => "hello",

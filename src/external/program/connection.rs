@@ -57,10 +57,6 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Starts `command` as a process.
-    ///
-    /// # Errors
-    /// If the program does not start.
     pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, ProgramError> {
         let mut process = limited(command, limits.memory)?;
         process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -150,7 +146,6 @@ impl Connection {
         }
     }
 
-    /// Returns the failure of a process that sends no more answers.
     fn ended(&mut self) -> ProgramError {
         match self.status() {
             Some(status) => ProgramError::Ended(shown(status)),
@@ -181,12 +176,10 @@ impl Connection {
         }
     }
 
-    /// Returns the exit status of the process, if it ends soon.
     fn status(&mut self) -> Option<ExitStatus> {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
 
-    /// Sends `bye` and waits for the process to exit.
     pub(super) fn end(mut self) {
         self.send(Outgoing::new("bye", serde_json::Value::Null, false));
         self.requests = None;

@@ -37,7 +37,6 @@ impl Outgoing {
         self.message.insert(key.to_owned(), value);
     }
 
-    /// Adds a column to the object under `key`.
     pub(super) fn column(&mut self, key: &str, name: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         let object = self.message.entry(key).or_insert_with(|| json!({}));
@@ -71,7 +70,6 @@ impl Outgoing {
     }
 }
 
-/// Announced size of the block of bytes after a message.
 #[derive(Deserialize)]
 struct Announced {
     #[serde(default)]

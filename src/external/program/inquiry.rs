@@ -11,7 +11,6 @@ use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
 use crate::nearest::nearest;
 use serde_json::json;
 
-/// Answers requests for values of one problem.
 pub(super) struct Inquiry {
     dimension: usize,
     body_force: Option<BodyForceField>,
@@ -24,7 +23,6 @@ pub(super) struct Inquiry {
     bodies: Vec<usize>,
     /// Body force at `labels`, created by the first request for it.
     placed: Option<PlacedBodyForce>,
-    /// Version of the protocol that the solver uses.
     version: u64,
     binary: bool,
     /// Number of requests since the last call of `allow`.
@@ -74,9 +72,6 @@ impl Inquiry {
     }
 
     /// Answers a request that is followed by a block of `bytes`.
-    ///
-    /// # Errors
-    /// Reason why the request cannot be answered.
     pub(super) fn answer(
         &mut self,
         request: ValueRequest,
@@ -196,7 +191,6 @@ impl Inquiry {
         }
     }
 
-    /// Returns the body forces (m/s2) at points.
     fn forces(&mut self, t: f64, places: &RequestedPlaces) -> Result<Vec<f64>, FieldError> {
         let d = self.dimension;
         let RequestedPlaces { labels, bodies, displacement, are_own } = places;

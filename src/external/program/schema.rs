@@ -99,7 +99,6 @@ fn functional() -> Value {
     ]})
 }
 
-/// Creates the schema of a message with a type and required keys.
 fn message(kind: &str, keys: Value) -> Value {
     let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
     if let Value::Object(keys) = keys {

@@ -110,7 +110,6 @@ impl SolverProgram {
     }
 }
 
-/// A process that has accepted a problem.
 pub(super) struct Started {
     pub(super) connection: Connection,
     pub(super) inquiry: Inquiry,
@@ -224,7 +223,6 @@ impl SolverFactory for SolverProgram {
     }
 }
 
-/// Subject of a solver that failed before its first step.
 struct Broken(String);
 
 impl Subject for Broken {

@@ -27,7 +27,6 @@ struct Compiled<'a> {
     latest: f64,
 }
 
-/// A check that involves several keys of a convergence study.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
 /// Checks before the expectations are compiled. Their order only determines which of several errors

@@ -155,7 +155,6 @@ fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict
     })
 }
 
-/// Compiles the limits of the expectation at `path`.
 fn limits(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -14,7 +14,6 @@ use crate::suite::model::{Case, ConvergencePlan, Scene};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
 use crate::verify::{Axis, GradientTerms};
 
-/// Maximum number of sweep points.
 const MOST_POINTS: u64 = 1000;
 
 /// Relative change of a parameter for which the stated solution is checked again.

@@ -19,7 +19,6 @@ methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}, {external: {name:
 expect: [{verdict: failed, because: none}]
 ";
 
-/// Checks that a text has all required keys and no unknown keys.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
     SuiteSpec::read(&source).map(drop)

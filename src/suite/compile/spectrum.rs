@@ -67,7 +67,6 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// Returns the diagnostic for a suite that lacks a `property` required by the study.
 fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
     evaluator.diagnostic(path, &format!("a spectrum study needs {property}"))
 }
@@ -111,7 +110,6 @@ fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result
     Err(evaluator.diagnostic(&path, &message).with_label(label))
 }
 
-/// Compiles the waves: all combinations of wavelengths and Courant numbers.
 fn waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -202,7 +200,6 @@ fn cases(
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
 }
 
-/// Returns the closed form of a method.
 fn curve(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -236,7 +233,6 @@ fn curve(
     Ok(WaveMethod { spline, ppc, shift: plan.shift / plan.h, transfer, scheme })
 }
 
-/// Compiles expectation number `i`, and its reason.
 fn expectation(
     evaluator: &Evaluator<'_>,
     i: usize,

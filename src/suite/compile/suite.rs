@@ -51,9 +51,6 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
 }
 
 /// Loads the convergence study in `source` after a `change` of its keys, without expectations.
-///
-/// # Errors
-/// A [`Diagnostic`] with the reason for refusing the changed suite.
 pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),

@@ -184,7 +184,6 @@ impl<'a> Evaluator<'a> {
         self.count_up_to(MOST, path, text, what)
     }
 
-    /// Evaluates an integer from 1 to `most`.
     pub(crate) fn count_up_to(
         &self,
         most: f64,
@@ -201,7 +200,6 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, &label))
     }
 
-    /// Evaluates the coordinates of a point: `dimension` numbers.
     pub(crate) fn point(
         &self,
         path: &Path,
@@ -322,7 +320,6 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// Returns a diagnostic about a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {
@@ -357,7 +354,6 @@ impl Evaluator<'_> {
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether the formula is finite if parameter `name` has this `value`.
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
         let formula =
@@ -374,7 +370,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns the line number of the declaration of a parameter.
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
         let path = Path::top("parameters").then(parameter);
         self.source.key_at(path.steps()).map(Place::line)

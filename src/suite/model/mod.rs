@@ -280,7 +280,6 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     }
 }
 
-/// Returns the elements for whose index `keep` returns true.
 pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
     let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
     kept.map(|(_, member)| member.clone()).collect()

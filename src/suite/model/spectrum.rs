@@ -66,12 +66,10 @@ impl SpectrumPlan {
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
     }
 
-    /// Returns the scene with the initial velocity of `wave`.
     pub(crate) fn started(&self, wave: &Wave) -> Scene {
         Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
     }
 
-    /// Returns the translation of the particle lattice by `shift`.
     pub(crate) fn lattice(&self) -> LatticeEdits {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }

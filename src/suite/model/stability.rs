@@ -11,7 +11,6 @@ use std::sync::Arc;
 /// A stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    /// Template from which the set-up for any parameter values is computed.
     pub(crate) template: SetupTemplate,
     /// Name of the swept parameter.
     pub swept: String,
@@ -34,7 +33,6 @@ pub(crate) struct SetupTemplate {
     pub(crate) spec: StabilitySpec,
 }
 
-/// Changes of the particle lattice before a run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LatticeEdits {
     /// Translation of all particles (m), one number for each axis; empty for none.

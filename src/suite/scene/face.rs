@@ -54,7 +54,6 @@ pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
 }
 
-/// Returns the JSON schema of the name of a face, or of a rim of a round body.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();

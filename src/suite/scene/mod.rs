@@ -98,12 +98,10 @@ impl Scene {
         outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
     }
 
-    /// Whether the scene lists `effect`.
     pub(crate) fn lists(&self, effect: EffectName) -> bool {
         self.loads.iter().any(|load| load.effect == effect)
     }
 
-    /// Returns the loads on one part of the scene.
     pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
     }
@@ -114,12 +112,10 @@ impl Scene {
         self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
-    /// Returns the heat conduction of the scene, if any.
     pub(crate) fn heat(&self) -> Option<&SceneHeat> {
         self.loads.iter().find_map(|load| load.heat())
     }
 
-    /// Returns the terms of the loads in the equation of motion.
     pub(crate) fn terms(&self) -> Vec<Arc<dyn Term>> {
         self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }

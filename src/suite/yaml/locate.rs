@@ -31,7 +31,6 @@ impl From<usize> for Step {
     }
 }
 
-/// The path of a value in a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Path(Vec<Step>);
 
@@ -40,7 +39,6 @@ impl Path {
         Self(vec![Step::from(key)])
     }
 
-    /// Returns the path with one more step.
     pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
         let mut longer = self.0.clone();
         longer.push(step.into());
@@ -52,7 +50,6 @@ impl Path {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
-    /// Returns the steps of the path.
     pub(crate) fn steps(&self) -> &[Step] {
         &self.0
     }

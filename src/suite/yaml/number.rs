@@ -92,7 +92,6 @@ impl Visitor<'_> for NumberOrFormula {
 /// A number or formula, or a map in its place: `1e-3`, `{courant: 0.5}`.
 #[derive(Clone, Debug)]
 pub(crate) enum NumberOr<T> {
-    /// A number, or the text of a formula.
     Number(NumberText),
     Map(T),
 }

@@ -29,9 +29,6 @@ pub(crate) struct CheckedShape<'s> {
 
 impl<'s> CheckedShape<'s> {
     /// Checks the shape of `source`, and stores the value of the top-level key `key`.
-    ///
-    /// # Errors
-    /// The first shape error, with its position.
     pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
         let top = shape::check(source, key);
         let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
@@ -43,9 +40,6 @@ impl<'s> CheckedShape<'s> {
     }
 
     /// Parses the file into a type. The error for a missing key shows a value from `sample`.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
         let parser = serde_yaml::Deserializer::from_str(self.source.text());
         serde_yaml::with::singleton_map_recursive::deserialize(parser)
@@ -66,9 +60,6 @@ impl From<WriteError> for String {
 }
 
 /// Writes a value as YAML text.
-///
-/// # Errors
-/// [`WriteError`] if the library cannot write the value.
 pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }

@@ -16,7 +16,6 @@ use std::fmt;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum TopValue {
-    /// The file has no such key.
     Absent,
     Text(String),
     Other,
@@ -165,7 +164,6 @@ impl Visitor<'_> for NewKey<'_> {
     }
 }
 
-/// Refuses a list or a map with more than the maximum number of entries.
 pub(crate) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), E> {
     if length <= MAX_ENTRIES {
         return Ok(());

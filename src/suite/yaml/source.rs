@@ -114,7 +114,6 @@ impl Source {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
 
-    /// Returns the scalar that starts at byte `offset`.
     pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }

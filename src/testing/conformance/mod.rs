@@ -71,9 +71,6 @@ pub(crate) fn examined(
 }
 
 /// Returns the coarsest level of a suite.
-///
-/// # Errors
-/// One line with the reason why the solver cannot run the suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let lacks = lacking(suite, solver);

@@ -151,7 +151,6 @@ impl AffineField {
         Self { value, ..Self::default() }
     }
 
-    /// Evaluates the field at a position (m).
     pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
         let from = minus(place, self.centre);
         std::array::from_fn(|i| {

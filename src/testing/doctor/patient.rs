@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 #[derive(Default)]
 pub(super) struct Examined {
-    /// Measured values.
     pub(super) measured: String,
     pub(super) findings: Vec<SolverFinding>,
 }
@@ -135,9 +134,7 @@ impl Patient<'_> {
     }
 }
 
-/// An examination of a solver.
 pub(super) struct Examination {
-    /// Name in reports.
     pub(super) name: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,

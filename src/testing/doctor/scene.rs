@@ -7,7 +7,6 @@ use crate::subject::SubjectError;
 use crate::suite::yaml::Source;
 use crate::suite::{ConvergencePlan, Suite};
 
-/// Number of dimensions and name of a law.
 pub(super) type Kind = (usize, &'static str);
 
 /// Finite-strain elastic laws that are linear at small strains, starting with the simplest.
@@ -117,7 +116,6 @@ impl BoxScene {
         Self { steps, dt, ..self }
     }
 
-    /// Returns this scene with negligible stiffness.
     pub(super) fn soft(&self) -> Self {
         Self { young: SOFT * self.young, ..self.clone() }
     }
@@ -221,9 +219,6 @@ impl BoxScene {
     }
 
     /// Converts the scene to a problem and its requirements. Samples are taken after every step.
-    ///
-    /// # Errors
-    /// One line with the reason why the scene is not a valid problem.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
@@ -241,17 +236,11 @@ impl BoxScene {
     }
 
     /// Runs this crate's MPM with PIC and the named basis, to show averaging alone.
-    ///
-    /// # Errors
-    /// One line with the reason why this run is not possible.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }
 
     /// Runs the built-in MPM with `method`, in suite notation.
-    ///
-    /// # Errors
-    /// One line with the reason why this run is not possible.
     pub(super) fn built_in(&self, method: &str) -> Result<Course, SubjectError> {
         let suite = self.suite(method)?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;

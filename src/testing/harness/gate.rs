@@ -52,7 +52,6 @@ impl Gate {
         trials
     }
 
-    /// Returns the tests of the snapshots that cover all suites.
     fn of_all(&self, suites: Vec<Arc<SharedSuite>>) -> [Trial; 2] {
         let suites: Arc<[Arc<SharedSuite>]> = suites.into();
         let trial = |name: &'static str, text: fn(&[SuiteOutcome]) -> String| {
@@ -80,7 +79,6 @@ impl Gate {
         }
     }
 
-    /// Returns the snapshot folder of the suite in `file`.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -104,9 +102,6 @@ impl Gate {
 }
 
 /// Returns `suite` with `solver` in place of its methods.
-///
-/// # Errors
-/// One line with the reason why the solver cannot run the suite.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
     let suite = under(suite, solver, true).ok_or("it looks inside the methods of this crate")?;
     match lacking(&suite, solver) {
@@ -123,7 +118,6 @@ fn stem(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Checks whether a solver conforms to the contract of `Subject`.
 fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Failed> {
     match examined(solver, suite) {
         Err(why) => Ok(Completion::ignored_with(why)),
@@ -153,7 +147,6 @@ impl SharedSuite {
         })
     }
 
-    /// Fails if a case disagrees with its expectation.
     fn hold(&self, index: usize) -> Result<Completion, Failed> {
         let outcome = self.case(index);
         if !outcome.is_tested() {
@@ -192,7 +185,6 @@ fn report(suite: &Arc<SharedSuite>) -> Trial {
     })
 }
 
-/// Creates the tests of the cases of a suite, with its methods or with `solver`.
 fn trials(
     suite: Suite,
     snapshots: &Path,
@@ -227,7 +219,6 @@ fn trials(
     (trials, shared)
 }
 
-/// Compares the report of `suite` with its snapshot in `folder`.
 pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result<(), Failed> {
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(absolute(folder)?);

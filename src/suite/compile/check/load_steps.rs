@@ -10,9 +10,6 @@ use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Refuses suites that combine load steps with keys for time, or a quasi-static method with time.
-///
-/// # Errors
-/// A diagnostic at the key, with the reason.
 pub(crate) fn refuse_time(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -81,9 +78,6 @@ pub(crate) fn refuse_time(
 }
 
 /// Refuses a scene that load steps do not support.
-///
-/// # Errors
-/// A diagnostic at the unsupported part of the scene, with the reason.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

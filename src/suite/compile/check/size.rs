@@ -14,7 +14,6 @@ const MOST: f64 = 5e7;
 /// Maximum distance (cells) between a fixed face and the grid face that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Paths of the keys that determine the size and time step of a level.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
@@ -141,7 +140,6 @@ pub(crate) fn held_faces(
     Ok(())
 }
 
-/// Refuses sets that contain no particle.
 fn sets(
     evaluator: &Evaluator<'_>,
     path: &Path,

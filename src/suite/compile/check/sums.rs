@@ -147,7 +147,6 @@ fn rotation(
     Ok(())
 }
 
-/// Returns the indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

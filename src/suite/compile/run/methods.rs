@@ -11,7 +11,6 @@ use std::collections::BTreeMap;
 
 /// A method before its name is final.
 pub(crate) struct MethodDraft {
-    /// Index of the entry in `methods`.
     entry: usize,
     pub(crate) method: Method,
     /// Name of the solver; `None` for built-in methods.
@@ -28,7 +27,6 @@ pub(crate) struct NamedMethod {
 }
 
 impl MethodDraft {
-    /// Returns the first part of the names of the method's cases.
     fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
         let subject = self.solver.as_deref().unwrap_or(subject);
@@ -200,7 +198,6 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-/// Returns the number of methods in an entry.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
@@ -296,7 +293,6 @@ fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }
 
-/// Checks the name of a solver and returns it.
 fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
     if is_solver_name(name) {
         return Ok(name.to_owned());

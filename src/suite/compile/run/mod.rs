@@ -18,10 +18,8 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Maximum number of cases in a suite.
 const MOST_CASES: usize = 1000;
 
-/// Maximum number of load steps in a run.
 const MOST_LOAD_STEPS: f64 = 1e5;
 
 /// Compiles the ends of the runs. Returns for each end its text in case names and its value (s, or
@@ -85,7 +83,6 @@ fn until(
     Ok(ends)
 }
 
-/// Compiles all cases of a suite, without expectations.
 pub(crate) fn cases(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -118,7 +115,6 @@ pub(crate) fn cases(
     Ok(drafts.into_iter().map(case).collect())
 }
 
-/// Returns the cases of `plan`, each with its expectation.
 pub(crate) fn expected(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -15,7 +15,6 @@ const MOST: f64 = 0.5;
 /// particle layer at the face separate from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// Default seed of random offsets.
 const SEED: u64 = 1;
 
 pub(crate) fn scatter(

@@ -12,9 +12,6 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
 /// Compiles the FEM reference, if `spec` states one.
-///
-/// # Errors
-/// A diagnostic about a missing key, or about a scene that is not one-dimensional.
 pub(crate) fn reference(
     evaluator: &Evaluator<'_>,
     spec: &ReferenceSpec,
@@ -49,7 +46,6 @@ pub(crate) fn reference(
 /// finest level.
 const SHORTER: f64 = 8.0;
 
-/// Compiles the reference run by the same method, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -245,7 +245,6 @@ pub(crate) fn step_formula(
     Err(evaluator.diagnostic(path, message).with_label("expected a number"))
 }
 
-/// Refuses methods without automatic time steps.
 fn refuse_methods_without_rule(
     evaluator: &Evaluator<'_>,
     methods: &[MethodSpec],

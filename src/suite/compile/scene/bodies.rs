@@ -91,7 +91,6 @@ fn refuse_beside(
     Ok(())
 }
 
-/// Compiles the friction coefficient of the contact between bodies, if there is contact.
 pub(crate) fn contact(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -112,7 +112,6 @@ fn faces(
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
-/// Compiles the boundary conditions of all faces, in axis order.
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -13,9 +13,6 @@ fn path(own: &Listed<'_>) -> Path {
 }
 
 /// Compiles a density that is a number; returns `None` for a formula of the coordinates.
-///
-/// # Errors
-/// A diagnostic about a density that is not positive.
 pub(crate) fn uniform(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -36,10 +33,6 @@ pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
 }
 
 /// Compiles the varying density of a body with the shape of `scene`.
-///
-/// # Errors
-/// A diagnostic about the formula, a position in the body with a density that is not positive, or a
-/// part of the scene that does not support a varying density.
 pub(crate) fn varying(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -93,9 +86,6 @@ fn unsupported(scene: &Scene) -> Option<&'static str> {
 }
 
 /// Refuses loads that require a uniform density.
-///
-/// # Errors
-/// A diagnostic at the density.
 pub(crate) fn refuse_loads(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,

@@ -103,9 +103,6 @@ const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
 /// Compiles the initial displacement (m); empty if not stated.
-///
-/// # Errors
-/// A diagnostic about a formula, or about a material that cannot start deformed.
 pub(crate) fn displacement(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -120,9 +117,6 @@ pub(crate) fn displacement(
 }
 
 /// Compiles the initial velocity (m/s); empty if not stated.
-///
-/// # Errors
-/// A diagnostic about a formula.
 pub(crate) fn velocity(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -135,10 +129,6 @@ pub(crate) fn velocity(
 }
 
 /// Compiles the initial stress of the reference configuration.
-///
-/// # Errors
-/// A diagnostic about a material without initial stress, a component on a missing axis, or a
-/// formula.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,

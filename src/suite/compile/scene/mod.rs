@@ -120,7 +120,6 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     }
 }
 
-/// Refuses bodies that overlap.
 fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {

@@ -44,7 +44,6 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// Refuses a set outside the bounding box of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -6,7 +6,6 @@ use crate::suite::model::stability::SetupTemplate;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
-/// Returns the measured quantities that an entry of `expect` bounds.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     path: &Path,

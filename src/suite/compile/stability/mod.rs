@@ -21,7 +21,6 @@ use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::{RunSetup, setup};
 
-/// Maximum number of rows, and of cases, in a study.
 const MOST: usize = 500;
 
 pub(crate) fn plan(
@@ -85,7 +84,6 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Refuses undeclared parameters in `sweep` and `critical`.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -102,7 +100,6 @@ fn declared(
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
 }
 
-/// Returns the parameter whose stability limit is sought, and its range.
 fn sought(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

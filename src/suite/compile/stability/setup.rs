@@ -31,12 +31,9 @@ pub(crate) struct RunSetup {
     /// exist.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
-    /// Number of steps in a full run.
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
-    /// Whether a run keeps an energy ledger.
     pub(crate) ledger: bool,
-    /// Amplitude of the random perturbation at the start.
     pub(crate) perturb: f64,
     pub(crate) scales: Scales,
 }

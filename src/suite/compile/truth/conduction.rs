@@ -158,7 +158,6 @@ pub(crate) fn problem(
     }))
 }
 
-/// Refuses methods without heat conduction.
 fn refuse_methods_without_heat(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

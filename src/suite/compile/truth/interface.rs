@@ -16,9 +16,6 @@ const CONTACT: &str = "bodies without `contact` share one velocity field and sti
                        they can separate or slide, add `contact: {friction: 0}` to `scene`";
 
 /// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
-///
-/// # Errors
-/// A diagnostic about the first such key.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         ("manufactured", spec.manufactured.is_some()),
@@ -33,10 +30,6 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
 }
 
 /// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.
-///
-/// # Errors
-/// A diagnostic from `check`, a diagnostic about a violation (from `diagnostic`), or a diagnostic
-/// about bodies whose interface condition is not implemented.
 pub(crate) fn refuse_violated_conditions(
     evaluator: &Evaluator<'_>,
     scene: &Scene,

@@ -17,10 +17,6 @@ const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
 /// Compiles the box of `judge.within`, if the suite has one. `exact` is the problem of a stated
 /// solution.
-///
-/// # Errors
-/// A diagnostic about a box that is empty or not in the body, a judged quantity that is not a
-/// field, or a suite whose solution is not a stated motion of one box-shaped body.
 pub(crate) fn judged_box(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -23,9 +23,6 @@ use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Compiles the problem that the stated formulas must solve, if any. The solution is checked later.
-///
-/// # Errors
-/// A diagnostic about contradicting keys, or about a formula.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -62,9 +59,6 @@ pub(crate) fn exact(
 
 /// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
 /// conditions.
-///
-/// # Errors
-/// A diagnostic at the formula, with the violated condition, the position and the difference.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -186,7 +180,6 @@ fn manufactured(
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
-/// Converts the scene to a continuum problem with this `motion`.
 fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
     Problem {
         from: scene.from.clone(),
@@ -256,9 +249,6 @@ fn face(scene: &Scene, number: usize) -> Face {
 
 /// Refuses a solution for a quadrilateral. The check of solutions is implemented only for boxes and
 /// bodies with a free rim.
-///
-/// # Errors
-/// A diagnostic at the stated solution.
 fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -296,7 +286,6 @@ pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     BarLaw::find(name).and(EquationName::find(name))
 }
 
-/// Refuses an `equilibrium` that contradicts other keys of the suite.
 fn refuse_equilibrium_with(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -12,7 +12,6 @@ pub(crate) const TOLERANCE: f64 = 1e-8;
 /// Maximum tolerance that a suite may state.
 const MOST: f64 = 1e-2;
 
-/// Returns the stated tolerance at `path`, or the default.
 pub(crate) fn tolerance(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -28,7 +27,6 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-/// Returns the stated residual of the linearised solution at `path`.
 pub(crate) fn linearised(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -86,7 +84,6 @@ pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     }
 }
 
-/// Returns the diagnostic about a violation of a solution with this `tolerance`.
 pub(crate) fn no_solution(
     evaluator: &Evaluator<'_>,
     path: &Path,

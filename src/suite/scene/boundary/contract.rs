@@ -9,12 +9,8 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Keys of a boundary condition in a suite.
 pub(crate) trait BoundaryKeys {
     /// Checks the keys and returns the condition with all numbers computed.
-    ///
-    /// # Errors
-    /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
     /// Whether the face coincides with the opposite face.
@@ -78,7 +74,6 @@ in_every_dimension! {
 
 /// Compiled boundary condition on the motion of one face of the body.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
-    /// Returns the name in suites.
     fn name(&self) -> &'static str;
 
     /// Returns the numbers for external solvers; empty if the name describes the condition fully.

@@ -38,7 +38,6 @@ macro_rules! conditions {
         }
 
         impl $spec {
-            /// Returns the name of the condition, and its keys.
             pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
                 match self {
                     $(

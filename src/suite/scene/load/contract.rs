@@ -61,7 +61,6 @@ impl EffectName {
 /// Part of the scene on which a load acts. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum LoadTarget {
-    /// The whole body.
     Body,
     /// A face, given by its number.
     Face(usize),
@@ -90,13 +89,10 @@ pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) particles: &'a mut Particles<D>,
 }
 
-/// Reason why the effect of a load cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BuildError {
-    /// The named set is empty.
     #[error("the set `{0}` holds no particle")]
     EmptySet(String),
-    /// The solver does not support this number of dimensions.
     #[error("there is no MPM in {0} dimensions")]
     Dimension(usize),
 }
@@ -110,9 +106,6 @@ impl From<BuildError> for SubjectError {
 /// Converts a load to an effect of the solver.
 pub(crate) trait BuildEffect<const D: usize> {
     /// Builds the effect on the body at `site`.
-    ///
-    /// # Errors
-    /// The reason why the effect cannot be built.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError>;
 }
 
@@ -123,7 +116,6 @@ in_every_dimension! {
 
 /// A load or effect of a scene, with all numbers computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Returns the part of the scene on which the load acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
@@ -164,7 +156,6 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     }
 }
 
-/// A load of a scene, with its name.
 #[derive(Debug, Clone)]
 pub(crate) struct ListedLoad {
     pub(crate) effect: EffectName,
@@ -179,10 +170,6 @@ impl Deref for ListedLoad {
     }
 }
 
-/// Builds the effect of `load` in D dimensions.
-///
-/// # Errors
-/// The reason why the effect cannot be built.
 pub(crate) fn build<const D: usize>(
     load: &ListedLoad,
     site: &mut BodySite<'_, D>,

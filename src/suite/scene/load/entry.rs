@@ -28,15 +28,9 @@ pub(crate) trait LoadKeys {
         Self: Sized;
 
     /// Checks the keys and returns the load with all numbers computed.
-    ///
-    /// # Errors
-    /// The first error in the keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
     /// Refuses a convergence study in which the load is not supported.
-    ///
-    /// # Errors
-    /// A diagnostic about the unsupported part of the study.
     fn check(&self, _: &LoadEntry<'_>, _: &StudyFacts) -> Result<(), Diagnostic> {
         Ok(())
     }
@@ -51,7 +45,6 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Returns the name of the face on which the load acts.
     fn face(&self) -> Option<&str> {
         None
     }
@@ -184,7 +177,6 @@ impl LoadEntry<'_> {
     }
 }
 
-/// A face on which a load acts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedFace {
     /// Index in axis order, with the low face of each axis before the high face.
@@ -193,7 +185,6 @@ pub(crate) struct LoadedFace {
 }
 
 impl LoadedFace {
-    /// Returns the report row for the load on this face.
     pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
         let place = match placement {
             Placement::Particles => "",
@@ -208,16 +199,13 @@ impl LoadedFace {
     }
 }
 
-/// A particle set on which a load acts.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedSet {
-    /// Index in the order of the suite.
     pub(crate) number: usize,
     pub(crate) region: Region,
 }
 
 impl LoadedSet {
-    /// Returns the report row for the load on this set.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -225,9 +213,6 @@ impl LoadedSet {
     }
 
     /// Returns the indices of the particles in the set.
-    ///
-    /// # Errors
-    /// [`BuildError::EmptySet`] if the set contains no particles.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,
@@ -258,7 +243,6 @@ fn refuse_surface_load(
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
-/// Returns the index of the set called `name`.
 fn set_number(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -221,7 +221,6 @@ fn on_grid(
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 
-/// Builds the thermal conditions for the solver.
 fn build_faces<const D: usize>(
     faces: &[ThermalFace],
     site: &BodySite<'_, D>,

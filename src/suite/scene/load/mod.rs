@@ -69,7 +69,6 @@ impl LoadSpec {
     }
 }
 
-/// Refuses effects whose required effects are missing.
 fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {

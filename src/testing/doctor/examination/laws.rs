@@ -147,7 +147,6 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     Ok((ratio, finding))
 }
 
-/// Creates a body whose displacement gradient grows to `GRADIENT`.
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -156,7 +155,6 @@ fn scene(kind: Kind) -> BoxScene {
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
 }
 
-/// Creates the body of `scene` with the initial displacement gradient `START`.
 fn deformed(kind: Kind) -> BoxScene {
     let scene = scene(kind);
     let displacement = field(&scene, &|i, j| START[i][j]);

@@ -104,7 +104,6 @@ fn cause(course: &Course) -> SolverFinding {
     )
 }
 
-/// Returns the finding for points that move differently.
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let centre = {

@@ -97,7 +97,6 @@ impl Leg {
         Ok(error(&self.stress, &expected(other)?) <= NEAR)
     }
 
-    /// Describes the measured and the expected stress, relative to Young's modulus.
     fn describe(&self, path: &str) -> String {
         let over = |stress: &[f64]| {
             let parts: Vec<String> = stress.iter().map(|s| shown(s / YOUNG)).collect();

@@ -138,7 +138,6 @@ impl Forces {
         }
     }
 
-    /// Formats the delay in tenths of a step.
     fn shown_delay(&self) -> String {
         shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
     }

@@ -157,7 +157,6 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, Vec::new()))
 }
 
-/// Creates a soft body that moves about its centre.
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };

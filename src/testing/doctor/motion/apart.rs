@@ -18,7 +18,6 @@ pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
 
-/// Returns the cause of a deviation that exceeds rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;

@@ -11,7 +11,6 @@ use crate::testing::doctor::patient::Hindrance;
 /// predicts.
 const NEAR: f64 = 0.02;
 
-/// Returns the cause if the motion matches a known pattern.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let course = &motion.course;
     let last = course.last();
@@ -174,7 +173,6 @@ fn units(factor: f64) -> &'static str {
     }
 }
 
-/// Returns the finding for a motion that matches no known pattern.
 pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     let (course, d) = (&motion.course, motion.course.problem.dimension);
     let last = course.last();

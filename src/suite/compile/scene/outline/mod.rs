@@ -20,10 +20,6 @@ pub(crate) enum BodyShape<'a> {
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
-/// Compiles the shape in `spec`.
-///
-/// # Errors
-/// A diagnostic about a body that is invalid in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -66,9 +62,6 @@ pub(crate) fn shape<'a>(
 }
 
 /// Refuses conditions on rims, and loads on rims except those that round rims support.
-///
-/// # Errors
-/// A diagnostic about the first condition or load on a rim.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -100,9 +93,6 @@ pub(crate) fn rims_are_free(
 }
 
 /// Refuses a grid that does not contain the whole body.
-///
-/// # Errors
-/// A diagnostic about the end of the grid that is inside the body.
 pub(crate) fn fits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -128,10 +118,6 @@ pub(crate) fn fits(
     Ok(())
 }
 
-/// Compiles the lowest and highest corner of a box.
-///
-/// # Errors
-/// A diagnostic about a box that is empty, too small or too large.
 pub(crate) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,

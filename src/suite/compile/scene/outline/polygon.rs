@@ -8,10 +8,6 @@ use std::sync::Arc;
 /// intersected with every lattice cell.
 const MOST: usize = 100;
 
-/// Compiles the polygon whose corners are at `path`.
-///
-/// # Errors
-/// A diagnostic if the corners do not form a simple polygon.
 pub(super) fn polygon(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -8,9 +8,6 @@ use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Compiles the quadrilateral in `spec` at `path`, and its outline.
-///
-/// # Errors
-/// A diagnostic about corners that do not form a convex quadrilateral.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -36,9 +33,6 @@ pub(super) fn quadrilateral(
 
 /// Refuses conditions and loads on a face of the bounding box that contains no side of the
 /// quadrilateral.
-///
-/// # Errors
-/// A diagnostic about the first condition or load on such a face.
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -33,9 +33,7 @@ impl ThermalKeys for ConvectionSpec {
 /// The condition `-Q . n = coefficient (ambient - T)`, per reference area.
 #[derive(Debug)]
 struct Convection {
-    /// Heat transfer coefficient (W/(K m^(D-1))).
     coefficient: f64,
-    /// Ambient temperature (K).
     ambient: Formula,
 }
 

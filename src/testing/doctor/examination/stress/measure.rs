@@ -38,7 +38,6 @@ pub(super) struct MeasuredModuli {
     pub(super) viscous_share: f64,
 }
 
-/// Creates a body that stretches and shears.
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
     // With a cell of 0.15 m and these particle numbers, each defect causes a different factor.

@@ -15,7 +15,6 @@ const AVERAGED: f64 = 0.06;
 /// code to check.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
-/// Returns a finding if the measured moduli differ from those of the law.
 pub(super) fn cause(
     course: &Course,
     scene: &BoxScene,
