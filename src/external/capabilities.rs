@@ -24,7 +24,7 @@ pub struct Capabilities {
     pub gradients: Vec<String>,
     /// Whether the body force may be given by values only, without a formula.
     pub manufactured: bool,
-    /// Whether particles may start displaced, with F and stress.
+    /// Whether particles may start with a displacement, a deformation gradient and a stress.
     pub initial_deformation: bool,
     /// Whether there may be more than one body.
     pub several_bodies: bool,
@@ -56,11 +56,11 @@ pub struct Capabilities {
 pub struct ProblemNeeds {
     /// Number of space dimensions.
     pub dimension: usize,
-    /// Materials.
+    /// Names of the laws.
     pub laws: Vec<&'static str>,
-    /// Conditions on faces.
+    /// Names of the conditions on faces.
     pub conditions: Vec<&'static str>,
-    /// Loads and effects.
+    /// Names of the loads and effects.
     pub loads: Vec<&'static str>,
     /// Optional column that contains the judged quantity, if the study needs one.
     pub column: Option<&'static str>,

@@ -26,7 +26,7 @@ macro_rules! study_spec {
             pub(crate) _study: $study,
             /// Headline of the report.
             pub(crate) title: String,
-            /// Reference for the problem.
+            /// Source of the problem, such as a textbook.
             pub(crate) source: String,
             /// Remarks for a reader of the report.
             #[serde(default)]

@@ -25,10 +25,10 @@ pub struct GradientPlan {
     pub cases: Vec<GradientCase>,
 }
 
-/// A parameter with respect to which the functional is differentiated.
+/// A parameter for which the study verifies the derivative.
 #[derive(Debug, Clone)]
 pub struct Differentiated {
-    /// The parameter of the problem that is differentiated.
+    /// The problem parameter.
     pub parameter: GradientParameter,
     /// Name of the suite parameter that sets the problem parameter.
     pub name: String,

@@ -200,7 +200,7 @@ impl Default for AnyMethod {
     }
 }
 
-/// Gate terms for one suite, from the configuration file of a solver's author.
+/// Requirements of the gate on one suite, from the configuration file of a solver's author.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GateTerms {
     /// Formal order that replaces the order stated by the solver.

@@ -35,13 +35,13 @@ pub struct Suite {
     pub group: String,
     /// Headline of the report.
     pub title: String,
-    /// Reference for the problem.
+    /// Source of the problem, such as a textbook.
     pub source: String,
     /// The author's remarks for readers.
     pub about: String,
     /// Name and text of every parameter, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
-    /// Head and body of each user function.
+    /// Head and formula of each declared function.
     pub functions: Vec<(String, String)>,
     /// The study plan.
     pub study: Arc<dyn StudyPlan>,

@@ -82,6 +82,7 @@ impl Diagnostic {
         self
     }
 
+    /// Adds advice for the author.
     #[must_use]
     pub fn with_help(mut self, help: &str) -> Self {
         self.0.help = Some(shortened(help, MAX_HELP)).filter(|help| !help.is_empty());
@@ -95,6 +96,7 @@ impl Diagnostic {
         self
     }
 
+    /// Returns the severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
     }
@@ -119,6 +121,7 @@ impl Diagnostic {
         self.0.label.as_deref()
     }
 
+    /// Returns the advice for the author.
     pub fn help(&self) -> Option<&str> {
         self.0.help.as_deref()
     }

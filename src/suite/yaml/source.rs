@@ -66,8 +66,8 @@ impl Source {
         Ok(Self { name, text, scalars })
     }
 
-    /// Paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted by file
-    /// name.
+    /// Returns the paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted
+    /// by file name.
     ///
     /// # Errors
     /// If a folder cannot be read.

@@ -73,6 +73,7 @@ pub struct ExaminationReport {
     pub examination: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub expected: &'static str,
+    /// Result of the examination.
     #[serde(flatten)]
     pub result: ExaminationResult,
 }

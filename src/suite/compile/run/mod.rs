@@ -139,7 +139,7 @@ struct Draft {
     against: Against,
 }
 
-/// Returns the truths of the study, each with its suffix in case names.
+/// Returns the solutions to compare with, each with its suffix in case names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -150,8 +150,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// Returns the cases of one method, for all run ends and truths. A case name includes the end or
-/// the truth only if there are several.
+/// Returns the cases of one method, for all run ends and all solutions to compare with. A case name
+/// includes the end or the solution only if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
