@@ -141,7 +141,7 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Starts the findings about `count` suites. Notes are printed in full if every target names a
+    /// Prepares the findings about `count` suites. Notes are printed in full if every target is a
     /// single suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;

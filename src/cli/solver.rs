@@ -83,8 +83,8 @@ fn suite_of_solver(
     judged
 }
 
-/// Replaces the methods of the suites by the solver. A suite for which `terms` returns terms gets a
-/// gate. Also returns the names of skipped suites, which test internals of a method.
+/// Replaces the methods of the suites by the solver. A suite gets a gate if `terms` returns its
+/// requirements. Also returns the names of skipped suites, which test internals of a method.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,

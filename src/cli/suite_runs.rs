@@ -34,8 +34,7 @@ impl SuiteRuns {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
-            // Several suites may have the same name. The order determines which ones belong
-            // together.
+            // Suites with equal names are matched by their order.
             let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
                 *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
             };
@@ -81,7 +80,7 @@ impl SuiteRuns {
         &self.parts
     }
 
-    /// Returns the suite, whose statement is common to all parts.
+    /// Returns the suite of the first part. The problem is the same in all parts.
     pub(super) fn suite(&self) -> &Suite {
         &self.parts[0].suite
     }

@@ -204,8 +204,8 @@ impl ProblemNeeds {
         ]
     }
 
-    /// Lists the requirements that version 1 of the protocol cannot express by numbers, each as the
-    /// corresponding entry of the capabilities.
+    /// Lists the requirements that need version 2 of the protocol, each as the corresponding entry
+    /// of the capabilities.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
@@ -253,7 +253,6 @@ const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
 
-/// Keys of the capabilities in `hello`.
 #[cfg(feature = "external-programs")]
 const KEYS: &[&str] = &[
     "dimensions",

@@ -113,15 +113,11 @@ pub enum FieldError {
     Undefined(String),
 }
 
-/// Evaluates the fields of a scene.
 pub(crate) trait FieldSource: Send + Sync {
-    /// Implements [`ProblemFields::bodies`].
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
 
-    /// Implements [`ProblemFields::nearest_body`].
     fn nearest_body(&self, label: &[f64]) -> usize;
 
-    /// Implements [`ProblemFields::check_places`].
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
     /// Implements [`ProblemFields::values`] for all fields except the body force.
@@ -181,9 +177,7 @@ impl fmt::Debug for ProblemFields {
     }
 }
 
-/// Evaluates the body force of a scene.
 pub(crate) trait ForceSource: Send + Sync {
-    /// Implements [`BodyForceField::at`].
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
     /// Whether the force depends on the displacement.
@@ -191,7 +185,6 @@ pub(crate) trait ForceSource: Send + Sync {
         false
     }
 
-    /// Implements [`BodyForceField::at_displaced`].
     fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
         self.at(body, label, t)
     }

@@ -166,7 +166,6 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice that no option determines.
 struct Question<'a> {
     /// Name of the choice in the question.
     what: &'a str,

@@ -158,7 +158,7 @@ impl Connection {
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // In a Python traceback, these lines are the position, the source line and the error.
+        // The last lines of a Python traceback are the position, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()

@@ -17,7 +17,6 @@ use serde_json::json;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Newest version of the protocol.
 pub(super) const PROTOCOL: u64 = 2;
 
 /// Versions of the protocol that a solver may use.

@@ -16,8 +16,8 @@ use crate::verify::ForceRow;
 /// support of a wide basis away from the ends of the body.
 const SIDE: usize = 4;
 
-/// Maximum total number of particles of all positions. It limits the run time to about a second,
-/// and the length of the report.
+/// Maximum number of particles, summed over all positions of the moving particle. It limits the run
+/// time to about a second, and the length of the report.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];

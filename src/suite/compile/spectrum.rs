@@ -25,7 +25,7 @@ const MOST: usize = 500;
 /// Maximum number of particles per cell. The closed form has one term per particle.
 const MOST_PPC: u64 = 64;
 
-/// Minimum mass symbol (see the glossary) of a wave that the grid can represent.
+/// Minimum symbol `s` of the mass matrix (docs/glossary.md) for a wave that the grid can represent.
 const SMALLEST_MASS: f64 = 1e-9;
 
 /// Maximum imaginary part of the symbol of TPIC that counts as rounding error.

@@ -27,7 +27,7 @@ study_spec! {
         reference: Option<ReferenceSpec>,
         /// End, time step and instants of a run.
         run: RunSpec,
-        /// Levels: a list is refined, from coarse to fine.
+        /// Refinement levels, from coarse to fine.
         refine: RefineSpec,
         /// Offsets of particles from their lattice.
         particles: Option<ScatterSpec>,
@@ -36,12 +36,12 @@ study_spec! {
         /// The judged error.
         #[serde(default)]
         judge: JudgeSpec,
-        /// Point whose limit of the displacement and velocity history are reported.
+        /// Point whose displacement limit and velocity history are reported.
         observe: Option<ObserveSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<ExpectSpec>,
-        /// Warnings of `check` that the suite intends, each with its reason.
+        /// Accepted warnings of `check`, each with its reason.
         #[serde(default)]
         acknowledge: Vec<AcknowledgeSpec>,
         /// Accuracy that any method can reach, for the gate of external solvers.
@@ -114,19 +114,19 @@ pub(crate) struct JudgeSpec {
     pub(crate) within: Option<BoxSpec>,
     /// Divisor of the judged error.
     pub(crate) scale: Option<NumberText>,
-    /// Whether levels on which particles change their cell count for the order.
+    /// Whether the order may use levels on which particles change their cell.
     #[serde(default)]
     pub(crate) crossing_levels: CrossingLevels,
 }
 
 named! {
-    /// Whether levels on which particles change their cell count for the order.
+    /// Whether the order may use levels on which particles change their cell.
     #[derive(Default)]
     pub enum CrossingLevels {
-        /// These levels count.
+        /// The order uses these levels.
         #[default]
         Counted = "counted",
-        /// These levels are shown but do not count.
+        /// These levels are shown but not used.
         Excluded = "excluded",
     }
 }

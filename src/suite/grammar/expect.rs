@@ -18,7 +18,7 @@ macro_rules! expect_spec {
 pub(crate) struct ExpectSpec {
     /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// The verdict; `converging` if an `order` is stated.
+    /// Expected verdict; default: `converging` if an `order` is stated.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "verdicts", default))]
     pub(crate) verdict: Option<String>,
     /// Lowest and highest order, between which the whole confidence interval must lie.
@@ -116,7 +116,7 @@ named! {
         SinglePrecision = "single_precision",
         /// An interface of two bodies or a loaded face inside a cell.
         InsideCell = "inside_cell",
-        /// A much too large tolerance of a linearised solution.
+        /// A tolerance of a linearised solution that is much larger than necessary.
         LooseTolerance = "loose_tolerance",
         /// A box whose last particles start on nodes.
         EndOnNode = "end_on_node",
@@ -125,13 +125,13 @@ named! {
     }
 }
 
-/// A warning that the suite intends, with the reason.
+/// An accepted warning, with the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AcknowledgeSpec {
     /// Name of the warning.
     pub(crate) warning: WarningName,
-    /// Reason why the suite intends it.
+    /// Reason for accepting the warning.
     pub(crate) because: String,
 }

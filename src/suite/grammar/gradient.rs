@@ -21,9 +21,9 @@ study_spec! {
         gradient: DerivativeSpec,
         /// End and time step of a run.
         run: RunSpec,
-        /// Levels: cells from coarse to fine.
+        /// Refinement levels: numbers of cells from coarse to fine.
         refine: RefineSpec,
-        /// External solvers with an expectation.
+        /// External solvers for which the suite states expectations.
         #[serde(default)]
         methods: Vec<MethodSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.

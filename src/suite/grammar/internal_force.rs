@@ -10,7 +10,7 @@ study_spec! {
     struct InternalForceSpec {
         /// Kind of study: `internal_force`.
         study: StudyName,
-        /// The set-up.
+        /// Cells, particles, stress and predicted force.
         internal_force: ForceSpec,
         /// Basis functions that are compared.
         methods: Vec<ForceMethodSpec>,

@@ -26,7 +26,7 @@ pub(crate) enum MethodSpec {
         transfer: Option<OneOrMany<TransferChoice>>,
         /// Time scheme: when stresses are updated, or quasi-static load steps.
         scheme: OneOrMany<SchemeKey>,
-        /// Time of the initial velocity; default: `at_zero`.
+        /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Mass matrix; default: `lumped`.
         mass: Option<OneOrMany<MassName>>,
@@ -45,7 +45,7 @@ pub(crate) enum MethodSpec {
         mass: OneOrMany<Mass>,
         /// Equation of motion; default: that of the exact solution.
         law: Option<OneOrMany<EquationName>>,
-        /// Time of the initial velocity; default: `at_zero`.
+        /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Points at which the error is measured.
         sampling: Option<OneOrMany<Sampling>>,

@@ -34,7 +34,7 @@ macro_rules! study_spec {
             /// Numbers, formulas of preceding parameters, or tables. Each parameter must be used.
             #[serde(default)]
             pub(crate) parameters: crate::suite::yaml::Ordered<crate::suite::grammar::ParameterSpec>,
-            /// Functions for formulas: `s(tau): "..."`.
+            /// Functions that formulas may use, such as `s(tau): "..."`.
             #[serde(default)]
             pub(crate) functions: crate::suite::yaml::Ordered<String>,
             $($(#[$about_key])* pub(crate) $key: $keys,)*

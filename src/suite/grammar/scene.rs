@@ -37,7 +37,7 @@ pub(crate) struct SceneSpec {
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     /// Velocity at the start (m/s), formulas of the coordinates.
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
-    /// Names for the particles in a part of the reference body.
+    /// Named sets of material points.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
     /// Loads and effects.
@@ -142,7 +142,7 @@ pub(crate) struct RoundSpec {
     pub(crate) radius: NumberText,
 }
 
-/// Material points with a name.
+/// A set of material points.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -81,7 +81,7 @@ pub struct ConvergencePlan {
     pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Whether levels with cell crossings count for the order.
+    /// Whether the order may use levels on which particles change their cell.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,

@@ -55,9 +55,9 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for any particle of a `body` with a free surface. Its arguments are
-/// the particle position (m) and the particle's share of a lattice cell. The grid of `scene` has
-/// cells of size `h`.
+/// Whether `holds` returns true for any particle of a `body` with a free surface. The arguments of
+/// `holds` are the particle position (m) and the particle's share of a lattice cell. The grid of
+/// `scene` has cells of size `h`.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

@@ -93,8 +93,7 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses a study with a load that does not support it, and the FEM bar if it does not support all
-/// loads.
+/// Refuses loads that do not support the study, and the FEM bar if it does not support all loads.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -137,7 +137,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Returns `level` with the cell size and the time step for its number of cells.
+/// Returns `level` with the cell size and the time step that belong to its number of cells.
 fn with_step(
     evaluator: &Evaluator<'_>,
     path: &Path,

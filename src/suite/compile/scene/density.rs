@@ -25,8 +25,7 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether `diagnostic` reports a coordinate as an unknown name, because a formula must be a
-/// constant.
+/// Whether `diagnostic` reports that the formula of a constant uses a coordinate.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)

@@ -32,7 +32,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// Adds help to a diagnostic if a parameter varies in space.
+/// Adds help to a diagnostic if it reports a parameter that varies in space.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     if !names_coordinate(&diagnostic) {
         return diagnostic;

@@ -248,7 +248,7 @@ fn face(scene: &Scene, number: usize) -> Face {
 }
 
 /// Refuses a solution for a quadrilateral. The check of solutions is implemented only for boxes and
-/// bodies with a free rim.
+/// bodies with a free surface.
 fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

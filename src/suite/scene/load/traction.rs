@@ -44,7 +44,6 @@ impl LoadKeys for TractionSpec {
     }
 }
 
-/// Traction (Pa, per reference area), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct TractionLoad {
     face: LoadedFace,

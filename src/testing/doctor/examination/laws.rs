@@ -49,8 +49,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     kinds.sort_unstable();
     kinds.dedup();
     let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
-    // Another scene starts deformed, because F and the velocity gradient commute if a body starts
-    // undeformed.
+    // One law also runs from a deformed start, because F and the velocity gradient commute if a
+    // body starts undeformed.
     let elastic = FINITE.map(|law| (first.dimension, law));
     let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
     scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));

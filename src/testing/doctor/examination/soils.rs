@@ -52,14 +52,16 @@ const POISSON: f64 = 0.2;
 /// Density (kg/m3). It is so large that waves travel only about 1e-8 cells in a second.
 const DENSITY: f64 = 1e22;
 
-/// Uniaxial compression: displacement gradient at the end of the path, as in the other constants.
+/// Displacement gradient at the end of a path of uniaxial compression.
 const COMPRESSION: [[f64; 3]; 3] = [[-0.003, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Uniaxial extension whose elastic stress lies beyond the apex of the yield surface.
+/// Displacement gradient of a uniaxial extension whose elastic stress lies beyond the apex of the
+/// yield surface.
 const EXTENSION: [[f64; 3]; 3] = [[0.0006, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Shear with three different principal stresses: on a face of the Mohr-Coulomb pyramid.
+/// Displacement gradient of a shear with three different principal stresses, so the stress is on a
+/// face of the Mohr-Coulomb pyramid.
 const SHEAR: [[f64; 3]; 3] = [[0.0012, 0.0, 0.0], [0.0, -0.0012, 0.0], [0.0; 3]];
-/// Compression to 0.97 along X, and a rotation by 0.4 rad: the cosine is 0.921061 and the sine
-/// 0.389418.
+/// Displacement gradient of a compression to 0.97 along X and a rotation by 0.4 rad: the cosine is
+/// 0.921061 and the sine 0.389418.
 const ROTATION: [[f64; 3]; 3] =
     [[0.921_061 * 0.97 - 1.0, -0.389_418, 0.0], [0.389_418 * 0.97, 0.921_061 - 1.0, 0.0], [0.0; 3]];
 
@@ -273,8 +275,8 @@ fn sorted(a: f64, b: f64) -> [f64; 2] {
     if a <= b { [a, b] } else { [b, a] }
 }
 
-/// Returns the finding on a wrong stress on a path. `on_edge` is true if a Mohr-Coulomb soil yields
-/// on an edge here, but is right on a face.
+/// Returns the finding on a wrong stress on a path. `on_edge` is true for a Mohr-Coulomb soil whose
+/// stress is wrong on an edge but right on a face.
 fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hindrance> {
     if leg.is_that_of(&BoxScene { law: "hencky", ..leg.scene.clone() })? {
         return Ok(SolverFinding::defect(
@@ -384,8 +386,8 @@ mod tests {
         (mean - 2.0 / 3.0_f64.sqrt() * root, mean + root / 3.0_f64.sqrt())
     }
 
-    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil. On an edge, two planes have one
-    /// multiplier.
+    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil. On an edge of the pyramid, two
+    /// planes share one plastic multiplier.
     fn pyramid(scene: &BoxScene, e: f64) -> (f64, f64) {
         let (lambda, mu) = scene.lame();
         let modulus = lambda + 2.0 * mu;

@@ -53,8 +53,8 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I` with the
-/// second moment of mass I.
+/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. I is the
+/// moment of inertia divided by the mass.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
