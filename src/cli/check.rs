@@ -170,7 +170,6 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "diagnostics": [of_diagnostic(diagnostic)]}));
     }
 
-    /// Adds a suite for which the solver lacks a capability.
     pub(super) fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
         let name = &suite.name;
         if let Some(applicable) = &mut self.applicable {

@@ -46,7 +46,6 @@ const OVERVIEW: &str = "OVERVIEW.snap";
 /// File name of the JSON results in a folder of `run --out`.
 const REPORT: &str = "report.json";
 
-/// Results on one side of the comparison, before or after.
 enum ComparedResults {
     /// Results of a run, with all levels.
     Run(ReportDocument),

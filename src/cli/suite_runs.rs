@@ -18,7 +18,6 @@ pub(super) struct SuitePart {
 }
 
 impl SuiteRuns {
-    /// Prepares one run of each suite, with its own methods.
     pub(super) fn of_methods(suites: Vec<Suite>) -> Vec<Self> {
         let part = |suite| SuitePart { suite, solver: None };
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()

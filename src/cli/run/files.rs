@@ -16,7 +16,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Creates the folder of `--out` before the run. An invalid path therefore fails early.
+/// Creates the folder of `--out` before the run, so an invalid path fails early.
 pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
@@ -48,8 +48,7 @@ pub(super) fn write_out(
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Creates the folder for the file of `option` before the run. An invalid path therefore fails
-/// early.
+/// Creates the folder for the file of `option` before the run, so an invalid path fails early.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));
@@ -104,7 +103,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Creates the folder before the run. An invalid path therefore fails early.
+    /// Creates the folder before the run, so an invalid path fails early.
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;

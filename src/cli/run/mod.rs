@@ -203,11 +203,9 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// Settings of a run, including its cache and solvers.
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
-    /// Number of runs of each level.
     repeat: usize,
     /// Writes cases as files for ParaView, if requested.
     series: Option<Series>,

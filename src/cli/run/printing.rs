@@ -24,7 +24,6 @@ pub(super) enum Printing {
     Verdicts,
     /// The overview, and the cases with unexpected results.
     Overview,
-    /// The cases with unexpected results.
     Unexpected,
 }
 

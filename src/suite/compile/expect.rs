@@ -45,7 +45,8 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// Returns the index of the only matching entry of `expect` for each case, if there are entries.
+/// Returns for each case the index of the only entry of `expect` that matches. All are `None` if
+/// there are no entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -86,7 +87,6 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Returns the expectation for a full run, if an entry states one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -16,7 +16,8 @@ use crate::verify::{Axis, GradientTerms};
 
 const MOST_POINTS: u64 = 1000;
 
-/// Relative change of a parameter for which the stated solution is checked again.
+/// Relative change of a parameter. The stated solution must also solve the problem with the changed
+/// parameter.
 const CHANGE: f64 = 1.0 / 64.0;
 
 pub(crate) fn plan(

@@ -245,12 +245,10 @@ impl<'a> Evaluator<'a> {
         Err(diagnostic.with_label("expected a text"))
     }
 
-    /// Returns a diagnostic about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)
     }
 
-    /// Returns a diagnostic about the key at `path`.
     pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
             Some(place) => self.source.diagnostic(place, message),

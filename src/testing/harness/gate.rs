@@ -17,7 +17,6 @@ use std::path::{Path, PathBuf, absolute};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A folder of suites, and the solver to test, if any.
 pub(super) struct Gate {
     pub(super) folder: PathBuf,
     pub(super) snapshots: PathBuf,

@@ -51,9 +51,10 @@ impl SuiteFolder {
         Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
     }
 
-    /// Tests a solver in place of the methods of the suites. Its order is compared with the suite's
-    /// expectation for this solver, otherwise with the order that the solver states. A case that
-    /// needs a missing capability is ignored with the reason, and does not count as passed.
+    /// Tests a solver in place of the methods of the suites. The observed order is compared with
+    /// the suite's expectation for this solver, otherwise with the order that the solver states. A
+    /// case that needs a missing capability is ignored with the reason, and does not count as
+    /// passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
         // The tests live until the end of the process, and so must the solver.
@@ -68,8 +69,8 @@ impl SuiteFolder {
         self
     }
 
-    /// Adds two snapshots of all suites together: `OVERVIEW`, with the result of each case and the
-    /// matrix of problems and methods, and `profile`, with the memory and passes of a step.
+    /// Adds two snapshots that cover all suites. `OVERVIEW` contains the result of each case and
+    /// the matrix of problems and methods; `profile` contains the memory and passes of a step.
     #[must_use]
     pub fn with_overview(mut self) -> Self {
         self.0.with_overview = true;

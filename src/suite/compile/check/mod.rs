@@ -16,7 +16,6 @@ use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Conserved, Limits};
 
-/// Refuses boundary conditions that the FEM bar does not support, if the suite uses the FEM bar.
 pub(crate) fn refuse_conditions_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -53,7 +52,6 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses the FEM bar, as method or reference, if it has no law for the material.
 pub(crate) fn refuse_law_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -127,7 +125,6 @@ fn refuse_fem_without(
     }
 }
 
-/// Refuses to judge a quantity that the FEM bar does not compute.
 pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -70,7 +70,7 @@ fn usable(
     })
 }
 
-/// Refuses a level whose actual step equals that of the previous level, as in a short run.
+/// Refuses a level with as many steps as the previous level, which can happen in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,

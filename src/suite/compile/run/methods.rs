@@ -163,7 +163,6 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
-/// Refuses an entry that combines `scheme: quasi_static` with keys or schemes of dynamics.
 fn refuse_keys_of_dynamics(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -288,7 +287,6 @@ fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
 }
 
-/// Whether an optional list has several values.
 fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }

@@ -98,7 +98,6 @@ fn poissons_ratio(
     Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
 }
 
-/// Names of stress components, each with row and column of the tensor.
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 

@@ -71,7 +71,6 @@ pub(crate) enum LoadTarget {
 }
 
 impl LoadTarget {
-    /// Returns the number of the face; `None` if the load does not act on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),

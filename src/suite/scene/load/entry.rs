@@ -87,7 +87,6 @@ impl LoadEntry<'_> {
         Ok(())
     }
 
-    /// Compiles one formula of t for each component.
     pub(crate) fn of_time(
         &self,
         path: &Path,
