@@ -192,7 +192,8 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
     f
 }
 
-/// Returns stress (Pa) and F, row by row, of a body with the deformation gradient `f`.
+/// Returns the initial stress (Pa) and F of the problem, row by row, for a body with the
+/// deformation gradient `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
@@ -263,7 +264,7 @@ fn of_stress(
              or leave it out of its `laws`",
         ));
     }
-    // The stress for F^T, which isotropic laws give if F^T F is used in place of F F^T.
+    // If F^T F is used in place of F F^T, isotropic laws give the stress for F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
     let scaled: Vec<f64> = stress.iter().map(|s| factor * s).collect();
