@@ -9,16 +9,16 @@ use thiserror::Error;
 
 #[derive(Debug, Args)]
 pub(super) struct Targets {
-    /// Suites: a file, a folder of files, a name, a group (a folder of verification/, such as
-    /// `heat`), a pattern (`mms-*`), or `-` for standard input; default: all of verification/, or
-    /// the built-in suites if there is no such folder
+    /// Suites: a file, a folder, a name, a group (a folder of verification/, such as `heat`), a
+    /// pattern (`mms-*`), or `-` for standard input [default: all of verification/, or the built-in
+    /// suites if there is no such folder]
     #[arg(value_name = "SUITE")]
     pub(super) targets: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct SolverArgs {
-    /// Put this program to the suites instead of their methods: a command with its arguments that
+    /// Run this program on the suites instead of their methods: a command with its arguments that
     /// speaks the protocol of docs/protocol.md
     #[arg(long, value_name = "COMMAND")]
     pub(super) solver: Option<String>,
@@ -26,22 +26,20 @@ pub(super) struct SolverArgs {
     pub(super) limits: SolverLimitArgs,
 }
 
-/// Solvers, each with a name if there are several, and whether the methods of suites run too.
 #[derive(Debug, Args)]
 pub(super) struct SolversArgs {
-    /// Run the suites with this program in place of their methods: a command with its arguments
-    /// that speaks the protocol of docs/protocol.md. With a name in front (`'mine=python mpm.py'`)
-    /// it can be given repeatedly: the solvers are then in one report
+    /// Run this program on the suites instead of their methods: a command with its arguments that
+    /// speaks the protocol of docs/protocol.md; repeatable if each has a name (`'mine=python
+    /// mpm.py'`)
     #[arg(long, value_name = "[NAME=]COMMAND")]
     pub(super) solver: Vec<SolverCommand>,
-    /// Run the methods of the suites too, in the same report
+    /// Also run the methods of the suites, in the same report
     #[arg(long, requires = "solver")]
     pub(super) with_methods: bool,
     #[command(flatten)]
     pub(super) limits: SolverLimitArgs,
 }
 
-/// A value of `--solver`.
 #[derive(Debug, Clone)]
 pub(super) struct SolverCommand {
     /// Name in reports; `None` for the solver's own name.
@@ -70,13 +68,12 @@ impl FromStr for SolverCommand {
     }
 }
 
-/// Limits of each process of a solver.
 #[derive(Debug, Args)]
 pub(super) struct SolverLimitArgs {
     /// Response timeout of the solver
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) solver_timeout: f64,
-    /// Maximum memory (address space) of each process of the solver, in MB [default: no limit]
+    /// Maximum memory (address space) of each solver process, in MB [default: no limit]
     #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
     pub(super) solver_memory: Option<u64>,
 }
@@ -96,13 +93,13 @@ impl FormatArgs {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
-    /// Text for a reader
+    /// Plain text
     Text,
     /// One JSON document
     Json,
 }
 
-/// Error of a value parser. It describes the accepted values.
+/// Error of a value parser: a description of the accepted values.
 #[derive(Debug, Error)]
 #[error("expected {0}")]
 pub(super) struct Expected(pub(super) Cow<'static, str>);
@@ -124,7 +121,6 @@ pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     usable.ok_or_else(|| Expected::one("a time with its unit, such as `10s` or `500ms`"))
 }
 
-/// Parses a whole number.
 pub(super) fn whole(text: &str) -> Result<usize, Expected> {
     text.parse().map_err(|_| Expected::one("a whole number"))
 }
@@ -135,12 +131,10 @@ pub(super) fn count(text: &str) -> Result<usize, Expected> {
     known.ok_or_else(|| Expected::one("a whole number, 1 or more"))
 }
 
-/// Parses a number of megabytes.
 fn megabytes(text: &str) -> Result<u64, Expected> {
     count(text).map(|count| count as u64)
 }
 
-/// Parses a finite number.
 pub(super) fn number(text: &str) -> Result<f64, Expected> {
     let known = text.parse().ok().filter(|number: &f64| number.is_finite());
     known.ok_or_else(|| Expected::one("a finite number"))
@@ -154,7 +148,7 @@ pub(super) fn share(text: &str) -> Result<f64, Expected> {
 
 #[derive(Debug, Args)]
 pub(super) struct ColorArgs {
-    /// Colour of verdicts and errors; `auto`: only on a terminal, unless NO_COLOR is set
+    /// When to colour verdicts and errors; `auto`: on a terminal, unless NO_COLOR is set
     #[arg(long, value_enum, value_name = "WHEN", global = true, default_value_t = Color::Auto)]
     color: Color,
 }
@@ -167,7 +161,6 @@ enum Color {
 }
 
 impl ColorArgs {
-    /// Applies the colour choice to both output streams.
     pub(super) fn write_global(&self) {
         match self.color {
             Color::Auto => ColorChoice::Auto,

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 pub(super) struct CheckArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Exit status 1 if there are warnings
+    /// Exit with status 1 if there are warnings
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
@@ -27,10 +27,9 @@ pub(super) struct CheckArgs {
     solver: SolverArgs,
 }
 
-/// Arguments that determine how many findings `check` prints.
 #[derive(Debug, Args)]
 pub(super) struct CheckPrintArgs {
-    /// Print nothing about sound suites, and no notes
+    /// Omit valid suites and notes
     #[arg(long, short)]
     quiet: bool,
     /// Print all notes [default: only notes about named suites, and the number of other notes]
@@ -38,8 +37,7 @@ pub(super) struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Prints the errors of each suite, or that it is valid. Warns of runs that cannot meet their
-/// expectation.
+/// Validates each suite, prints its errors, and warns of runs that cannot meet their expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
@@ -118,12 +116,10 @@ struct ApplicableSuites {
     names: Vec<String>,
     /// Number of suites that require each missing capability.
     lacking: BTreeMap<String, usize>,
-    /// Number of suites that the solver cannot run.
     others: usize,
 }
 
 impl ApplicableSuites {
-    /// Summarises the suites in a few lines.
     fn text(mut self) -> String {
         self.names.sort_unstable();
         let (count, all) = (self.names.len(), self.names.len() + self.others);
@@ -145,7 +141,7 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Starts the findings about `count` suites. Notes are printed in full if every target names a
+    /// Prepares the findings about `count` suites. Notes are printed in full if every target is a
     /// single suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
@@ -174,7 +170,6 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "diagnostics": [of_diagnostic(diagnostic)]}));
     }
 
-    /// Adds a suite for which the solver lacks a capability.
     pub(super) fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
         let name = &suite.name;
         if let Some(applicable) = &mut self.applicable {
@@ -194,8 +189,8 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// Adds a suite that can run. If there is an external solver, the expectation is the
-    /// requirement of `run --gate`.
+    /// Adds a suite that can run, with its findings. External solvers are judged by `run --gate`,
+    /// so they need no expectation in the suite.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,
@@ -231,7 +226,6 @@ impl CheckFindings {
         }));
     }
 
-    /// Prints the number of findings.
     pub(super) fn end(self, counts: Counts) {
         if !self.is_json {
             if let Some(applicable) = self.applicable {
@@ -265,7 +259,6 @@ fn of_diagnostic(diagnostic: &Diagnostic) -> Value {
     })
 }
 
-/// Number of findings by severity.
 #[derive(Debug, Default, Clone, Copy)]
 pub(super) struct Counts {
     pub(super) errors: usize,

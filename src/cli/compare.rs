@@ -13,20 +13,20 @@ use std::{fs, io};
 
 #[derive(Debug, Args)]
 pub(super) struct CompareArgs {
-    /// Results before: the JSON of `mpm-verify run --format json`, a folder of `run --out`, a
-    /// folder of snapshots, or a commit that has snapshots
+    /// Old results: JSON of `mpm-verify run --format json`, a folder of `run --out`, a folder of
+    /// snapshots, or a commit that has snapshots
     #[arg(value_name = "OLD")]
     old: String,
-    /// Results after
+    /// New results, in any of the same forms
     #[arg(value_name = "NEW", default_value = "verification")]
     new: String,
-    /// Folder of the snapshots in the tree of a commit
+    /// Folder of a commit that contains the snapshots
     #[arg(long, default_value = "verification")]
     folder: String,
     /// Format of the output
     #[arg(long, value_enum, default_value_t = Page::Text)]
     format: Page,
-    /// Largest relative change of a figure that counts as no change
+    /// Maximum relative change of a value that counts as no change
     #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
     tolerance: f64,
 }
@@ -35,19 +35,17 @@ pub(super) struct CompareArgs {
 pub(super) enum Page {
     /// Aligned tables
     Text,
-    /// A comment for a pull request
+    /// Markdown, for a comment on a pull request
     Markdown,
     /// One JSON document
     Json,
 }
 
-/// File name of the overview snapshot.
 const OVERVIEW: &str = "OVERVIEW.snap";
 
 /// File name of the JSON results in a folder of `run --out`.
 const REPORT: &str = "report.json";
 
-/// Results on one side of the comparison, before or after.
 enum ComparedResults {
     /// Results of a run, with all levels.
     Run(ReportDocument),
@@ -83,7 +81,6 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     Ok(print(&compare::compare(&old, &new, tolerance), args.format))
 }
 
-/// Prints a comparison, and returns its exit status.
 fn print(found: &ReportComparison, format: Page) -> Status {
     output::print(&match format {
         Page::Text => compare::text(found),
@@ -93,8 +90,7 @@ fn print(found: &ReportComparison, format: Page) -> Status {
     if found.is_worse() { Status::Failed } else { Status::Passed }
 }
 
-/// Loads the results at `place`: a file, a folder or a commit. In the tree of a commit, snapshots
-/// are in `folder`.
+/// Loads the results at `place`: a file, a folder, or a commit whose snapshots are in `folder`.
 fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     let path = Path::new(place);
     if path.is_dir() {
@@ -127,13 +123,12 @@ fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     Ok(snapshots(&overview, |file| committed(place, &format!("{folder}/{file}")).ok()))
 }
 
-/// Loads the results in snapshots. `read` returns the text of a file.
+/// Loads the results in snapshots. `read` returns the text of a snapshot file.
 fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedResults {
     let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))
 }
 
-/// Returns the text of a file in a commit.
 fn committed(commit: &str, file: &str) -> io::Result<String> {
     if commit.starts_with('-') {
         return Err(io::Error::other("the name of a commit cannot begin with a dash"));
@@ -147,7 +142,6 @@ fn committed(commit: &str, file: &str) -> io::Result<String> {
     }
 }
 
-/// Loads the results of a run from its JSON.
 fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path).map_err(|error| {
@@ -167,7 +161,7 @@ fn run(path: &Path) -> Result<ReportDocument, Diagnostic> {
     })
 }
 
-/// Converts a line and a column, which is counted in bytes, to a byte range.
+/// Converts a line and a column (in bytes) to a byte range.
 fn bytes(text: &str, line: usize, column: usize) -> Range<usize> {
     let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
     let at = (start + column - 1).min(text.len());

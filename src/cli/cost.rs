@@ -18,8 +18,8 @@ use std::{fs, io};
 pub(super) struct CostArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Choose and run the most accurate setting with at most this predicted time: `10s`, `500ms`,
-    /// `2min`
+    /// Choose and run the most accurate setting whose predicted time is within this budget: `10s`,
+    /// `500ms`, `2min`
     #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
     budget: Option<f64>,
     #[command(flatten)]
@@ -27,14 +27,14 @@ pub(super) struct CostArgs {
     /// Write work-precision diagrams into this folder
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
-    /// Measure the finer levels too that suites list under `full`
+    /// Also measure the finer levels that suites list under `full`
     #[arg(long)]
     full: bool,
     #[command(flatten)]
     programs: SolversArgs,
 }
 
-/// Measures suites one after the other. Nothing else runs during a measurement.
+/// Measures suites one after the other, because parallel runs would distort the times.
 pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     if let Some(folder) = &args.figures {
         fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
@@ -52,7 +52,6 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     Ok(if refused.is_empty() { found } else { Status::BadInput })
 }
 
-/// Finds and prints the most accurate setting within the budget for each suite.
 fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     let mut found: Vec<(String, BestCandidate)> = Vec::new();
     let mut code = Status::Passed;
@@ -76,8 +75,7 @@ fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
     code
 }
 
-/// Measures errors and times (s) of every level of each convergence study. Other studies have no
-/// errors.
+/// Measures the error and the time (s) of every level of each convergence study.
 fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     let solvers = solver::greet_all(&args.programs)?;
     let runs = if solvers.is_empty() {

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 pub(super) struct DiagnoseArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Cases whose name contains this
+    /// Diagnose only cases whose name contains this text
     #[arg(long, value_name = "TEXT", default_value = "")]
     case: String,
     /// Budget for the runs of each case, in predicted time: `30s`, `2min`
@@ -26,7 +26,6 @@ pub(super) struct DiagnoseArgs {
     solver: SolverArgs,
 }
 
-/// Prints the diagnosis of each requested case.
 pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
@@ -51,18 +50,15 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     Ok(all.code)
 }
 
-/// Collected diagnoses.
 struct Diagnoses<'a> {
     args: &'a DiagnoseArgs,
     solver: Option<&'a dyn SolverFactory>,
     code: Status,
-    /// Number of cases that were diagnosed.
     diagnosed: usize,
     json: Vec<Value>,
 }
 
 impl Diagnoses<'_> {
-    /// Diagnoses the cases of a suite.
     fn suite(&mut self, source: &Source, suite: &Suite) {
         let names = suite.case_names().into_iter().enumerate();
         for (index, case) in names.filter(|(_, case)| case.contains(self.args.case.as_str())) {

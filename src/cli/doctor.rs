@@ -14,7 +14,6 @@ pub(super) struct DoctorArgs {
     format: FormatArgs,
 }
 
-/// Tests the solver on the command line and prints its defects.
 pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
     let program = solver::greeted(&args.solver)?
         .ok_or_else(|| CommandError::Message("expected a solver: `--solver COMMAND`".to_owned()))?;

@@ -23,7 +23,7 @@ pub(super) struct EstimateArgs {
     format: FormatArgs,
 }
 
-/// Maximum size of a series (bytes).
+/// Maximum size of the input (bytes).
 const LONGEST: u64 = 1 << 20;
 
 const FORMAT_HELP: &str = "each line has a spacing and a value, such as `0.125 1.0625`";
@@ -42,7 +42,6 @@ pub(super) fn estimate(args: &EstimateArgs) -> Result<Status, CommandError> {
     Ok(if result.is_ok() { Status::Passed } else { Status::Failed })
 }
 
-/// Reads the input, and returns its name and text.
 fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     let file = file.filter(|file| file.as_os_str() != "-");
     let name = file.map_or_else(|| "<stdin>".to_owned(), |file| file.display().to_string());
@@ -64,13 +63,12 @@ fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     Ok((name, text))
 }
 
-/// A level in the input, with the position of its spacing in the text.
+/// A line of the input, with the byte range of its spacing.
 struct InputLine {
     point: SeriesPoint,
     spacing: Range<usize>,
 }
 
-/// Parses the levels in `text`, which is the content of `file`.
 fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     let mut lines: Vec<InputLine> = Vec::new();
     let mut is_first = true;
@@ -133,9 +131,9 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     Ok(lines)
 }
 
-/// Splits a line that begins at byte `start` of the text into the ranges of its fields. A comma or
-/// semicolon with spaces around it is one separator. Between two separators in succession there is
-/// an empty field.
+/// Returns the byte ranges of the fields of a line that begins at byte `start`. A comma or
+/// semicolon with spaces around it is one separator. Two successive separators enclose an empty
+/// field.
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');
     let range = |part: &str| {
@@ -151,8 +149,8 @@ fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     line.split_whitespace().map(range).collect()
 }
 
-/// Returns one unit of the last printed digit of a number; zero if the number has at least the 16
-/// digits of double precision.
+/// Returns the unit of the last printed digit, or zero for a number with at least 16 digits, which
+/// has full double precision.
 fn resolution(number: &str) -> f64 {
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let digits = mantissa.chars().filter(char::is_ascii_digit).collect::<String>();

@@ -20,14 +20,13 @@ pub(super) struct ExplainArgs {
     /// Show what a step would save without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     without: Option<String>,
-    /// Draw the scene of one suite into this file (SVG), without other output
+    /// Draw the scene of one suite into this SVG file, without other output
     #[arg(long, value_name = "FILE")]
     sketch: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
 
-/// Prints a page for each suite.
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
     if let Some(file) = &args.sketch {
@@ -40,7 +39,7 @@ pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     Ok(show::each(targets, |suite| explanation(suite, without)))
 }
 
-/// Writes the sketch of the requested suite, which must be the only one, into `file`.
+/// Writes a sketch of the only requested suite into `file`.
 fn draw(args: &ExplainArgs, file: &Path) -> Result<Status, CommandError> {
     let mut suites = select::suites(&args.targets.targets);
     let suite = match (suites.pop(), suites.is_empty()) {
@@ -68,7 +67,7 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
     Err(CommandError::option("--without", name, reason))
 }
 
-/// Describes how the solver integrates linear elasticity, because the equation does not show this.
+/// Note on the integration of linear elasticity, which the equation does not show.
 const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
                           objective rate";
 
@@ -178,7 +177,8 @@ fn line(key: &str, value: &str) -> String {
     format!("  {key:17} {value}\n")
 }
 
-/// Describes the cost of a step of the case, and the lines that change without an effect.
+/// Describes the cost of a step of the case, and what a step would save without the effect
+/// `without`.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =

@@ -12,22 +12,21 @@ use mpm_verify::suite::suite_schema;
 
 #[derive(Debug, Args)]
 pub(super) struct SchemaArgs {
-    /// Documents that the schema describes
+    /// Documents to describe
     #[arg(value_enum)]
     of: SchemaName,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum SchemaName {
-    /// A suite, for editors that complete and check it while it is written
+    /// Suite files, for completion and checks in an editor
     Suite,
-    /// The document of `run --format json`
+    /// JSON reports of `run --format json`
     Json,
     /// Messages between the harness and an external solver
     Protocol,
 }
 
-/// Prints the requested schema.
 pub(super) fn schema(args: &SchemaArgs) -> Status {
     output::print(&match args.of {
         SchemaName::Suite => suite_schema(),
@@ -39,19 +38,18 @@ pub(super) fn schema(args: &SchemaArgs) -> Status {
 
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArgs {
-    /// The shell
+    /// Shell that runs the script
     #[arg(value_enum)]
     shell: Shell,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
-    /// A command, whose page is printed instead
+    /// Command whose page is printed [default: the page of the program]
     #[arg(value_name = "COMMAND")]
     command: Option<String>,
 }
 
-/// Prints the completion script for a shell.
 pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut cli, "mpm-verify", &mut script);
@@ -59,7 +57,6 @@ pub(super) fn completions(args: &CompletionsArgs, mut cli: Command) -> Status {
     Status::Passed
 }
 
-/// Prints the manual page of the program or of one of its commands.
 pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> {
     let mut cli = cli.disable_help_subcommand(true);
     cli.build();
@@ -79,7 +76,7 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> 
     Ok(Status::Passed)
 }
 
-/// Gives a command the name of its manual page, such as `mpm-verify-run`.
+/// Renames a command to the name of its manual page, such as `mpm-verify-run`.
 fn titled(command: &Command, name: &str) -> Command {
     command.clone().display_name(format!("mpm-verify-{name}"))
 }

@@ -21,7 +21,6 @@ pub(super) struct ListArgs {
     format: FormatArgs,
 }
 
-/// Prints all suites with their cases.
 pub(super) fn list(args: &ListArgs) -> Status {
     let targets = &args.targets.targets;
     if args.format.is_json() {
@@ -52,15 +51,14 @@ fn listed(source: &Source, suite: &Suite) -> Value {
 pub(super) struct StepsArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Also the finer levels that suites list under `full`
+    /// Also print the finer levels that suites list under `full`
     #[arg(long)]
     full: bool,
     #[command(flatten)]
     format: FormatArgs,
 }
 
-/// Prints the time steps of each suite. The status shows whether all steps are within the
-/// tolerance.
+/// Prints the time steps of each suite. The status is `Failed` if a step exceeds the tolerance.
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);

@@ -51,45 +51,44 @@ enum Command {
     Run(run::RunArgs),
     /// Write a new suite; prompts for missing options when run in a terminal
     New(new::NewArgs),
-    /// Merge the results of a sharded run (`run --shard K/N --resume DIR`), byte for byte like a
-    /// single run; runs nothing
+    /// Merge the results of a sharded run (`run --shard K/N --resume DIR`) into the output of a
+    /// single run, without running anything
     Merge(run::MergeArgs),
-    /// List suites and their cases, as JSON with the predicted cost of each
+    /// List suites and their cases; the JSON includes the predicted cost of each
     List(list::ListArgs),
     /// Validate suites without running them: grammar, formulas, exact solution, and whether the
     /// runs can support the expectations; exit status 2 on bad input
     Check(check::CheckArgs),
-    /// Print the problem of a suite, its source, the cost of a step of each case (effects, passes,
-    /// memory), and the expectations
+    /// Print the problem and the source of a suite, the cost of a step of each case (effects,
+    /// passes, memory), and the expectations
     Explain(explain::ExplainArgs),
-    /// Run suites and print the `expect` entries that theory gives and the runs support, each with
+    /// Run suites and propose `expect` entries that theory predicts and the runs support, each with
     /// its origin; changes no file
     Propose(propose::ProposeArgs),
-    /// Find the cause if a case does not have the theoretical order: its finest levels run again
-    /// with one change at a time
+    /// Find out why a case misses the theoretical order: run its finest levels again with one
+    /// change at a time
     Diagnose(diagnose::DiagnoseArgs),
-    /// Run a solver on small problems that each show one kind of defect, and describe the defects
-    /// for its author; exit status 1 if there is a defect, 2 if the solver does not respond
+    /// Run a solver on small problems that each expose one kind of defect, and describe the
+    /// defects; exit status 1 if there is a defect, 2 if the solver does not respond
     Doctor(doctor::DoctorArgs),
     /// Print a JSON Schema, for editors and for authors of solvers
     Schema(generate::SchemaArgs),
-    /// Print the requested and the actual time step of every level; exit status 1 if one is off by
+    /// Print the requested and the actual time step of every level; exit status 1 if they differ by
     /// more than 1 %
     Steps(list::StepsArgs),
-    /// Write the initial state of one level for any solver, or its exact state at a time:
+    /// Write the initial state of one level, or its exact state at a given time, for any solver:
     /// particles, grid, faces, material, steps
     Problem(problem::ProblemArgs),
-    /// Measure the cost of accuracy: error against work and seconds, the cheapest method for an
+    /// Measure the cost of accuracy: error against work and run time, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(cost::CostArgs),
-    /// Estimate order and limit of a series of values without an exact solution, with intervals;
-    /// exit status 1 if the series shows no limit, 2 on bad input
+    /// Estimate the order and the limit of a series of values that has no exact solution, with
+    /// intervals; exit status 1 if the series shows no limit, 2 on bad input
     Estimate(estimate::EstimateArgs),
-    /// Compare two runs or two sets of snapshots, and list the changes, the most important first;
-    /// exit status 1 if something got worse (a verdict, an error, a limit of stability, the work),
-    /// 2 on bad input
+    /// Compare two runs or two sets of snapshots, and list the changes, most important first; exit
+    /// status 1 if a verdict, an error, a stability limit or the work got worse, 2 on bad input
     Compare(compare::CompareArgs),
-    /// Print a script for completion of the arguments in a shell
+    /// Print a completion script for a shell
     Completions(generate::CompletionsArgs),
     /// Print the manual page for `man`
     Man(generate::ManArgs),

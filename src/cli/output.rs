@@ -11,7 +11,6 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use thiserror::Error;
 
-/// First failure to write to standard output.
 static FAILURE: OnceLock<String> = OnceLock::new();
 
 /// Prints to standard output, in colour if it is a terminal.
@@ -20,7 +19,6 @@ pub(super) fn print(text: &str) {
     note(anstream::stdout().lock(), painted.as_bytes());
 }
 
-/// Prints bytes, which may be binary.
 pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
@@ -35,7 +33,6 @@ pub(super) fn complain(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", painted(text.trim_end()));
 }
 
-/// Prints a diagnostic to standard error.
 pub(super) fn diagnose(diagnostic: &Diagnostic) {
     complain(&diagnostic.styled());
 }
@@ -59,7 +56,7 @@ const DOUBTFUL: Style = AnsiColor::Yellow.on_default().bold();
 const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Beginnings of lines that are coloured, after leading spaces.
+/// Line beginnings (after leading spaces) that are coloured, with their styles.
 const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
@@ -71,10 +68,9 @@ const FIRST: [(&str, Style); 8] = [
     ("n/a ", DOUBTFUL),
 ];
 
-/// Texts that are coloured in the line with the result of a case.
+/// Texts that are coloured in the result line of a case, with their styles.
 const RESULTS: [(&str, Style); 2] = [("NOT AS EXPECTED", BAD), ("as expected", GOOD)];
 
-/// Colours the verdicts in a text.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(line).collect()
 }
@@ -97,7 +93,6 @@ fn line(line: &str) -> String {
     line.to_owned()
 }
 
-/// Exit status of a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Status {
     /// All results are as expected; in a comparison, nothing has become worse.
@@ -125,12 +120,10 @@ pub(super) enum CommandError {
 }
 
 impl CommandError {
-    /// Creates an error about a suite, a case or an option.
     pub(super) fn about(subject: impl Display, reason: impl Display) -> Self {
         Self::Message(format!("{subject}: {reason}"))
     }
 
-    /// Creates an error about the value of an option.
     pub(super) fn option(option: &str, value: impl Display, reason: impl Display) -> Self {
         Self::about(format_args!("{option} {value}"), reason)
     }

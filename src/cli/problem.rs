@@ -15,10 +15,11 @@ pub(super) struct ProblemArgs {
     /// Suite: a file, a name, or `-` for standard input
     #[arg(value_name = "SUITE")]
     suite: PathBuf,
-    /// Level, the coarsest being 1 [default: the finest that the gate runs]
+    /// Number of the level; the coarsest is 1 [default: the finest that `run` uses without
+    /// `--full`]
     #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     level: Option<usize>,
-    /// The exact state at this time (s), and not the initial one
+    /// Write the exact state at this time (s) instead of the initial state
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Format of the output: csv, json, npz, vtu
@@ -26,7 +27,6 @@ pub(super) struct ProblemArgs {
     format: ProblemFormat,
 }
 
-/// Parses the name of a format.
 fn format(name: &str) -> Result<ProblemFormat, Expected> {
     let known = ProblemFormat::ALL;
     let names = || known.iter().map(|format| format.name()).collect::<Vec<_>>().join(", ");
@@ -34,7 +34,6 @@ fn format(name: &str) -> Result<ProblemFormat, Expected> {
     found.copied().ok_or_else(|| Expected(format!("one of {}", names()).into()))
 }
 
-/// Writes the initial state of a level, or its exact state at a time, to standard output.
 pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
     if args.format.is_binary() && stdout().is_terminal() {
         let format = args.format.name();

@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 /// Default folder of suites.
 const FOLDER: &str = "verification";
 
-/// Name of the target that is standard input.
 const STDIN: &str = "-";
 
-/// Loads the suites that `targets` name. An element is a suite, or a diagnostic about the failure.
+/// Loads the suites that `targets` name, or returns a diagnostic for each one that cannot be
+/// loaded.
 ///
 /// Without targets, loads all suites in `verification/`, or the built-in suites if there is no such
 /// folder.
@@ -23,7 +23,6 @@ pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-/// Loads the suites that `targets` name, each with its source, or returns a diagnostic.
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
     let sources = if targets.is_empty() {
         everything()
@@ -46,9 +45,8 @@ fn everything() -> Sources {
     }
 }
 
-/// Returns the names of the suites that `targets` name individually: by a file, by name or on
-/// standard input, instead of by a folder, a group or a pattern. `suites` are all suites that the
-/// targets select.
+/// Returns the names of the suites that `targets` name individually: by file, by name or on
+/// standard input, not by folder, group or pattern. `suites` are all selected suites.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {
     #[derive(serde::Deserialize)]
     struct Name {
@@ -73,7 +71,6 @@ pub(super) fn is_known(target: &str) -> bool {
     target == STDIN || is_pattern(path) || place(path).is_some() || named(target).is_some()
 }
 
-/// Whether the target is a pattern of suite names instead of a file name.
 fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
@@ -123,7 +120,7 @@ fn named(name: &str) -> Option<Sources> {
     Some(group).filter(|group| !group.is_empty())
 }
 
-/// Returns the suites whose name, or group and name, match a pattern.
+/// Returns the suites whose `NAME` or `GROUP/NAME` matches a pattern.
 fn fitting(glob: &str) -> Sources {
     let fits = |path: &Path| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
@@ -174,7 +171,6 @@ fn unknown(name: &str) -> Diagnostic {
     diagnostic.with_help(&help)
 }
 
-/// Returns the names of local and built-in suites and groups.
 pub(super) fn suite_names() -> Vec<String> {
     let local = Source::files_in(Path::new(FOLDER)).unwrap_or_default();
     let groups = local.iter().map(|path| Source::group_of(path));
@@ -186,7 +182,6 @@ pub(super) fn suite_names() -> Vec<String> {
     names
 }
 
-/// Returns all suites in a folder.
 fn files_in(folder: &Path) -> Sources {
     let name = folder.display().to_string();
     match Source::files_in(folder) {

@@ -11,9 +11,6 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Starts the solver that the command line names, if any.
-///
-/// # Errors
-/// If the solver does not start or violates the protocol.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
@@ -43,9 +40,6 @@ pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, Comman
 }
 
 /// Starts a solver and requests its capabilities.
-///
-/// # Errors
-/// If the solver does not start or violates the protocol.
 pub(super) fn greet(
     command: &str,
     limits: &SolverLimitArgs,
@@ -64,8 +58,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// Replaces the methods of the suite by the solver, if there is one. Prints a note and returns
-/// `None` if external solvers cannot run the suite, because it tests internals of a method.
+/// Replaces the methods of the suite by the solver, if there is one. If the suite tests internals
+/// of a method, which external solvers do not have, prints a note and returns `None`.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
@@ -89,8 +83,8 @@ fn suite_of_solver(
     judged
 }
 
-/// Replaces the methods of the suites by the solver. A suite for which `terms` returns terms gets a
-/// gate. Also returns the names of skipped suites, which test internals of a method.
+/// Replaces the methods of the suites by the solver. A suite gets a gate if `terms` returns its
+/// requirements. Also returns the names of skipped suites, which test internals of a method.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,
@@ -106,7 +100,6 @@ pub(super) fn suites_of_solver(
     (judged, left_out)
 }
 
-/// Whether the solver can run at least one case.
 pub(super) fn is_applicable(outcomes: &[SuiteOutcome]) -> bool {
     outcomes.iter().flat_map(|outcome| &outcome.cases).any(|case| case.lacks.is_empty())
 }

@@ -5,7 +5,6 @@ use mpm_verify::study::Shard;
 use mpm_verify::suite::{Extent, Suite};
 use std::collections::BTreeSet;
 
-/// One suite with all its runs, which use its own methods, external solvers, or both.
 pub(super) struct SuiteRuns {
     /// One run by the methods of the suite, and one by each solver.
     parts: Vec<SuitePart>,
@@ -19,7 +18,6 @@ pub(super) struct SuitePart {
 }
 
 impl SuiteRuns {
-    /// Prepares one run of each suite, with its own methods.
     pub(super) fn of_methods(suites: Vec<Suite>) -> Vec<Self> {
         let part = |suite| SuitePart { suite, solver: None };
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
@@ -35,8 +33,7 @@ impl SuiteRuns {
         let mut all: Vec<(String, Vec<SuitePart>)> =
             suites.iter().map(|suite| (suite.name.clone(), Vec::new())).collect();
         let mut put = |suite: Suite, solver: Option<usize>| {
-            // Several suites may have the same name. The order determines which ones belong
-            // together.
+            // Suites with equal names are matched by their order.
             let is_free = |(name, parts): &&mut (String, Vec<SuitePart>)| {
                 *name == suite.name && parts.last().is_none_or(|part| part.solver != solver)
             };
@@ -82,12 +79,12 @@ impl SuiteRuns {
         &self.parts
     }
 
-    /// Returns the suite, whose statement is common to all parts.
+    /// Returns the suite of the first part. The problem is the same in all parts.
     pub(super) fn suite(&self) -> &Suite {
         &self.parts[0].suite
     }
 
-    /// Returns the first name that two of the cases have.
+    /// Returns a name that two cases share, if any.
     fn twice(&self) -> Option<String> {
         let mut names = BTreeSet::new();
         let all = self.parts.iter().flat_map(|part| part.suite.case_names());
@@ -95,10 +92,11 @@ impl SuiteRuns {
     }
 }
 
-/// Checks that the name of a solver differs from the names of all cases.
+/// Checks that case names are unique within each suite. Cases of an external solver have the name
+/// of the solver.
 ///
 /// # Errors
-/// The first name that two cases have.
+/// If a case of a suite has the name of a solver.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
     let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
     else {

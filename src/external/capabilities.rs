@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent abilities, each asked by name")]
 pub struct Capabilities {
-    /// Numbers of space dimensions.
+    /// Supported numbers of space dimensions.
     pub dimensions: Vec<usize>,
     /// Materials, by their names in suites.
     pub laws: Vec<String>,
@@ -18,13 +18,13 @@ pub struct Capabilities {
     pub conditions: Vec<String>,
     /// Loads and effects, by their names in suites.
     pub loads: Vec<String>,
-    /// Columns of its state in addition to displacement and velocity.
+    /// Columns of the reported state in addition to displacement and velocity.
     pub columns: Vec<String>,
-    /// Parameters with respect to which functionals of the final state are differentiated.
+    /// Parameters for which the solver returns derivatives of functionals of the final state.
     pub gradients: Vec<String>,
-    /// Whether it accepts a body force that is given by values only, not by a formula.
+    /// Whether the body force may be given by values only, without a formula.
     pub manufactured: bool,
-    /// Whether particles may start displaced, with F and stress.
+    /// Whether particles may start with a displacement, a deformation gradient and a stress.
     pub initial_deformation: bool,
     /// Whether there may be more than one body.
     pub several_bodies: bool,
@@ -38,13 +38,14 @@ pub struct Capabilities {
     pub initial_stress: bool,
     /// Whether the body force may depend on the displacement.
     pub displacement_force: bool,
-    /// Whether the reference density may vary over a body: masses are those of the particles.
+    /// Whether the reference density may vary over a body. The particle masses include the
+    /// variation.
     pub varying_density: bool,
     /// Whether loads may act on the rims of disks and annuli.
     pub loaded_rims: bool,
     /// Whether the load may be applied in quasi-static load steps, without time.
     pub load_steps: bool,
-    /// Whether columns may be raw bytes.
+    /// Whether columns may be sent as raw bytes.
     pub binary: bool,
 }
 
@@ -55,15 +56,15 @@ pub struct Capabilities {
 pub struct ProblemNeeds {
     /// Number of space dimensions.
     pub dimension: usize,
-    /// Materials.
+    /// Names of the laws.
     pub laws: Vec<&'static str>,
-    /// Conditions on faces.
+    /// Names of the conditions on faces.
     pub conditions: Vec<&'static str>,
-    /// Loads and effects.
+    /// Names of the loads and effects.
     pub loads: Vec<&'static str>,
-    /// Column of the judged quantity, if it is optional.
+    /// Optional column that contains the judged quantity, if the study needs one.
     pub column: Option<&'static str>,
-    /// Parameters with respect to which the study needs gradients.
+    /// Parameters for which the study needs derivatives.
     pub gradients: Vec<&'static str>,
     /// Whether the body force is manufactured.
     pub manufactured: bool,
@@ -92,8 +93,8 @@ pub struct ProblemNeeds {
 }
 
 impl Capabilities {
-    /// Creates capabilities from numbers of dimensions, laws, conditions on faces and loads. Names
-    /// are those in suites.
+    /// Creates capabilities with these dimensions, laws, face conditions and loads, named as in
+    /// suites.
     pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         Self {
@@ -105,8 +106,7 @@ impl Capabilities {
         }
     }
 
-    /// Lists the missing capabilities. Each is the entry that the solver would have to add to its
-    /// list.
+    /// Lists the missing capabilities, each as the entry that the solver would have to state.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -204,8 +204,8 @@ impl ProblemNeeds {
         ]
     }
 
-    /// Lists the requirements that version 1 of the protocol cannot pass as numbers. Each is the
-    /// corresponding entry of the capabilities.
+    /// Lists the requirements that need version 2 of the protocol, each as the corresponding entry
+    /// of the capabilities.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {
@@ -228,7 +228,6 @@ macro_rules! laws {
     ($($name:literal => $file:ident::$law:ident {$($parameters:tt)*}
         $(, truth $truth_file:ident::$truth:ident)?;)+
     ) => {
-        /// Names of the materials.
         const LAWS: &[&str] = &[$($name),+];
     };
 }
@@ -240,24 +239,20 @@ macro_rules! loads {
     ($($(#[$meta:meta])* $member:ident = $name:literal => $file:ident::$spec:ident
         $(, effect $effect_file:ident::$effect:ident)? $(, needs [$($need:ident),+])?;)+
     ) => {
-        /// Names of the loads and effects.
         const LOADS: &[&str] = &[$($name),+];
     };
 }
 
 each_effect!(loads);
 
-/// Names of the conditions on faces.
 const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction", "velocity"];
 
 /// Names of the optional columns of a state.
 const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
-/// Names of the parameters that gradients may refer to.
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
 
-/// Keys of the capabilities in `hello`.
 #[cfg(feature = "external-programs")]
 const KEYS: &[&str] = &[
     "dimensions",
@@ -280,7 +275,6 @@ const KEYS: &[&str] = &[
     "binary",
 ];
 
-/// Lists the names that the list `capability` may contain.
 fn known(capability: &str) -> &'static [&'static str] {
     match capability {
         "laws" => LAWS,

@@ -18,8 +18,8 @@ pub enum HandedNumber {
     Vector(Vec<f64>),
 }
 
-/// The numbers of a load or of a condition on a face: constants by their keys, and the quantities
-/// that depend on place, time or displacement.
+/// Numbers of a load or a face condition: constants, and quantities that depend on position, time
+/// or displacement.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -28,14 +28,13 @@ pub struct HandedValues {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, HandedNumber>"))]
     pub values: Vec<(&'static str, HandedNumber)>,
-    /// Quantities that are not constant, with the keys of the request `values` that they depend
-    /// on: `reference_position`, `t`, `displacement`.
+    /// Keys of the quantities that are not constant. Each has the keys of a request `values` that
+    /// it depends on: `reference_position`, `t`, `displacement`.
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, Vec<String>>"))]
     pub asked: Vec<(&'static str, Vec<&'static str>)>,
 }
 
-/// Serializes pairs of key and value as an object.
 pub(super) fn as_map<V: Serialize, S: Serializer>(
     all: &[(&'static str, V)],
     to: S,
@@ -47,7 +46,7 @@ pub(super) fn as_map<V: Serialize, S: Serializer>(
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FieldName {
-    /// Body force (m/s2), stated and manufactured.
+    /// Sum of stated and manufactured body forces (m/s2).
     BodyForce,
     /// Displacement at t = 0 (m).
     Displacement,
@@ -65,7 +64,7 @@ pub enum FieldName {
     Face(usize),
 }
 
-/// Names of body fields in requests.
+/// Names of the body fields in requests.
 #[cfg(feature = "external-programs")]
 pub(crate) const BODY_FIELDS: [(&str, FieldName); 6] = [
     ("body_force", FieldName::BodyForce),
@@ -114,15 +113,11 @@ pub enum FieldError {
     Undefined(String),
 }
 
-/// Evaluates the fields of a scene.
 pub(crate) trait FieldSource: Send + Sync {
-    /// Implements [`ProblemFields::bodies`].
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
 
-    /// Implements [`ProblemFields::nearest_body`].
     fn nearest_body(&self, label: &[f64]) -> usize;
 
-    /// Implements [`ProblemFields::check_places`].
     fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
     /// Implements [`ProblemFields::values`] for all fields except the body force.
@@ -159,8 +154,8 @@ impl ProblemFields {
         self.0.check_places(places)
     }
 
-    /// Returns values at points of a body, point by point. Vectors have D numbers, tensors D^2, row
-    /// by row. The body force is available from
+    /// Returns the values of a field at points, point by point. Vectors have D numbers, tensors
+    /// D^2, row by row. The body force is available only from
     /// [`LevelProblem::body_force`](super::LevelProblem::body_force).
     ///
     /// # Errors
@@ -182,9 +177,7 @@ impl fmt::Debug for ProblemFields {
     }
 }
 
-/// Evaluates the body force of a scene.
 pub(crate) trait ForceSource: Send + Sync {
-    /// Implements [`BodyForceField::at`].
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
     /// Whether the force depends on the displacement.
@@ -192,7 +185,6 @@ pub(crate) trait ForceSource: Send + Sync {
         false
     }
 
-    /// Implements [`BodyForceField::at_displaced`].
     fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
         self.at(body, label, t)
     }
@@ -204,7 +196,7 @@ pub(crate) trait ForceSource: Send + Sync {
     }
 }
 
-/// A body force at fixed points: writes the components (m/s2) at each point for a time (s).
+/// Function that writes the body force (m/s2) at fixed points for a given time (s).
 pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 
 /// A body force per unit of mass, as a function of the reference position and time.
@@ -228,8 +220,8 @@ impl BodyForceField {
         self.0.at_displaced(body, label, t, u)
     }
 
-    /// Returns the force at fixed points of the given bodies. This is much cheaper than
-    /// `at` for many times.
+    /// Returns the force at fixed points as a function of time. For many times, this is much
+    /// cheaper than [`at`](Self::at).
     pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
         self.0.at_places(bodies, labels).unwrap_or_else(|| {
             let (force, places) = (self.clone(), owned(bodies, labels));
@@ -242,7 +234,6 @@ impl BodyForceField {
     }
 }
 
-/// Copies points together with their bodies.
 pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>)> {
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }

@@ -35,7 +35,7 @@ impl LevelProblem {
     /// Converts the problem to the bytes of a file.
     ///
     /// # Errors
-    /// An error of the zip library.
+    /// If the zip library fails.
     pub fn written(&self, format: ProblemFormat) -> io::Result<Vec<u8>> {
         match format {
             ProblemFormat::Csv => Ok(csv_table(self).into_bytes()),
@@ -45,7 +45,7 @@ impl LevelProblem {
         }
     }
 
-    /// Formats the protocol message in several lines.
+    /// Returns the `problem` message of the protocol as indented JSON.
     fn document(&self) -> String {
         let mut document = json!(self);
         let columns = self.particles.columns();
@@ -62,12 +62,10 @@ impl LevelProblem {
     }
 }
 
-/// Whether a column has one number for each particle.
 fn is_scalar(column: &str) -> bool {
     ["mass", "reference_volume", "volume", "body", "hoop_stress"].contains(&column)
 }
 
-/// Whether a column has a tensor for each particle.
 fn is_tensor(column: &str) -> bool {
     ["deformation_gradient", "stress", "initial_stress"].contains(&column)
 }
@@ -132,7 +130,6 @@ fn npz_file(problem: &LevelProblem) -> ZipResult<Vec<u8>> {
     Ok(file.finish()?.into_inner())
 }
 
-/// Creates an array of doubles in the `npy` format.
 fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     let mut head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}");
     let magic = b"\x93NUMPY\x01\x00";

@@ -64,8 +64,8 @@ impl LevelProblem {
         }
     }
 
-    /// Changes a parameter of the problem. Initial velocities, steps, loads and the other
-    /// parameters do not change. A changed density changes all masses.
+    /// Changes one parameter of the problem. A changed density changes all masses; nothing else
+    /// changes.
     #[must_use]
     pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
         match parameter {
@@ -102,9 +102,9 @@ impl LevelProblem {
 }
 
 impl Functional {
-    /// Computes the value for `samples` of particles with the masses `mass` (kg), and the size of
-    /// its rounding error. This size depends on the positions, because displacements are their
-    /// differences. NaN if the particle or axis does not exist.
+    /// Computes the functional for `samples` of particles with the masses `mass` (kg), and its
+    /// rounding error. The rounding error depends on the positions, because displacements are their
+    /// differences. The value is NaN if the particle or axis does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();

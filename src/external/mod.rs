@@ -45,7 +45,7 @@ pub trait SolverFactory: Sync {
         2.0
     }
 
-    /// Precision of its numbers.
+    /// Returns the precision of the solver's numbers.
     fn precision(&self) -> Precision {
         Precision::Double
     }
@@ -68,17 +68,17 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// Creates the solver in the initial state of `problem`. The labels of the solver are the
-    /// reference positions of the particles, or its own sample points.
+    /// Creates a subject in the initial state of `problem`. Its labels are the reference positions
+    /// of the particles, or of the solver's own sample points.
     ///
     /// # Errors
     /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
-    /// applicable. If the solver fails, it returns a subject whose first step fails; the case then
+    /// applicable. A solver that fails returns a subject whose first step fails; the case then
     /// fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
-    /// Computes a functional after all steps of `problem`, and its gradient. The default is for
-    /// solvers that are not differentiable.
+    /// Computes a functional after all steps of `problem`, and its gradient. By default, a solver
+    /// is not differentiable.
     ///
     /// # Errors
     /// [`GradientError::Cannot`] if the solver does not support this gradient,

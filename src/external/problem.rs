@@ -6,7 +6,7 @@ use serde::Serialize;
 #[cfg(feature = "schemas")]
 use std::collections::BTreeMap;
 
-/// Initial state of one level of a study, with all that its motion depends on.
+/// Initial state of one level of a study, and all other inputs of its run.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -17,16 +17,16 @@ pub struct LevelProblem {
     pub dimension: usize,
     /// The background grid.
     pub grid: ProblemGrid,
-    /// Faces of the box of the body; a body of another shape has none.
+    /// Faces of a box-shaped body; empty for other shapes.
     pub faces: Vec<ProblemFace>,
     /// One material for each body.
     pub materials: Vec<ProblemMaterial>,
     /// Shapes of the bodies in the reference configuration, in the order of `materials`.
     pub bodies: Vec<ProblemBody>,
-    /// State of two-dimensional bodies across their plane; plane strain in one and three
+    /// State of two-dimensional bodies normal to their plane; plane strain in one and three
     /// dimensions.
     pub plane: PlaneState,
-    /// Contact between the bodies; without it, bodies that touch move together.
+    /// Contact between the bodies; `None` if bodies that touch move together.
     pub contact: Option<ProblemContact>,
     /// Loads and effects, in the order in which they are applied.
     pub loads: Vec<ProblemLoad>,
@@ -42,12 +42,12 @@ pub struct LevelProblem {
     pub dt: f64,
     /// End of the run (s).
     pub until: f64,
-    /// Numbers of the steps after which the state is compared with the exact solution.
+    /// Steps after which the state is compared with the exact solution, counted from 1.
     pub instants: Vec<u64>,
     /// The particles.
     #[serde(skip)]
     pub particles: ProblemParticles,
-    /// Body force, stated and manufactured; `None` without a body force.
+    /// Sum of stated and manufactured body forces; `None` without body force.
     #[serde(skip)]
     pub body_force: Option<BodyForceField>,
     /// Initial state, loads and conditions on faces at any point of the bodies.
@@ -87,7 +87,6 @@ pub struct ProblemParticles {
 }
 
 impl ProblemParticles {
-    /// Names of the optional columns.
     pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
 
     /// Returns the number of particles.
@@ -135,24 +134,24 @@ pub struct ProblemGrid {
     pub h: f64,
     /// Cells along each axis.
     pub cells: Vec<u64>,
-    /// Axes without an end.
+    /// Whether each axis is periodic.
     pub periodic: Vec<bool>,
 }
 
-/// One face of the body's box.
+/// One face of a box-shaped body.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemFace {
     /// Name in suites.
     pub name: &'static str,
-    /// Axis of its normal.
+    /// Axis of the face normal.
     pub axis: usize,
-    /// Whether it is the face with the larger coordinate.
+    /// Whether this is the face with the larger coordinate.
     pub high: bool,
-    /// Its reference coordinate (m).
+    /// Reference coordinate along the axis (m).
     pub at: f64,
-    /// Condition on the motion there, by its name in suites.
+    /// Condition on the motion, by its name in suites.
     pub condition: &'static str,
     /// Numbers of the condition: `coefficient` (friction) or `velocity` (m/s).
     #[serde(flatten)]
@@ -186,7 +185,7 @@ pub struct ProblemBody {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemContact {
-    /// The law of contact: `coulomb`, no penetration, no tension, and Coulomb friction.
+    /// Contact law: `coulomb`, which excludes penetration and tension and adds Coulomb friction.
     pub law: &'static str,
     /// Coefficient of friction.
     pub coefficient: f64,
@@ -203,10 +202,10 @@ pub struct ProblemMaterial {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, f64>"))]
     pub parameters: Vec<(&'static str, f64)>,
-    /// Reference density (kg/m3), the largest if it varies over the body.
+    /// Reference density (kg/m3), or its largest value if it varies over the body.
     pub density: f64,
-    /// Formula of the coordinates X, Y, Z for a reference density (kg/m3) that varies over the
-    /// body. The masses of `particles` are its integrals over their parts of the body.
+    /// Reference density (kg/m3) that varies over the body, as a formula of X, Y, Z. Particle
+    /// masses are its integrals over the particles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub varying_density: Option<String>,
 }
@@ -227,15 +226,15 @@ impl ProblemMaterial {
 pub struct ProblemLoad {
     /// Name in suites.
     pub load: &'static str,
-    /// Its values in the suite, as rows of name and text for reports.
+    /// Values in the suite, as rows of name and text for reports.
     pub rows: Vec<(String, String)>,
-    /// Name of the face that it acts on.
+    /// Face on which the load acts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face: Option<&'static str>,
-    /// Rim of the round body that it acts on, `inner` or `outer`.
+    /// Rim (`inner` or `outer`) of a round body on which the load acts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rim: Option<&'static str>,
-    /// Part of the bodies that it acts on.
+    /// Part of the bodies on which the load acts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<ProblemRegion>,
     /// Numbers of the load.
@@ -243,8 +242,7 @@ pub struct ProblemLoad {
     pub numbers: HandedValues,
 }
 
-/// A box; the material points with a reference position inside, or on its faces, belong to the
-/// region.
+/// Box that contains the material points whose reference position is inside or on its faces.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]

@@ -3,8 +3,8 @@
 use super::yaml::{Diagnostic, Source};
 use std::path::Path;
 
-/// Name, path and text of every suite under `verification/`, sorted by name. Paths start at the
-/// root of the repository.
+/// Name, path (from the repository root) and text of every suite under `verification/`, sorted by
+/// name.
 const FILES: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
 
 /// Returns the names of the embedded suites, sorted.

@@ -20,7 +20,7 @@ pub(super) struct NewArgs {
     /// Name of the suite: lower-case letters, digits and hyphens
     #[arg(value_name = "NAME")]
     name: String,
-    /// Dimension of space [default: 1]
+    /// Number of space dimensions [default: 1]
     #[arg(long, value_name = "D", value_parser = ["1", "2", "3"])]
     dimension: Option<String>,
     /// Material of the body [default: neo_hookean, or the one for the exact solution]
@@ -45,7 +45,6 @@ pub(super) struct NewArgs {
     format: FormatArgs,
 }
 
-/// Writes a suite, and prints its path and the next steps.
 pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
     let path = written(args)?.display().to_string();
     output::print(&if args.format.is_json() {
@@ -69,7 +68,6 @@ fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     Ok(path)
 }
 
-/// Collects all choices from options, answers to questions, and defaults.
 fn choices(args: &NewArgs) -> Result<Choices, CommandError> {
     let law = law(args)?;
     let dimension = setting("dimension", args.dimension.as_ref(), vec!["1", "2", "3"], "1");
@@ -97,7 +95,7 @@ fn setting(
     NamedChoice { value, known }
 }
 
-/// Chooses the material. It determines the exact solution.
+/// Chooses the material, which determines the exact solution.
 fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     if let (Some(law), Some(truth)) = (args.material, args.truth)
         && law.truth() != truth
@@ -168,7 +166,6 @@ fn in_the_way(path: &Path) -> CommandError {
     ))
 }
 
-/// A choice that no option determines.
 struct Question<'a> {
     /// Name of the choice in the question.
     what: &'a str,

@@ -11,7 +11,7 @@ const METHOD: &str = include_str!("method.yaml");
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 pub(in crate::cli) enum LawChoice {
-    /// Small strain, in MPM integrated in rate form
+    /// Small strain, integrated in rate form
     LinearElastic,
     /// Finite strain
     NeoHookean,
@@ -22,14 +22,13 @@ pub(in crate::cli) enum LawChoice {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 pub(in crate::cli) enum TruthChoice {
-    /// A stated motion along the axes, with its manufactured body force
+    /// Prescribed motion along the axes, with a manufactured body force
     Manufactured,
-    /// A standing wave of small strain
+    /// Standing wave of small strain
     StandingWave,
 }
 
 impl LawChoice {
-    /// Returns the name of the material in suites.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::LinearElastic => "linear_elastic",
@@ -38,7 +37,6 @@ impl LawChoice {
         }
     }
 
-    /// Returns the kind of exact solution that is known for the material.
     pub(super) fn truth(self) -> TruthChoice {
         match self {
             Self::LinearElastic => TruthChoice::StandingWave,
@@ -48,7 +46,6 @@ impl LawChoice {
 }
 
 impl TruthChoice {
-    /// Returns the name of the solution on the command line.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Manufactured => "manufactured",
@@ -65,7 +62,6 @@ impl TruthChoice {
     }
 }
 
-/// Choices for a new suite. Their names are those in suites.
 pub(super) struct Choices {
     pub(super) name: String,
     pub(super) dimension: String,
@@ -75,15 +71,13 @@ pub(super) struct Choices {
     pub(super) scheme: NamedChoice,
 }
 
-/// Chosen value of a method setting.
 pub(super) struct NamedChoice {
     pub(super) value: String,
-    /// Allowed values of the setting.
     pub(super) known: Vec<&'static str>,
 }
 
-/// Template variables that depend on the dimension. Levels run within seconds; in 3-D they are
-/// therefore coarse. Steps divide the time between instants. The motion has a different phase along
+/// Template variables for each dimension. Levels run within seconds, so they are coarse in 3-D. The
+/// interval between instants is a multiple of the time step. The motion has a different phase along
 /// each axis, so some parts are stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [

@@ -10,32 +10,31 @@ use std::str::FromStr;
 pub(in crate::cli) struct RunArgs {
     #[command(flatten)]
     pub(super) report: ReportArgs,
-    /// Cases whose name contains this
+    /// Run only cases whose name contains this text
     #[arg(long, value_name = "TEXT")]
     pub(super) case: Option<String>,
-    /// Run one of N parts of the cases, of about equal predicted cost; `merge` reports the results
-    /// that the parts store with `--resume`
+    /// Run part K of N parts with about equal predicted costs; `merge` reports the results that the
+    /// parts store with `--resume`
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     pub(super) shard: Option<Shard>,
     /// Store finished levels in this folder, and reuse stored levels: an interrupted run continues
     /// with the remaining levels
     #[arg(long, value_name = "DIR")]
     pub(super) resume: Option<PathBuf>,
-    /// Run each level N times (2 or more), in a new process if a solver of `--solver` runs it, and
-    /// report the spread between the runs: a level whose spread exceeds a tenth of its error does
-    /// not count for the order
+    /// Run each level N times (2 or more), external solvers in a new process each time, and report
+    /// the spread between the runs; a level whose spread exceeds a tenth of its error does not
+    /// count for the order
     #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
     /// Write particles and grid over time into this folder, as files for ParaView: for cases with
-    /// unexpected results, or for those that `--case` selects, on the first level that failed, or
-    /// on the finest
+    /// unexpected results or those that `--case` selects, on the first level that failed or else
+    /// the finest
     #[arg(long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     #[command(flatten)]
     pub(super) judged: JudgedSolverArgs,
 }
 
-/// Arguments that determine what a run reports.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
@@ -61,19 +60,18 @@ pub(in crate::cli) struct ReportArgs {
     /// Write the results as JUnit XML into this file, one test for each case
     #[arg(long, value_name = "FILE")]
     pub(super) junit: Option<PathBuf>,
-    /// Write one HTML page with verdicts, figures, reports and suites into this file; it needs no
-    /// network
+    /// Write one HTML page with verdicts, figures, reports and suites into this file; the page
+    /// needs no network
     #[arg(long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
-    /// Threads to use; results do not depend on it [default: all cores]
+    /// Number of threads, which does not affect results [default: all cores]
     #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub(super) jobs: Option<usize>,
 }
 
-/// Output of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum RunFormat {
-    /// Text for a reader
+    /// Plain text
     Text,
     /// One JSON document
     Json,
@@ -83,14 +81,13 @@ pub(super) enum RunFormat {
     Latex,
 }
 
-/// Arguments that determine how much text is printed.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PrintArgs {
     /// Print every report [default: the reports of up to five named suites; otherwise an overview
     /// and the cases with unexpected results]
     #[arg(long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
-    /// Print one line for each case only, not the reports
+    /// Print only one line for each case
     #[arg(long, conflicts_with = "quiet")]
     pub(super) brief: bool,
     /// Print only the cases with unexpected results, and no progress
@@ -100,7 +97,7 @@ pub(in crate::cli) struct PrintArgs {
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct MergeArgs {
-    /// A folder of one part of the run, from `--resume`; repeatable
+    /// Folder in which one part of the run stored its results with `--resume`; repeatable
     #[arg(long, value_name = "DIR", required = true)]
     pub(super) from: Vec<PathBuf>,
     #[command(flatten)]
@@ -111,23 +108,22 @@ pub(in crate::cli) struct MergeArgs {
 pub(in crate::cli) struct JudgedSolverArgs {
     #[command(flatten)]
     pub(super) programs: SolversArgs,
-    /// Require the theoretical order, or errors within the bounds of the suite, of each case of the
-    /// solver of `--solver`; exit status 1 unless every case passes or is excepted
+    /// Require that each case of the `--solver` program reaches the theoretical order or the error
+    /// bounds of the suite; exit status 1 unless every case passes or is excepted
     #[arg(long, requires = "solver")]
     pub(super) gate: bool,
-    /// Formal order of the solver, and orders, bounds and exceptions for single suites (YAML)
+    /// YAML file with the formal order of the solver, and with orders, bounds and exceptions for
+    /// single suites
     #[arg(long, value_name = "FILE", requires = "gate")]
     pub(super) solver_config: Option<PathBuf>,
-    /// Let `--gate` pass although suites named one by one are not applicable to the solver, or are
-    /// not gated
+    /// Let `--gate` pass even if suites that are named one by one are not applicable to the solver
+    /// or not gated
     #[arg(long, requires = "gate")]
     pub(super) allow_not_applicable: bool,
 }
 
-/// A value of `--label`.
 #[derive(Debug, Clone)]
 pub(super) struct CaseLabel {
-    /// Name of the case.
     pub(super) case: String,
     /// Text that replaces the name in drawings and tables.
     pub(super) text: String,

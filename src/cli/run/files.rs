@@ -16,7 +16,7 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-/// Creates the folder of `--out` before the run. An invalid path therefore fails early.
+/// Creates the folder of `--out` before the run, so an invalid path fails early.
 pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
@@ -48,8 +48,7 @@ pub(super) fn write_out(
     every_file().map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Creates the folder for the file of `option` before the run. An invalid path therefore fails
-/// early.
+/// Creates the folder for the file of `option` before the run, so an invalid path fails early.
 pub(super) fn prepare_file(option: &str, file: &Path) -> Result<(), CommandError> {
     if file.is_dir() {
         return Err(unwritable(option, file, &"this is a folder"));
@@ -96,23 +95,21 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Writes cases as time series into a folder.
+/// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether the series of all cases in the run are written, instead of those with unexpected
-    /// results.
+    /// Whether all cases are written, not only those with unexpected results.
     all: bool,
 }
 
 impl Series {
-    /// Creates the folder before the run. An invalid path therefore fails early.
+    /// Creates the folder before the run, so an invalid path fails early.
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
         Ok(Self { folder, all })
     }
 
-    /// Writes the time series of the selected cases of a suite, and prints the paths of the files.
     pub(super) fn write(
         &self,
         runner: &Runner<'_>,
@@ -145,7 +142,6 @@ fn save(path: &Path, file: &SeriesFile) -> io::Result<()> {
     fs::write(path, &file.bytes)
 }
 
-/// Creates the error for an `option` whose file or folder cannot be written.
 fn unwritable(option: &str, path: &Path, error: &impl Display) -> CommandError {
     CommandError::option(option, path.display(), error)
 }

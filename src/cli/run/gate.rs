@@ -18,7 +18,6 @@ pub(super) struct JudgedSolver {
     pub(super) gate: Option<SolverGate>,
 }
 
-/// The gate of a run.
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.
     named: BTreeSet<String>,
@@ -30,9 +29,6 @@ pub(super) struct SolverGate {
 }
 
 /// Replaces the methods of the suites by the solver. Also returns the gate, if requested.
-///
-/// # Errors
-/// The first error in the configuration file.
 pub(super) fn prepare(
     suites: Vec<Suite>,
     program: &SolverProgram,
@@ -55,8 +51,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and all reasons except failed cases why the solver does not pass.
-    /// Returns whether there are no such reasons.
+    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
+    /// Returns true if there are no such reasons.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -94,13 +90,12 @@ fn cases(outcomes: &[SuiteOutcome]) -> impl Iterator<Item = (&str, &CaseOutcome)
 /// Maximum order that the configuration may state.
 const HIGHEST_ORDER: f64 = 20.0;
 
-/// Content of the configuration file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ConfigSpec {
     /// Formal order of the solver in h.
     formal_order: Option<f64>,
-    /// Terms for suites. The keys are names, groups or patterns of suites.
+    /// Requirements by suite name, group or pattern.
     #[serde(default)]
     suites: Ordered<TermsSpec>,
 }
@@ -108,7 +103,6 @@ struct ConfigSpec {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
-    /// Order that the solver must reach.
     order: Option<f64>,
     /// Bound on errors that are accepted without an order.
     error_below: Option<f64>,
@@ -122,15 +116,12 @@ struct TermsSpec {
 #[derive(Debug, Default)]
 struct SolverConfig {
     formal_order: Option<f64>,
-    /// Terms for suites, with the name, group or pattern that they apply to.
+    /// Requirements, with the suite name, group or pattern that they apply to.
     suites: Vec<(String, GateTerms)>,
 }
 
 impl SolverConfig {
     /// Reads the file and checks it for a run of `suites`.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;
@@ -148,7 +139,7 @@ impl SolverConfig {
         Ok(Self { formal_order: spec.formal_order, suites: checked })
     }
 
-    /// Returns the terms for a suite, from the first entry that matches its name or group.
+    /// Returns the requirements of the first entry that matches the name or group of a suite.
     fn terms(&self, suite: &Suite) -> GateTerms {
         let in_group = format!("{}/{}", suite.group, suite.name);
         let names = [&suite.name, &suite.group, &in_group];
@@ -225,7 +216,6 @@ fn check_order(source: &Source, path: &[Step], order: f64) -> Result<(), Diagnos
     Err(diagnostic.with_label(&format!("expected a number above 0 and up to {HIGHEST_ORDER}")))
 }
 
-/// Returns the names of all suites and groups that an entry may refer to.
 fn known_names(suites: &[Suite]) -> Vec<String> {
     let mut known = select::suite_names();
     for suite in suites {

@@ -22,13 +22,11 @@ use progress::RunProgress;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Runs suites and judges them.
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     report(&args.report, |suites| chosen(args, suites))
 }
 
-/// Merges the results of a sharded run and reports them like a single run.
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
@@ -36,7 +34,6 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts))))
 }
 
-/// Chooses the suites, the cache and the solvers of a run from its arguments.
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
     let repeat = repetitions(args)?;
     let kept = args.resume.as_deref().map(open).transpose()?;
@@ -78,8 +75,8 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
-/// Runs suites one after the other, each in parallel. Reports of finished suites are printed even
-/// if a later file is invalid.
+/// Runs suites one after the other, with the cases of a suite in parallel. Reports of finished
+/// suites are printed even if a later file is invalid.
 fn report(
     args: &ReportArgs,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
@@ -117,7 +114,7 @@ fn report(
         bar.note_at_interrupt(note.clone());
     }
     let mut shown = Ok(());
-    // Outcomes of the suites, separately for each solver. Gates are checked on them.
+    // Outcomes of the suites for each solver, which its gate checks.
     let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
     let mut outcomes: Vec<SuiteOutcome> = Vec::new();
     for suite in &runs {
@@ -206,11 +203,9 @@ fn extent(args: &ReportArgs) -> Extent {
     if args.full { Extent::Full } else { Extent::Usual }
 }
 
-/// Settings of a run, including its cache and solvers.
 struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
-    /// Number of runs of each level.
     repeat: usize,
     /// Writes cases as files for ParaView, if requested.
     series: Option<Series>,
@@ -274,13 +269,12 @@ fn one(
     outcome
 }
 
-/// Opens the folder of `--resume`.
 fn open(folder: &Path) -> Result<ResultCache, CommandError> {
     ResultCache::open(folder)
         .map_err(|error| CommandError::option("--resume", folder.display(), error))
 }
 
-/// Returns the first name that two of the suites have.
+/// Returns a name that two suites share, if any.
 fn twice(suites: &[Suite]) -> Option<&str> {
     let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
     names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)

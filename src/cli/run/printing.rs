@@ -13,14 +13,10 @@ use std::path::Path;
 /// Maximum number of individually named suites for which full reports are printed.
 const FEW: usize = 5;
 
-/// Format and amount of the printed text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Printing {
-    /// One JSON document.
     Json,
-    /// One table of comma-separated values.
     Csv,
-    /// LaTeX tables.
     Latex,
     /// All reports, followed by one line for each case.
     Reports,
@@ -28,12 +24,10 @@ pub(super) enum Printing {
     Verdicts,
     /// The overview, and the cases with unexpected results.
     Overview,
-    /// The cases with unexpected results.
     Unexpected,
 }
 
 impl Printing {
-    /// Determines what is printed from the options and the number of suites.
     pub(super) fn of(args: &ReportArgs, suites: usize) -> Self {
         let few_are_named = !args.targets.targets.is_empty() && suites <= FEW;
         match args.format {
@@ -54,7 +48,6 @@ impl Printing {
         }
     }
 
-    /// Prints the text at the end of the run.
     pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
@@ -83,7 +76,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// States in one line where the reports are.
+/// Returns one line with the location of the reports.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());

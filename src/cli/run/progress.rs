@@ -15,7 +15,6 @@ const INTERRUPTED: i32 = 130;
 /// Fraction of the predicted time that must have passed before the remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
-/// Progress over the suites of a run.
 pub(super) struct RunProgress {
     bar: ProgressBar,
     state: Mutex<ProgressState>,
@@ -23,9 +22,9 @@ pub(super) struct RunProgress {
 
 struct ProgressState {
     suite: String,
-    /// Predicted time (s) of each remaining unit of the current suite, in decreasing order.
+    /// Predicted times (s) of the remaining levels of the current suite, in decreasing order.
     units: Vec<f64>,
-    /// Predicted time (s) of the finished units, and of all units.
+    /// Predicted time (s) of the finished levels.
     done: f64,
     all: f64,
     start: Instant,
@@ -51,7 +50,6 @@ impl RunProgress {
         Self { bar, state: Mutex::new(state) }
     }
 
-    /// Starts the levels of `suite`.
     pub(super) fn start(&self, suite: &Suite, extent: Extent) {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
@@ -63,7 +61,6 @@ impl RunProgress {
         self.bar.set_message(state.message());
     }
 
-    /// Counts a finished level.
     pub(super) fn inc(&self) {
         let mut state = self.state();
         state.done += state.units.pop().unwrap_or_default();
@@ -76,7 +73,6 @@ impl RunProgress {
         self.bar.suspend(print);
     }
 
-    /// Removes the bar.
     pub(super) fn clear(&self) {
         self.bar.finish_and_clear();
     }
@@ -139,7 +135,6 @@ fn note_of(words: &[String], kept: bool) -> String {
     }
 }
 
-/// Quotes an argument for a shell, if necessary.
 fn quoted(word: &str) -> Cow<'_, str> {
     shlex::try_quote(word).unwrap_or(word.into())
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// An answer of a solver.
+/// A message of a solver: an answer, or a request for values.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub(super) enum Answer {
@@ -43,13 +43,15 @@ pub(super) enum Answer {
     BodyForce {
         /// Time (s).
         t: f64,
-        /// Reference positions (m), D numbers each; the particles or points, if there are none.
+        /// Reference positions (m), D numbers each; by default those of the particles or sample
+        /// points.
         #[serde(default)]
         reference_position: Option<ColumnText>,
-        /// Displacements (m) there, D numbers each, for a force that depends on them.
+        /// Displacements (m) at these positions, D numbers each, if the values depend on
+        /// displacements.
         #[serde(default)]
         displacement: Option<ColumnText>,
-        /// Index of the body that all places belong to.
+        /// Index of the body that contains all positions.
         #[serde(default)]
         body: Option<usize>,
     },
@@ -61,13 +63,15 @@ pub(super) enum Answer {
         /// Time (s); fields of the initial state need none.
         #[serde(default)]
         t: Option<f64>,
-        /// Reference positions (m), D numbers each; the particles or points, if there are none.
+        /// Reference positions (m), D numbers each; by default those of the particles or sample
+        /// points.
         #[serde(default)]
         reference_position: Option<ColumnText>,
-        /// Displacements (m) there, D numbers each, for a force that depends on them.
+        /// Displacements (m) at these positions, D numbers each, if the values depend on
+        /// displacements.
         #[serde(default)]
         displacement: Option<ColumnText>,
-        /// Index of the body that all places belong to.
+        /// Index of the body that contains all positions.
         #[serde(default)]
         body: Option<usize>,
     },
@@ -78,14 +82,14 @@ pub(super) enum Answer {
 pub(super) struct Points {
     /// Reference positions (m), D numbers each.
     pub(super) reference_position: ColumnText,
-    /// Reference volume (m^D) that each stands for.
+    /// Reference volume (m^D) of each point.
     pub(super) weight: ColumnText,
 }
 
 /// A state after a step.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub(super) struct State {
-    /// Columns by their names: `displacement` (m), `velocity` (m/s), and what `capabilities` names.
+    /// Columns by name: `displacement` (m), `velocity` (m/s), and the columns in `capabilities`.
     pub(super) columns: BTreeMap<String, ColumnText>,
     /// Number of cell changes of particles so far.
     #[serde(default)]
@@ -98,11 +102,9 @@ pub(super) struct State {
     pub(super) min_j: Option<f64>,
 }
 
-/// A request of the solver for values of a field.
 pub(super) struct ValueRequest {
     /// Name of the requested field; absent in a `body_force` request.
     pub(super) of: Option<String>,
-    /// Time (s).
     pub(super) t: Option<f64>,
     pub(super) reference_position: Option<ColumnText>,
     pub(super) displacement: Option<ColumnText>,
@@ -114,15 +116,15 @@ pub(super) struct ValueRequest {
 pub(super) struct Hello {
     /// Version of the protocol.
     pub(super) protocol: u64,
-    /// Name: letters, digits, `-`, `_` and `.`, no more than 64.
+    /// Name: at most 64 letters, digits, `-`, `_` and `.`.
     pub(super) name: String,
     /// Version of the solver.
     #[serde(default)]
     pub(super) version: String,
-    /// Order in h of its displacements on a smooth solution.
+    /// Order in h of the displacement error for a smooth solution.
     #[serde(default = "two")]
     pub(super) formal_order: f64,
-    /// Precision of its numbers.
+    /// Precision of the solver's numbers.
     #[serde(default)]
     #[schemars(schema_with = "precisions")]
     pub(super) precision: Precision,
@@ -209,7 +211,6 @@ impl ColumnText {
 }
 
 impl Answer {
-    /// Parses the answer in a frame.
     pub(super) fn read(frame: &MessageFrame) -> Result<Self, ProgramError> {
         serde_json::from_slice(&frame.line).map_err(|error| {
             let text = String::from_utf8_lossy(&frame.line);
@@ -228,7 +229,6 @@ impl Answer {
         })
     }
 
-    /// Returns the columns of the answer, with their names.
     pub(super) fn columns(self) -> Vec<(String, ColumnText)> {
         match self {
             Self::Ready { points: Some(points) } => vec![
@@ -263,7 +263,6 @@ impl Answer {
         }
     }
 
-    /// Returns the type of the answer, as in the protocol.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Hello(_) => "hello",
@@ -278,7 +277,7 @@ impl Answer {
     }
 }
 
-/// Returns the beginning of an untrusted text, sanitised.
+/// Returns the beginning of an untrusted text, safe to print.
 fn excerpt(text: &str) -> String {
     let start = printable(&text.chars().take(60).collect::<String>());
     if text.chars().nth(60).is_some() { format!("{start}...") } else { start }

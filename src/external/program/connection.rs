@@ -24,8 +24,7 @@ const LAST_BYTES: usize = 2000;
 /// Maximum number of lines of standard error in an error message.
 const LAST_LINES: usize = 3;
 
-/// Maximum time for a process to exit without being killed. The response timeout also applies if it
-/// is shorter.
+/// Maximum time for a process to exit by itself, unless the response timeout is shorter.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Polling interval for a process that does not respond.
@@ -34,7 +33,7 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// Limits on each process of a solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProgramLimits {
-    /// Maximum time without an answer.
+    /// Response timeout.
     pub silence: Duration,
     /// Maximum address space (bytes), on Unix; `None` for the limit of the operating system.
     pub memory: Option<u64>,
@@ -58,10 +57,6 @@ pub(super) struct Connection {
 }
 
 impl Connection {
-    /// Starts `command` as a process.
-    ///
-    /// # Errors
-    /// If the program does not start.
     pub(super) fn start(command: &[String], limits: ProgramLimits) -> Result<Self, ProgramError> {
         let mut process = limited(command, limits.memory)?;
         process.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -151,7 +146,6 @@ impl Connection {
         }
     }
 
-    /// Returns the failure of a process that sends no more answers.
     fn ended(&mut self) -> ProgramError {
         match self.status() {
             Some(status) => ProgramError::Ended(shown(status)),
@@ -164,7 +158,7 @@ impl Connection {
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
-        // In a Python traceback, these lines are the position, the source line and the error.
+        // The last lines of a Python traceback are the position, the source line and the error.
         let says = |line: &&str| line.contains(char::is_alphanumeric);
         let mut last: Vec<String> = text
             .lines()
@@ -182,12 +176,10 @@ impl Connection {
         }
     }
 
-    /// Returns the exit status of the process, if it ends soon.
     fn status(&mut self) -> Option<ExitStatus> {
         patiently(GRACE.min(self.silence), || self.child.try_wait().ok().flatten())
     }
 
-    /// Sends `bye` and waits for the process to exit.
     pub(super) fn end(mut self) {
         self.send(Outgoing::new("bye", serde_json::Value::Null, false));
         self.requests = None;

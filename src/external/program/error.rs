@@ -33,7 +33,7 @@ pub enum ProgramError {
     /// No answer arrived in time.
     #[error("did not answer within {0} s")]
     Silent(f64),
-    /// The process ended without an answer; with its status and output.
+    /// The process ended without an answer, with this exit status.
     #[error("ended without an answer ({0})")]
     Ended(String),
     /// The process closed its standard output but is still running.
@@ -45,7 +45,7 @@ pub enum ProgramError {
     /// The output ended within an answer or a block of bytes.
     #[error("ended in the middle of {0}")]
     Truncated(&'static str),
-    /// An answer is longer (bytes) than any valid answer to the problem.
+    /// An answer is longer than this number of bytes, the maximum for any valid answer.
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
     /// An answer contains a number that JSON does not support, such as NaN.

@@ -15,7 +15,6 @@ pub(super) struct MessageFrame {
     pub(super) bytes: Vec<u8>,
 }
 
-/// A message to be sent.
 pub(super) struct Outgoing {
     message: Map<String, Value>,
     bytes: Vec<u8>,
@@ -38,7 +37,6 @@ impl Outgoing {
         self.message.insert(key.to_owned(), value);
     }
 
-    /// Adds a column to the object under `key`.
     pub(super) fn column(&mut self, key: &str, name: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         let object = self.message.entry(key).or_insert_with(|| json!({}));
@@ -47,7 +45,6 @@ impl Outgoing {
         }
     }
 
-    /// Sets a key to a column of numbers.
     pub(super) fn set_numbers(&mut self, key: &str, numbers: &[f64]) {
         let column = self.numbers(numbers);
         self.set(key, column);
@@ -62,7 +59,6 @@ impl Outgoing {
         json!({"f64": [offset, numbers.len()]})
     }
 
-    /// Converts the message to bytes.
     pub(super) fn into_bytes(mut self) -> Vec<u8> {
         if !self.bytes.is_empty() {
             self.message.insert("bytes".to_owned(), json!(self.bytes.len()));
@@ -74,15 +70,14 @@ impl Outgoing {
     }
 }
 
-/// Announced size of the block of bytes after a message.
 #[derive(Deserialize)]
 struct Announced {
     #[serde(default)]
     bytes: usize,
 }
 
-/// Returns the number of bytes that follow a line. Zero if the line is not a message; the error is
-/// reported when the answer is parsed.
+/// Returns the announced number of bytes that follow a line; zero if the line is not a message,
+/// because the error is reported later by the parser.
 fn announced(line: &[u8]) -> usize {
     // A line without the key "bytes" need not be parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {

@@ -11,7 +11,6 @@ use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
 use crate::nearest::nearest;
 use serde_json::json;
 
-/// Answers requests for values of one problem.
 pub(super) struct Inquiry {
     dimension: usize,
     body_force: Option<BodyForceField>,
@@ -22,9 +21,8 @@ pub(super) struct Inquiry {
     /// default points of requests.
     labels: Vec<f64>,
     bodies: Vec<usize>,
-    /// Body force at `labels`. It is created by the first request for it.
+    /// Body force at `labels`, created by the first request for it.
     placed: Option<PlacedBodyForce>,
-    /// Version of the protocol that the solver uses.
     version: u64,
     binary: bool,
     /// Number of requests since the last call of `allow`.
@@ -74,9 +72,6 @@ impl Inquiry {
     }
 
     /// Answers a request that is followed by a block of `bytes`.
-    ///
-    /// # Errors
-    /// Reason why the request cannot be answered.
     pub(super) fn answer(
         &mut self,
         request: ValueRequest,
@@ -118,7 +113,6 @@ impl Inquiry {
         Ok(message)
     }
 
-    /// Determines the points of a request.
     fn places(
         &self,
         field: FieldName,
@@ -134,7 +128,7 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // If a quantity is equal at all points, a single value is returned.
+            // A load that is equal at all points is evaluated at a single default point.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }
@@ -159,7 +153,6 @@ impl Inquiry {
         Ok(RequestedPlaces { labels, bodies, displacement, are_own })
     }
 
-    /// Determines the default points of a request for `field`.
     fn default_places(&self, field: FieldName) -> Result<Vec<f64>, FieldError> {
         let (numbers, face) = match field {
             FieldName::Load(load) => {
@@ -189,7 +182,6 @@ impl Inquiry {
         Ok(place)
     }
 
-    /// Returns the index of the body at each point.
     fn bodies_of(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let places = labels.chunks_exact(self.dimension);
         match &self.fields {
@@ -199,7 +191,6 @@ impl Inquiry {
         }
     }
 
-    /// Returns the body forces (m/s2) at points.
     fn forces(&mut self, t: f64, places: &RequestedPlaces) -> Result<Vec<f64>, FieldError> {
         let d = self.dimension;
         let RequestedPlaces { labels, bodies, displacement, are_own } = places;
@@ -255,7 +246,6 @@ impl Inquiry {
     }
 }
 
-/// The points of a request, after parsing.
 struct RequestedPlaces {
     labels: Vec<f64>,
     bodies: Vec<usize>,
@@ -264,7 +254,6 @@ struct RequestedPlaces {
     are_own: bool,
 }
 
-/// Finds the field that a request names.
 fn field_named(
     name: &str,
     loads: &[ProblemLoad],

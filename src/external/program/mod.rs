@@ -30,8 +30,8 @@ use answer::Answer;
 use std::sync::atomic::AtomicUsize;
 
 #[doc(hidden)]
-/// Parses answers from `bytes` as from a process, with all their columns, until one violates the
-/// protocol. Returns the number of valid answers. Used by the fuzzer.
+/// Parses `bytes` like the output of a solver process, including all columns, until an answer
+/// violates the protocol. Returns the number of valid answers. Used by the fuzzer.
 pub fn read_answers(mut bytes: &[u8]) -> usize {
     let longest = AtomicUsize::new(bytes.len());
     let mut count = 0;

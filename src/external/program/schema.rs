@@ -29,7 +29,7 @@ pub fn protocol_schema() -> String {
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Adds the announcement of a block of bytes to the schema of a message.
+/// Adds the key that announces a block of bytes to the schema of a message.
 fn with_bytes(schema: Schema) -> Value {
     let mut schema = schema.to_value();
     if let Value::Object(message) = &mut schema {
@@ -42,7 +42,6 @@ fn with_bytes(schema: Schema) -> Value {
     schema
 }
 
-/// Creates the schema of the messages of the harness.
 fn request(definitions: &mut SchemaGenerator) -> Value {
     let column = definitions.subschema_for::<ColumnText>().to_value();
     let count = json!({"type": "integer", "minimum": 0});
@@ -82,7 +81,6 @@ fn request(definitions: &mut SchemaGenerator) -> Value {
     ]})
 }
 
-/// Creates the schema of a functional of the final state.
 fn functional() -> Value {
     let index = json!({"type": "integer", "minimum": 0});
     let of = |name: &str, keys: &[&str]| {
@@ -101,7 +99,6 @@ fn functional() -> Value {
     ]})
 }
 
-/// Creates the schema of a message with a type and required keys.
 fn message(kind: &str, keys: Value) -> Value {
     let mut properties = Map::from_iter([("type".to_owned(), json!({"const": kind}))]);
     if let Value::Object(keys) = keys {

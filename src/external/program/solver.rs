@@ -17,7 +17,6 @@ use serde_json::json;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Newest version of the protocol.
 pub(super) const PROTOCOL: u64 = 2;
 
 /// Versions of the protocol that a solver may use.
@@ -110,7 +109,6 @@ impl SolverProgram {
     }
 }
 
-/// A process that has accepted a problem.
 pub(super) struct Started {
     pub(super) connection: Connection,
     pub(super) inquiry: Inquiry,
@@ -193,7 +191,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // A capability that is missing for another reason too is reported only once.
+            // A capability that is also missing for another reason is reported only once.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated
@@ -224,7 +222,6 @@ impl SolverFactory for SolverProgram {
     }
 }
 
-/// Subject of a solver that failed before its first step.
 struct Broken(String);
 
 impl Subject for Broken {
@@ -305,7 +302,6 @@ fn checked(
     }
 }
 
-/// Lists the names of the parameters in a request.
 fn names(request: &GradientRequest) -> Vec<&'static str> {
     request.with_respect_to.iter().map(|one| one.name()).collect()
 }

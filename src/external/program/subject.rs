@@ -10,7 +10,7 @@ use crate::external::problem::LevelProblem;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use serde_json::json;
 
-/// Maximum number of requests for values for each step. The requests are counted between instants.
+/// Maximum number of requests for values per step, averaged over the steps between two instants.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
 /// Returns the maximum length (bytes) of an answer to `problem`. The limit allows all columns as
@@ -40,11 +40,10 @@ pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
     dt: f64,
-    /// Numbers of the steps after which the state is still to be requested.
+    /// Remaining steps after which the state is requested.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Number of steps that the caller has requested, and number of steps that the process was
-    /// asked to run.
+    /// Number of steps that the caller has requested, and number that the process has run.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
@@ -148,7 +147,6 @@ impl ProgramSubject {
         }
     }
 
-    /// Stores a state of the solver.
     fn look(&mut self, state: State, bytes: &[u8]) -> Result<(), ProgramError> {
         let (d, n) = (self.dimension, self.samples.len());
         let State { mut columns, crossings, left_domain, min_j } = state;

@@ -16,7 +16,7 @@ use crate::verify::StepKind;
 /// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
-/// A convergence study whose scene, exact solution, levels and cases are compiled.
+/// A convergence study after its scene, exact solution, levels and cases have been compiled.
 struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
@@ -27,11 +27,10 @@ struct Compiled<'a> {
     latest: f64,
 }
 
-/// A check that involves several keys of a convergence study.
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks that run before the expectations are compiled. They are independent: their order only
-/// determines which of several errors is reported.
+/// Checks before the expectations are compiled. Their order only determines which of several errors
+/// is reported.
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
@@ -44,7 +43,6 @@ const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
 ];
 
-/// Compiles the scene, exact solution, levels, cases and expectations of a convergence study.
 pub(crate) fn convergence_plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -103,7 +101,7 @@ pub(crate) fn convergence_plan(
     plan.cases = run::cases(evaluator, spec, &plan, &until)?;
     let compiled = Compiled { evaluator, spec, plan: &plan, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
-    // The exact value of the sum requires a solution that has been checked.
+    // The exact value of the sum needs the solution, which has been checked above.
     plan.sum = sums::judged(evaluator, spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
     if let Some(spec) = &spec.any_method {

@@ -1,4 +1,5 @@
-//! Expectations of cases (exactly one for each case, or none at all), and the key `any_method`.
+//! Compiles the expectations of cases, and the key `any_method`. A suite has one expectation for
+//! each case, or none at all.
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
@@ -15,7 +16,7 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
-/// Expectation of a case, and a second one for a full run if it differs.
+/// Expectation of a case, and its expectation for a full run if different.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
 /// Returns the expectations in the order of `cases`; all `None` if the suite states none.
@@ -44,7 +45,8 @@ pub(crate) fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// Returns the index of the only matching entry of `expect` for each case, if there are entries.
+/// Returns for each case the index of the only entry of `expect` that matches. All are `None` if
+/// there are no entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -85,7 +87,6 @@ pub(crate) fn assign(
     names.iter().map(owner).collect()
 }
 
-/// Returns the expectation for a full run, if an entry states a different one.
 fn in_full(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -154,7 +155,6 @@ fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict
     })
 }
 
-/// Compiles the limits of the expectation at `path`.
 fn limits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -261,13 +261,12 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points per axis, and of times, at which a motion is tested for being a translation.
+/// Number of points per axis and of times at which `is_translation` evaluates a motion.
 const PLACES: usize = 5;
 
-/// Displacement gradients up to this value count as rounding errors of a translation.
+/// Maximum displacement gradient of a translation, due to rounding.
 const UNDEFORMED: f64 = 1e-14;
 
-/// Compiles the key `any_method`.
 pub(crate) fn any_method(
     evaluator: &Evaluator<'_>,
     spec: &AnyMethodSpec,

@@ -14,13 +14,12 @@ use crate::suite::model::{Case, ConvergencePlan, Scene};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
 use crate::verify::{Axis, GradientTerms};
 
-/// Maximum number of sweep points.
 const MOST_POINTS: u64 = 1000;
 
-/// Relative change of a parameter after which the stated solution must still solve the problem.
+/// Relative change of a parameter. The stated solution must also solve the problem with the changed
+/// parameter.
 const CHANGE: f64 = 1.0 / 64.0;
 
-/// Compiles a gradient study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -211,7 +210,7 @@ fn parameters(
     }
 }
 
-/// Returns the parameter of the problem that is set by the suite parameter `name`.
+/// Returns the problem parameter that the suite parameter `name` sets.
 fn differentiated(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -274,8 +273,9 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether `value` equals the parameter in `scene`. An initial velocity must instead be
-/// proportional to the suite parameter: the relative `growth` of the velocity is then 1.
+/// Whether the suite parameter with this `value` sets the parameter of `scene`: both must be equal.
+/// An initial velocity must be proportional to the suite parameter instead, so its relative
+/// `growth` must be 1.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();

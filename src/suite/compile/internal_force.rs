@@ -12,18 +12,16 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Number of full cells on each side of the node. The axis is periodic. With this length, the
-/// support of a wide basis contains no wall and no end of the body.
+/// Number of full cells on each side of the node. The axis is periodic. This length keeps the
+/// support of a wide basis away from the ends of the body.
 const SIDE: usize = 4;
 
-/// Maximum number of particles over all positions. Limits the run time to about a second, and the
-/// length of the report.
+/// Maximum number of particles, summed over all positions of the moving particle. It limits the run
+/// time to about a second, and the length of the report.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
-/// Variables of the predicted force.
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];
 
-/// Compiles an internal-force study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &InternalForceSpec,
@@ -133,7 +131,8 @@ fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
     grid.force[node][0]
 }
 
-/// Returns the node with the largest weight for a particle at x = 0, or the right one of two.
+/// Returns the node with the largest weight for a particle at x = 0. Of two equal nodes, returns
+/// the right one.
 fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
     let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
     let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);

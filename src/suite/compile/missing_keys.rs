@@ -7,7 +7,7 @@ use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// A suite with the required keys that no suite of the repository uses.
+/// A suite with those required keys that no suite of the repository uses.
 const MORE: &str = "
 suite: more
 title: More
@@ -19,13 +19,12 @@ methods: [{mpm: {basis: linear, transfer: flip, scheme: usl}}, {external: {name:
 expect: [{verdict: failed, because: none}]
 ";
 
-/// Checks that a text has all required keys and no unknown keys.
 fn grammatical(text: &Value) -> Result<(), Diagnostic> {
     let source = Source::from_text("suite.yaml", text.to_string())?;
     SuiteSpec::read(&source).map(drop)
 }
 
-/// Collects in `found` a JSON pointer to the map of each key, and the key.
+/// Appends to `found` every key of `value`, with a JSON pointer to the map that contains the key.
 fn keys(value: &Value, pointer: &str, found: &mut Vec<(String, String)>) {
     let below: Vec<(String, &Value)> = match value {
         Value::Object(map) => {

@@ -53,7 +53,7 @@ fn without_links(schema: &mut Schema) {
     }
 }
 
-/// Replaces alternatives that are names without description by a single list of names.
+/// Replaces alternative names without description by a single list of names.
 fn names_in_one_list(schema: &mut Schema) {
     let bare = |choice: &Value| match choice.as_object() {
         Some(keys) if keys.len() == 2 && keys.get("type") == Some(&"string".into()) => {

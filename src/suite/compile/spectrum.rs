@@ -25,16 +25,15 @@ const MOST: usize = 500;
 /// Maximum number of particles per cell. The closed form has one term per particle.
 const MOST_PPC: u64 = 64;
 
-/// Minimum mass symbol (see the glossary) of a wave that the grid represents.
+/// Minimum symbol `s` of the mass matrix (docs/glossary.md) for a wave that the grid can represent.
 const SMALLEST_MASS: f64 = 1e-9;
 
-/// Largest imaginary part of the symbol of TPIC that counts as rounding.
+/// Maximum imaginary part of the symbol of TPIC that counts as rounding error.
 const LARGEST_ASYMMETRY: f64 = 1e-12;
 
-/// Deviation of a number of periods from an integer that is treated as rounding error.
+/// Maximum deviation of a number of periods from an integer that counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// Compiles a spectrum study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -68,7 +67,6 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-/// Returns the diagnostic for a suite that lacks a `property` required by the study.
 fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
     evaluator.diagnostic(path, &format!("a spectrum study needs {property}"))
 }
@@ -99,7 +97,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// Compiles the translation of the particles (m), by which no particle may leave its cell.
+/// Compiles the translation of the particles (m). It must keep every particle in its cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");
@@ -112,7 +110,6 @@ fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result
     Err(evaluator.diagnostic(&path, &message).with_label(label))
 }
 
-/// Compiles the waves: all combinations of wavelengths and Courant numbers.
 fn waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -164,7 +161,8 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// Compiles the cases (combinations of the lists in `methods`), closed forms and expectations.
+/// Compiles the cases, one for each combination of the lists in `methods`, with closed forms and
+/// expectations.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -202,7 +200,6 @@ fn cases(
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
 }
 
-/// Returns the closed form of a method.
 fn curve(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -236,7 +233,6 @@ fn curve(
     Ok(WaveMethod { spline, ppc, shift: plan.shift / plan.h, transfer, scheme })
 }
 
-/// Compiles expectation number `i`, and its reason.
 fn expectation(
     evaluator: &Evaluator<'_>,
     i: usize,
@@ -257,7 +253,7 @@ fn expectation(
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
-/// Refuses a solver that refers to the prediction of an unknown case.
+/// Refuses the key `solvers` if it assigns an unknown case to a solver.
 fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
     let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let Some((solver, case)) =
@@ -270,8 +266,8 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     Err(diagnostic.with_help(&suggestion("cases", case, &names)))
 }
 
-/// Refuses a time step above the stability limit of a case, and a wave that the grid of a case does
-/// not represent.
+/// Refuses time steps above the stability limit of a case, and waves that its grid cannot
+/// represent.
 fn refuse_unfit_waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

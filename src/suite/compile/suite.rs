@@ -1,5 +1,4 @@
-//! Compiles a suite: the kind of study, the head of the file, and changed copies of a convergence
-//! study.
+//! Compiles a suite, and changed copies of a convergence study.
 
 use super::convergence::convergence_plan;
 use super::{gradient, internal_force, scene, spectrum, stability};
@@ -30,8 +29,8 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// Compiles the scene of the convergence study in `source`, without exact solution. Used to run
-    /// solvers with deliberate defects.
+    /// Compiles the scene of the convergence study in `source`, without exact solution. Tests use
+    /// it to run solvers with deliberate defects.
     ///
     /// # Errors
     /// A [`Diagnostic`] with the position of the first error.
@@ -42,8 +41,8 @@ impl Suite {
     }
 }
 
-/// Loads the convergence study in `source`, with the amplitudes of the exact motion and of the
-/// initial state multiplied by `factor`. Loads are not scaled.
+/// Loads the convergence study in `source` with the exact motion and the initial state multiplied
+/// by `factor`. Loads are not scaled.
 ///
 /// # Errors
 /// If the scaled motion is not a solution, for example because of unscaled loads.
@@ -52,9 +51,6 @@ pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diag
 }
 
 /// Loads the convergence study in `source` after a `change` of its keys, without expectations.
-///
-/// # Errors
-/// A [`Diagnostic`] with the reason for refusing the changed suite.
 pub(crate) fn with_changes(
     source: &Source,
     change: impl FnOnce(&mut ConvergenceSpec),
@@ -125,7 +121,6 @@ fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> 
     Ok(assemble(head, parameters, &spec.functions, plan))
 }
 
-/// Creates a suite from its texts and parameters.
 fn assemble(
     [name, title, source, about]: [String; 4],
     parameters: Vec<DeclaredParameter>,
@@ -137,7 +132,7 @@ fn assemble(
     Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
-/// Refuses a name that cannot be part of the names of tests and files.
+/// Refuses a suite name that is invalid in names of tests and files.
 fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {

@@ -14,10 +14,8 @@ use std::collections::BTreeSet;
 /// Maximum count in a suite (cells, particles per cell, instants).
 const MOST: f64 = 1e7;
 
-/// Coordinate names in formulas.
 pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
 
-/// Names of displacement components in load formulas.
 pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
 
 /// Returns the first `dimension` coordinate names, followed by t.
@@ -25,17 +23,18 @@ pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
     COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
 }
 
-/// A number, a formula of the parameters above it, or a table.
+/// A number, a formula of the preceding parameters, or a table.
 pub(crate) type ParameterSpec = NumberOr<TableSpec>;
 
-/// `{by: t, table: [[0, 0], [0.1, 1]]}`: values by another parameter or by a variable of formulas.
+/// Table of values that depend on another parameter or on a variable of formulas, such as `{by: t,
+/// table: [[0, 0], [0.1, 1]]}`.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TableSpec {
-    /// A parameter, or a variable of formulas.
+    /// Argument of the table: a parameter, or a variable of formulas.
     pub(crate) by: String,
-    /// Rows of a value of `by` and the value of the parameter.
+    /// Rows, each with a value of `by` and the corresponding value of the table.
     pub(crate) table: Vec<Vec<NumberText>>,
 }
 
@@ -57,8 +56,8 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Declares the functions of a suite, then its parameters in file order. Returns the evaluator,
-    /// and the name, text and value of each parameter.
+    /// Declares the functions of a suite, then its parameters in file order. Also returns the name,
+    /// text and value of each parameter.
     pub(crate) fn new(
         source: &'a Source,
         parameters: &Ordered<ParameterSpec>,
@@ -89,7 +88,7 @@ impl<'a> Evaluator<'a> {
         Ok((evaluator, values))
     }
 
-    /// Declares a function. For example, `s(tau): "..."` declares a function s of one argument.
+    /// Declares a function, such as `s(tau): "..."` with one argument.
     fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
         let path = Path::top("functions").then(head);
         let (name, arguments) = head
@@ -113,7 +112,7 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// Binds a formula in the given `variables`.
+    /// Parses a formula of the given `variables` and of declared names.
     pub(crate) fn formula(
         &self,
         path: &Path,
@@ -128,7 +127,7 @@ impl<'a> Evaluator<'a> {
         Ok(formula)
     }
 
-    /// Binds a list of `dimension` formulas, one for each component.
+    /// Parses `dimension` formulas, one for each component.
     pub(crate) fn vector(
         &self,
         path: &Path,
@@ -152,7 +151,7 @@ impl<'a> Evaluator<'a> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// Evaluates a finite number, given directly or by a formula of parameters.
+    /// Evaluates a finite number, or a formula of parameters.
     pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
         let formula = self.formula(path, text, &[])?;
         let value = formula.constant().unwrap_or(f64::NAN);
@@ -162,7 +161,6 @@ impl<'a> Evaluator<'a> {
         Err(self.not_finite(path, text, value))
     }
 
-    /// Evaluates a positive number.
     pub(crate) fn positive(
         &self,
         path: &Path,
@@ -177,7 +175,6 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, "expected a positive number"))
     }
 
-    /// Evaluates a positive integer.
     pub(crate) fn count(
         &self,
         path: &Path,
@@ -187,7 +184,6 @@ impl<'a> Evaluator<'a> {
         self.count_up_to(MOST, path, text, what)
     }
 
-    /// Evaluates an integer from 1 to `most`.
     pub(crate) fn count_up_to(
         &self,
         most: f64,
@@ -204,7 +200,6 @@ impl<'a> Evaluator<'a> {
         Err(self.unusable(path, text, &message, &label))
     }
 
-    /// Evaluates the coordinates of a point: `dimension` numbers.
     pub(crate) fn point(
         &self,
         path: &Path,
@@ -250,12 +245,10 @@ impl<'a> Evaluator<'a> {
         Err(diagnostic.with_label("expected a text"))
     }
 
-    /// Returns a diagnostic about the value at `path`.
     pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
         self.source.diagnostic_at(path.steps(), message)
     }
 
-    /// Returns a diagnostic about the key at `path`.
     pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
         match self.source.key_at(path.steps()) {
             Some(place) => self.source.diagnostic(place, message),
@@ -299,7 +292,7 @@ pub(crate) fn shown(value: f64) -> String {
     NumberText::Number(value).to_string()
 }
 
-/// Returns help with the known name closest to `name`, or with all `known` names if none is close.
+/// Suggests the known name that is most similar to `name`, or lists all `known` names.
 pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -307,9 +300,8 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. A parameter may be the cause of a value that is not
-/// finite if the formula is finite with one of these values, or with the parameter's magnitude, in
-/// place of the parameter's value.
+/// Values for which most formulas are finite. To find the parameter that makes a formula infinite
+/// or NaN, the parameter is replaced by these values and by its own magnitude.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
@@ -326,7 +318,6 @@ impl Evaluator<'_> {
         self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
     }
 
-    /// Returns a diagnostic about a formula of parameters whose value is not finite.
     pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
         let what = match path.steps() {
@@ -351,7 +342,8 @@ impl Evaluator<'_> {
         self.diagnostic(path, &message).with_label(label).with_help(&places.join(", "))
     }
 
-    /// Returns names and values of the parameters that a formula uses, also through functions.
+    /// Returns names and values of the parameters that a formula uses, directly or through
+    /// functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula =
             Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &self.scope, &[]));
@@ -360,7 +352,6 @@ impl Evaluator<'_> {
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
-    /// Whether the formula is finite if parameter `name` has this `value`.
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
         let formula =
@@ -377,7 +368,6 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Returns the line number of the declaration of a parameter.
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
         let path = Path::top("parameters").then(parameter);
         self.source.key_at(path.steps()).map(Place::line)

@@ -1,4 +1,4 @@
-//! Names that a suite declares: tables, and errors about reserved, unused or undeclared names.
+//! Declares tables, and checks declared names: reserved, unused or undeclared ones are errors.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};
@@ -24,7 +24,6 @@ impl Evaluator<'_> {
         Ok(())
     }
 
-    /// Refuses unused parameters and functions.
     pub(crate) fn refuse_unused(
         &self,
         parameters: &Ordered<ParameterSpec>,
@@ -69,9 +68,6 @@ impl Evaluator<'_> {
 impl<'a> Evaluator<'a> {
     /// Returns an evaluator in which the parameter `name` is a free variable. Functions and later
     /// parameters may depend on this variable.
-    ///
-    /// # Errors
-    /// A diagnostic if a parameter cannot depend on `name`.
     pub(crate) fn with_free(
         &self,
         name: &str,

@@ -17,31 +17,31 @@ study_spec! {
         study: Option<StudyName>,
         /// The body with its conditions and loads.
         scene: SceneSpec,
-        /// The solution as formulas, checked before any solver runs.
+        /// The exact solution as formulas, checked before any solver runs.
         exact: Option<ExactSpec>,
-        /// A motion whose body force follows by differentiation.
+        /// A motion from which the body force is computed by differentiation.
         manufactured: Option<ManufacturedSpec>,
         /// Equilibrium in which the body comes to rest, as formulas of the coordinates.
         equilibrium: Option<ExactSpec>,
-        /// A fine computation, if no formula is known.
+        /// A fine computation to compare with, if no exact solution is known.
         reference: Option<ReferenceSpec>,
         /// End, time step and instants of a run.
         run: RunSpec,
-        /// Levels: a list is refined, from coarse to fine.
+        /// Refinement levels, from coarse to fine.
         refine: RefineSpec,
         /// Offsets of particles from their lattice.
         particles: Option<ScatterSpec>,
-        /// Methods to be judged; lists in an entry multiply to cases.
+        /// Methods to be judged. List values give one case for each combination.
         methods: Vec<MethodSpec>,
         /// The judged error.
         #[serde(default)]
         judge: JudgeSpec,
-        /// Point for the limit of the displacement and the velocity history.
+        /// Point whose displacement limit and velocity history are reported.
         observe: Option<ObserveSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
         expect: Vec<ExpectSpec>,
-        /// Warnings of `check` that the suite intends, each with its reason.
+        /// Accepted warnings of `check`, each with its reason.
         #[serde(default)]
         acknowledge: Vec<AcknowledgeSpec>,
         /// Accuracy that any method can reach, for the gate of external solvers.
@@ -65,11 +65,11 @@ impl ConvergenceSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceSpec {
-    /// The equation that the fine computation solves.
+    /// Equation that the FEM computation solves.
     pub(crate) equation: Option<EquationName>,
     /// A fine FEM computation.
     pub(crate) fem: Option<ReferenceFemSpec>,
-    /// A reference run by the same method with much shorter steps, or on a much finer grid.
+    /// A reference run by the same method, with much shorter steps or on a much finer grid.
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) struct ReferenceSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SameMethodSpec {
-    /// Time step (s), at most 1/8 of the finest.
+    /// Time step (s), at most 1/8 of the step on the finest level.
     pub(crate) dt: Option<NumberText>,
     /// Cells along the first axis, at least 4 times those of the finest level.
     pub(crate) cells: Option<NumberText>,
@@ -88,7 +88,7 @@ pub(crate) struct SameMethodSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReferenceFemSpec {
-    /// Element.
+    /// Finite element.
     pub(crate) element: Element,
     /// Mass matrix.
     pub(crate) mass: Mass,
@@ -114,19 +114,19 @@ pub(crate) struct JudgeSpec {
     pub(crate) within: Option<BoxSpec>,
     /// Divisor of the judged error.
     pub(crate) scale: Option<NumberText>,
-    /// Whether levels on which particles change their cell count.
+    /// Whether the order may use levels on which particles change their cell.
     #[serde(default)]
     pub(crate) crossing_levels: CrossingLevels,
 }
 
 named! {
-    /// Whether levels on which particles changed their cell may count.
+    /// Whether the order may use levels on which particles change their cell.
     #[derive(Default)]
     pub enum CrossingLevels {
-        /// Levels with crossings count.
+        /// The order uses these levels.
         #[default]
         Counted = "counted",
-        /// They are shown and do not count.
+        /// These levels are shown but not used.
         Excluded = "excluded",
     }
 }
@@ -143,17 +143,17 @@ pub(crate) struct ObserveSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunSpec {
-    /// End of the run (s), or a list of ends; `load_steps` have none.
+    /// End of the run (s), or a list of ends; absent with `load_steps`.
     pub(crate) until: Option<OneOrMany<NumberText>>,
-    /// Number of load steps to an equilibrium, or a list of numbers, in place of a time.
+    /// Number of load steps to an equilibrium, or a list of numbers, in place of `until`.
     pub(crate) load_steps: Option<OneOrMany<NumberText>>,
-    /// Absent if `refine` lists time steps.
+    /// Time step; absent if `refine` lists time steps.
     pub(crate) dt: Option<StepSpec>,
     /// Number of instants at which the error is measured.
     pub(crate) instants: Option<NumberText>,
 }
 
-/// The key with a list is refined, from coarse to fine.
+/// Refinement plan. The key with a list is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -164,7 +164,7 @@ pub(crate) struct RefineSpec {
     pub(crate) dt: Option<OneOrMany<NumberText>>,
     /// Particles per cell.
     pub(crate) ppc: Option<OneOrMany<NumberText>>,
-    /// Finer levels of the list, for full runs only.
+    /// Additional finer levels, for full runs only.
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
 

@@ -16,27 +16,27 @@ macro_rules! expect_spec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpectSpec {
-    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// The verdict; `converging` if an `order` is stated.
+    /// Expected verdict; default: `converging` if an `order` is stated.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "verdicts", default))]
     pub(crate) verdict: Option<String>,
-    /// Lowest and highest order: the whole confidence interval must lie within.
+    /// Lowest and highest order, between which the whole confidence interval must lie.
     pub(crate) order: Option<Vec<NumberText>>,
     /// Lowest and highest order between the two finest levels.
     pub(crate) finest_pair: Option<Vec<NumberText>>,
     /// Whether particles change their cell on the finest level.
     pub(crate) crossings: Option<CrossingsName>,
-    /// The axis whose error the floor is.
+    /// Axis whose spacing causes the error floor.
     pub(crate) floor: Option<FloorCause>,
             $($(#[$doc])* pub(crate) $key: Option<NumberText>,)+
     /// Bounds on the relative change of sums over the body.
     pub(crate) drift: Option<DriftSpec>,
     /// Bounds on the rate of the energy (1/s).
     pub(crate) energy_rate: Option<Vec<NumberText>>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub(crate) because: String,
-    /// Expectation of a full run, if it differs.
+    /// Expectation for a full run, if it differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
@@ -61,12 +61,12 @@ pub(crate) struct AnyMethodSpec {
     pub(crate) order: Option<NumberText>,
     /// Bound on errors that are accepted without an order.
     pub(crate) error_below: Option<NumberText>,
-    /// Whether nothing deforms, so that a solver may use any law.
+    /// Whether a solver may use any law, because no body deforms.
     #[serde(default)]
     pub(crate) any_law: bool,
-    /// Whether the gate requires anything of an external solver; it does unless stated.
+    /// Whether `run --gate` applies to external solvers; default: true.
     pub(crate) gated: Option<bool>,
-    /// The reason.
+    /// Reason for these values.
     pub(crate) because: String,
 }
 
@@ -82,9 +82,9 @@ fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CrossingsName {
-    /// None does.
+    /// No particle changes its cell.
     None,
-    /// At least one does.
+    /// At least one particle changes its cell.
     Some,
 }
 
@@ -106,17 +106,17 @@ named! {
     pub enum WarningName {
         /// Fewer levels than an order needs.
         FewLevels = "few_levels",
-        /// A time step beyond the stable one, or the same on all levels.
+        /// A time step above the stable one, or equal on all levels.
         TimeStep = "time_step",
         /// A motion that leaves the grid.
         LeavesGrid = "leaves_grid",
-        /// An exact solution of small strain, or of a linearised law.
+        /// An exact solution that holds for small strains only, or for a linearised law.
         SmallStrain = "small_strain",
         /// A solver that computes in single precision.
         SinglePrecision = "single_precision",
         /// An interface of two bodies or a loaded face inside a cell.
         InsideCell = "inside_cell",
-        /// A tolerance of a linearised solution that is much too large.
+        /// A tolerance of a linearised solution that is much larger than necessary.
         LooseTolerance = "loose_tolerance",
         /// A box whose last particles start on nodes.
         EndOnNode = "end_on_node",
@@ -125,13 +125,13 @@ named! {
     }
 }
 
-/// A warning that the suite intends, with the reason.
+/// An accepted warning, with the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AcknowledgeSpec {
-    /// The warning.
+    /// Name of the warning.
     pub(crate) warning: WarningName,
-    /// Why the suite intends the finding of `check`.
+    /// Reason for accepting the warning.
     pub(crate) because: String,
 }

@@ -13,7 +13,7 @@ study_spec! {
         study: StudyName,
         /// The body, its boundary conditions and its loads.
         scene: SceneSpec,
-        /// The solution as formulas, checked before any solver runs.
+        /// The exact solution as formulas, checked before any solver runs.
         exact: Option<ExactSpec>,
         /// Equilibrium at the end of the run as formulas of the coordinates, instead of `exact`.
         equilibrium: Option<ExactSpec>,
@@ -21,9 +21,9 @@ study_spec! {
         gradient: DerivativeSpec,
         /// End and time step of a run.
         run: RunSpec,
-        /// Levels: cells from coarse to fine.
+        /// Refinement levels: numbers of cells from coarse to fine.
         refine: RefineSpec,
-        /// External solvers with an expectation.
+        /// External solvers for which the suite states expectations.
         #[serde(default)]
         methods: Vec<MethodSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.
@@ -33,7 +33,7 @@ study_spec! {
 }
 
 impl GradientSpec {
-    /// Returns the name of the key that states the solution, and the solution, if any.
+    /// Returns the key of the exact solution or equilibrium, and its value, if any.
     pub(crate) fn truth(&self) -> (&'static str, Option<&ExactSpec>) {
         match (&self.exact, &self.equilibrium) {
             (Some(exact), _) => ("exact", Some(exact)),
@@ -79,12 +79,11 @@ impl GradientSpec {
 pub(crate) struct DerivativeSpec {
     /// Functional of the state at the end of the run.
     pub(crate) of: FunctionalSpec,
-    /// Parameters of the problem (`young`, `density`, ...), each with the parameter of the suite
-    /// that sets it.
+    /// Problem parameters (`young`, `density`, ...), each with the suite parameter that sets it.
     pub(crate) with_respect_to: Ordered<String>,
-    /// Cells of the level on which parameters are perturbed; those of the finest unless stated.
+    /// Number of cells of the level on which parameters are perturbed; default: the finest level.
     pub(crate) cells: Option<NumberText>,
-    /// Interval of one parameter.
+    /// Sweep over an interval of one parameter.
     pub(crate) sweep: Option<GradientSweepSpec>,
 }
 
@@ -118,7 +117,7 @@ pub(crate) enum FunctionalSpec {
 pub(crate) struct GradientSweepSpec {
     /// Name of the parameter, as in `with_respect_to`.
     pub(crate) parameter: String,
-    /// Half of the interval, as a share of the value of the parameter.
+    /// Half the interval, as a share of the parameter value.
     pub(crate) within: NumberText,
     /// Number of points.
     pub(crate) points: NumberText,
@@ -129,12 +128,12 @@ pub(crate) struct GradientSweepSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GradientExpectSpec {
-    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// State of the derivative; any but `wrong` unless stated.
+    /// State of the derivative; default: any but `wrong`.
     pub(crate) state: Option<GradientState>,
     /// Lowest and highest order of the error of the derivative.
     pub(crate) order: Option<Vec<NumberText>>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub(crate) because: String,
 }

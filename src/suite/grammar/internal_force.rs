@@ -10,7 +10,7 @@ study_spec! {
     struct InternalForceSpec {
         /// Kind of study: `internal_force`.
         study: StudyName,
-        /// The set-up.
+        /// Cells, particles, stress and predicted force.
         internal_force: ForceSpec,
         /// Basis functions that are compared.
         methods: Vec<ForceMethodSpec>,
@@ -33,9 +33,9 @@ pub(crate) struct ForceSpec {
     pub(crate) volume: NumberText,
     /// Uniform stress (Pa).
     pub(crate) stress: NumberText,
-    /// Number of positions of the particles within a cell.
+    /// Number of positions of the moving particle.
     pub(crate) positions: NumberText,
-    /// Predicted force, a formula.
+    /// Formula of the predicted force.
     pub(crate) prediction: NumberText,
 }
 
@@ -52,12 +52,12 @@ pub(crate) enum ForceMethodSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ForceExpectSpec {
-    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// Largest deviation from the prediction, relative to the largest prediction.
+    /// Maximum deviation from the prediction, relative to the largest prediction.
     pub(crate) agrees_within: Option<NumberText>,
-    /// Largest change between neighbouring positions, relative to the largest prediction.
+    /// Maximum change between neighbouring positions, relative to the largest prediction.
     pub(crate) steps_below: Option<NumberText>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub(crate) because: String,
 }

@@ -13,7 +13,7 @@ use serde::de::value::StrDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
-/// One method, or several: the lists in it multiply to cases.
+/// One method, or one for each combination of its list values.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -22,50 +22,50 @@ pub(crate) enum MethodSpec {
     Mpm {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
-        /// Transfer of velocity between particles and grid; `quasi_static` has none.
+        /// Velocity transfer between particles and grid; absent with `quasi_static`.
         transfer: Option<OneOrMany<TransferChoice>>,
         /// Time scheme: when stresses are updated, or quasi-static load steps.
         scheme: OneOrMany<SchemeKey>,
-        /// Time of the initial velocity; default `at_zero`.
+        /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
-        /// Mass matrix; `lumped` unless stated.
+        /// Mass matrix; default: `lumped`.
         mass: Option<OneOrMany<MassName>>,
-        /// Frame; `updated_lagrangian` unless stated.
+        /// Frame; default: `updated_lagrangian`.
         frame: Option<OneOrMany<FrameName>>,
-        /// Volume ratio at which the law computes its stress; `particle` unless stated.
+        /// Volume ratio at which the law computes its stress; default: `particle`.
         volume: Option<OneOrMany<VolumeName>>,
-        /// Precision of the state; `double` unless stated.
+        /// Precision of the state; default: `double`.
         precision: Option<OneOrMany<Precision>>,
     },
     /// Finite elements in one dimension.
     Fem {
-        /// Element.
+        /// Finite element.
         element: OneOrMany<Element>,
         /// Mass matrix.
         mass: OneOrMany<Mass>,
         /// Equation of motion; default: that of the exact solution.
         law: Option<OneOrMany<EquationName>>,
-        /// Time of the initial velocity; default `at_zero`.
+        /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
         /// Points at which the error is measured.
         sampling: Option<OneOrMany<Sampling>>,
     },
-    /// MPM of a body at rest, in which heat flows.
+    /// MPM for heat conduction in a body at rest.
     Heat {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
     },
     /// An external solver, which the command line starts.
     External {
-        /// Its name, a part of the case's.
+        /// Name of the solver, which is part of the case name.
         #[cfg_attr(
             feature = "schemas",
             schemars(extend("type" = ["string", "number", "boolean"]))
         )]
         name: String,
-        /// Theoretical order of its displacements; default 2.
+        /// Theoretical order of the displacements; default: 2.
         formal_order: Option<NumberText>,
-        /// Precision of its numbers.
+        /// Precision of the solver's numbers.
         precision: Option<Precision>,
     },
 }
@@ -190,16 +190,16 @@ pub(crate) enum StepSpec {
     Length(NumberText),
     /// A share of the stable time step.
     Courant(NumberText),
-    /// A share chosen automatically, with a margin for changes during the run.
+    /// An automatic share of the stable time step, with a margin for changes during the run.
     Auto,
 }
 
-/// `{courant: 0.5}`.
+/// Share of the stable time step, as in `{courant: 0.5}`.
 #[derive(Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Rule {
-    /// Share of the stable time step.
+    /// The share.
     courant: NumberText,
 }
 

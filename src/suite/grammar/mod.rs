@@ -1,10 +1,10 @@
 //! The grammar of a suite: the allowed contents of a YAML file, before any number is computed.
 //!
-//! Every map refuses unknown keys. A number may be a formula of declared parameters. The entries of
-//! a method may be lists, whose product gives the cases.
+//! Every map refuses unknown keys. A number may be a formula of declared parameters. Settings of a
+//! method may be lists; each combination of their values is a case.
 
-/// Declares the keys of a kind of study: the keys that all studies have, then its own. With
-/// `serde(flatten)` an error would have no position in the file.
+/// Declares the keys of a kind of study: the keys that all studies have, then its own. The keys are
+/// not shared by `serde(flatten)`, because errors would then have no position.
 macro_rules! study_spec {
     (
         $(#[$about:meta])*
@@ -26,15 +26,15 @@ macro_rules! study_spec {
             pub(crate) _study: $study,
             /// Headline of the report.
             pub(crate) title: String,
-            /// Reference for the problem.
+            /// Source of the problem, such as a textbook.
             pub(crate) source: String,
             /// Remarks for a reader of the report.
             #[serde(default)]
             pub(crate) about: String,
-            /// Numbers, formulas of the parameters above them, or tables; each must be used.
+            /// Numbers, formulas of preceding parameters, or tables. Each parameter must be used.
             #[serde(default)]
             pub(crate) parameters: crate::suite::yaml::Ordered<crate::suite::grammar::ParameterSpec>,
-            /// Functions for formulas: `s(tau): "..."`.
+            /// Functions that formulas may use, such as `s(tau): "..."`.
             #[serde(default)]
             pub(crate) functions: crate::suite::yaml::Ordered<String>,
             $($(#[$about_key])* pub(crate) $key: $keys,)*
@@ -105,7 +105,7 @@ pub(crate) struct Head {
 pub(crate) enum StudyName {
     /// Errors over a refinement plan.
     Convergence,
-    /// Internal force on a node while a particle moves through it.
+    /// Internal force on a node while a particle moves through the node.
     InternalForce,
     /// Whether runs stay bounded, and the limit of a parameter.
     Stability,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// Keys and their sample values. `owner.key` is a key whose sample depends on its owner.
+/// Required keys and their sample values. In `owner.key`, the sample applies to one owner only.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -150,7 +150,6 @@ impl ConvergenceSpec {
 }
 
 impl StudyName {
-    /// Returns the kind of study of a suite.
     fn of_checked(checked: &CheckedShape<'_>) -> Result<Self, Diagnostic> {
         let known = match checked.top() {
             TopValue::Absent => Some(Self::default_study()),
@@ -161,8 +160,8 @@ impl StudyName {
     }
 }
 
-/// Adds help to the error for an unknown key of a spectrum study. If the key is about irregular
-/// particles, the help states that the particles of this study are regular.
+/// Adds help to the error if an unknown key of a spectrum study is about irregular particles: this
+/// study has regular particles only.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()
@@ -174,12 +173,10 @@ fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     }
 }
 
-/// Parses a suite into the type for this kind of `study`.
 fn read<T: DeserializeOwned>(checked: &CheckedShape<'_>, study: &str) -> Result<T, Diagnostic> {
     checked.read(&|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
 }
 
-/// Returns the sample value of a key of `owner`.
 fn sample(owner: &str, key: &str) -> Option<&'static str> {
     let of =
         |wanted: &str| SAMPLES.iter().find(|(known, _)| *known == wanted).map(|(_, text)| *text);

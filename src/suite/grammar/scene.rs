@@ -13,9 +13,9 @@ use serde::Deserialize;
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SceneSpec {
-    /// 1, 2 or 3.
+    /// Number of space dimensions: 1, 2 or 3.
     pub(crate) dimension: NumberText,
-    /// State across the plane of a scene in two dimensions.
+    /// State of two-dimensional bodies normal to their plane.
     pub(crate) plane: Option<PlaneState>,
     /// The body.
     pub(crate) body: Option<BodySpec>,
@@ -23,11 +23,11 @@ pub(crate) struct SceneSpec {
     pub(crate) bodies: Option<Vec<OneBodySpec>>,
     /// Contact between the bodies; without it they share one velocity field.
     pub(crate) contact: Option<ContactSpec>,
-    /// Corners of the grid (m); by default the box of the body, with spare cells beyond free faces.
+    /// Corners of the grid (m); by default those of the body, with spare cells outside free faces.
     pub(crate) grid: Option<BoxSpec>,
     /// The material.
     pub(crate) material: Option<MaterialSpec<NumberText>>,
-    /// Conditions on faces; one that is not named is free.
+    /// Conditions on faces; other faces are free.
     #[serde(default)]
     #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<BoundarySpec>"))]
     pub(crate) boundary: Ordered<BoundarySpec>,
@@ -37,7 +37,7 @@ pub(crate) struct SceneSpec {
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
     /// Velocity at the start (m/s), formulas of the coordinates.
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
-    /// Names for the particles in a part of the reference body.
+    /// Named sets of material points.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
     /// Loads and effects.
@@ -52,13 +52,13 @@ pub(crate) struct SceneSpec {
 pub(crate) struct OneBodySpec {
     /// The body.
     pub(crate) body: BodySpec,
-    /// Its material.
+    /// Material of the body.
     pub(crate) material: MaterialSpec<NumberText>,
-    /// Its residual or geostatic stress.
+    /// Residual or geostatic stress of the body.
     pub(crate) initial_stress: Option<StressSpec>,
-    /// Its displacement at the start (m).
+    /// Displacement at the start (m).
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
-    /// Its velocity at the start (m/s).
+    /// Velocity at the start (m/s).
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
@@ -96,7 +96,7 @@ pub(crate) enum BodySpec {
     Disk(RoundSpec),
     /// A ball, in three dimensions; its surface is free.
     Ball(RoundSpec),
-    /// Corners, in their order around the body.
+    /// A polygon, by its corners in their order around the body.
     Polygon(Vec<Vec<NumberText>>),
     /// A bilinear map of a square, in two dimensions.
     Quadrilateral(QuadrilateralSpec),
@@ -116,7 +116,7 @@ pub(crate) struct BoxSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct QuadrilateralSpec {
-    /// Four, counter-clockwise.
+    /// Four corners (m), counter-clockwise.
     pub(crate) corners: Vec<Vec<NumberText>>,
 }
 
@@ -142,7 +142,7 @@ pub(crate) struct RoundSpec {
     pub(crate) radius: NumberText,
 }
 
-/// Material points with a name.
+/// A set of material points.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -15,7 +15,7 @@ study_spec! {
         particles: RowSpec,
         /// Wavelengths and time steps.
         spectrum: WavesSpec,
-        /// Methods to be studied; lists in an entry multiply to cases.
+        /// Methods to be studied. List values give one case for each combination.
         methods: Vec<MethodSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
@@ -32,11 +32,11 @@ pub(crate) struct RowSpec {
     pub(crate) cells: NumberText,
     /// Particles per cell.
     pub(crate) ppc: NumberText,
-    /// Translation of every particle (m), less than half of the spacing of particles.
+    /// Translation of every particle (m), less than half the particle spacing.
     pub(crate) shift: Option<Vec<NumberText>>,
 }
 
-/// Wavelengths and time steps; their product gives the rows of the report.
+/// Wavelengths and time steps. Each combination is a row of the report.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -45,7 +45,7 @@ pub(crate) struct WavesSpec {
     pub(crate) cells_per_wavelength: OneOrMany<NumberText>,
     /// Courant numbers `c dt/h`.
     pub(crate) courant: OneOrMany<NumberText>,
-    /// External solvers, each with the case whose prediction applies to it.
+    /// External solvers, each with the case that predicts its results.
     #[serde(default)]
     pub(crate) solvers: Ordered<String>,
 }
@@ -55,13 +55,13 @@ pub(crate) struct WavesSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SpectrumExpectSpec {
-    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// Largest deviation of the phase error from the prediction, relative to the prediction.
+    /// Maximum deviation of the phase error from the prediction, relative to the prediction.
     pub(crate) phase_within: Option<NumberText>,
-    /// Largest deviation of the logarithm of the amplitude from the prediction, relative to the
+    /// Maximum deviation of the logarithm of the amplitude from the prediction, relative to the
     /// prediction.
     pub(crate) damping_within: Option<NumberText>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub(crate) because: String,
 }

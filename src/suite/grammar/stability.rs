@@ -16,14 +16,14 @@ study_spec! {
         particles: ParticleSpec,
         /// Time step and number of steps.
         run: StabilityRunSpec,
-        /// One parameter, and its values.
+        /// The swept parameter and its values.
         sweep: Ordered<OneOrMany<NumberText>>,
         /// The parameter whose largest stable value is determined for each row.
         critical: Option<CriticalSpec>,
-        /// Figures that the report shows.
+        /// Measured quantities in the report.
         #[serde(default)]
         show: Vec<crate::verify::RunFigure>,
-        /// Methods to be studied; lists in an entry multiply to cases.
+        /// Methods to be studied. List values give one case for each combination.
         methods: Vec<MethodSpec>,
         /// Expectations, exactly one for each case. A suite without expectations is not a gate.
         #[serde(default)]
@@ -42,7 +42,7 @@ pub(crate) struct ParticleSpec {
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Positions (m) of additional particles, each with the volume of the others.
+    /// Positions (m) of additional particles, which have the volume of the others.
     #[serde(default)]
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
@@ -60,20 +60,20 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) every: Option<NumberText>,
     /// Number of steps.
     pub(crate) steps: NumberText,
-    /// Steps of a full run, if it has more.
+    /// Number of steps of a full run, if larger.
     pub(crate) full_steps: Option<NumberText>,
     /// Whether the particles do not move.
     #[serde(default)]
     pub(crate) frozen: bool,
-    /// Size of random perturbations of the state at the start.
+    /// Amplitude of the random perturbation at the start.
     pub(crate) perturb: Option<NumberText>,
-    /// Energy, over that at the start, below which a run is stable.
+    /// Maximum energy of a stable run, relative to the energy at the start.
     pub(crate) stable_below: Option<NumberText>,
-    /// Energy, over that at the start, above which a run is unstable.
+    /// Minimum energy of an unstable run, relative to the energy at the start.
     pub(crate) unstable_above: Option<NumberText>,
 }
 
-/// The parameter whose limit is sought, and its range.
+/// The parameter whose stability limit is sought, and its range.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -91,27 +91,27 @@ pub(crate) struct CriticalSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilityExpectSpec {
-    /// Cases that it speaks of, `*` standing for any text; all unless stated.
+    /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// Expected verdict of every row, or one for each.
+    /// Expected verdict of all rows, or a list with one verdict per row.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
-    /// The limit that is sought.
+    /// Bounds on the stability limit.
     pub(crate) critical: Option<FigureSpec>,
-    /// Bounds on figures of the runs.
+    /// Bounds on measured quantities of the runs.
     #[serde(default)]
     pub(crate) figures: Ordered<FigureSpec>,
-    /// The reason for expecting it.
+    /// Reason for the expectation.
     pub(crate) because: String,
 }
 
-/// Bounds on a figure.
+/// Bounds on a measured quantity.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FigureSpec {
-    /// A closed form, of the parameters.
+    /// Expected value, as a formula of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Maximum deviation: a share of the value, or of one if the value is smaller.
+    /// Maximum deviation from `is`, relative to the value, or to one if the value is smaller.
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

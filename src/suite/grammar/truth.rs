@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExactSpec {
-    /// Both together, of a body that moves.
+    /// Equation of motion, required together with `displacement` if the body moves.
     pub(crate) equation: Option<EquationName>,
     /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
@@ -19,18 +19,18 @@ pub(crate) struct ExactSpec {
     pub(crate) temperature: Option<NumberText>,
     /// Maximum residual relative to the terms of a condition, up to 1e-2; default 1e-8.
     pub(crate) tolerance: Option<NumberText>,
-    /// For a solution that satisfies its law to first order only.
+    /// Residual of a solution that satisfies its law to first order only.
     pub(crate) linearised: Option<LinearisedSpec>,
 }
 
-/// The residual that a linearised solution may leave, and the reason.
+/// The accepted residual of a linearised solution, and the reason.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearisedSpec {
     /// Maximum residual relative to the terms.
     pub(crate) tolerance: NumberText,
-    /// The reason for accepting it.
+    /// Reason for accepting the residual.
     pub(crate) because: String,
 }
 
@@ -44,8 +44,7 @@ pub(crate) struct ManufacturedSpec {
     pub(crate) temperature: Option<NumberText>,
 }
 
-/// An equation of motion, named after its constitutive law, which is a law of exact solutions or of
-/// the FEM bar.
+/// An equation of motion, named after its constitutive law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EquationName(&'static str);
 

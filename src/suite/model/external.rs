@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
-    /// examines the internals of a method. A convergence study keeps the cases that the suite
-    /// states for this solver. If there are none, it has one case for each combination of reference
-    /// and end. With `gate`, each case without an expectation must meet an order or an error bound.
+    /// examines the internals of a method. A convergence study keeps the cases that it states for
+    /// this solver, or else gets one case for each combination of reference and end. With `gate`,
+    /// each case without an expectation must meet an order or an error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
@@ -43,7 +43,8 @@ impl ConvergencePlan {
             plan.cases.retain(is_stated);
         } else {
             plan.cases = unstated(&plan, solver);
-            // A reference solves the material's equation; formulas may solve a simplified one.
+            // A reference is preferred to formulas, because formulas may solve a simplified
+            // equation.
             let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
             if has_reference && terms.is_some() {
                 plan.cases.retain(|case| case.against != Against::Exact);
@@ -80,7 +81,7 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Returns the treatment of a case by the gate, for a solver with this formal order.
+    /// Returns the role of a case in the gate, for a solver with this formal order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());
@@ -113,7 +114,7 @@ impl ConvergencePlan {
     }
 
     /// Returns the theoretical order on this problem for a solver with this formal order, and the
-    /// reason. `None` for an axis other than space, unless the suite states the order.
+    /// reason. `None` if an axis other than space is refined, unless the suite states the order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
@@ -134,7 +135,8 @@ impl ConvergencePlan {
     }
 
     /// Returns the smallest `error_below` among the suite's own expectations; `None` if one of them
-    /// has a verdict. Entries with `error_above` are ignored: they describe methods that fail.
+    /// has a verdict. Entries with `error_above` are ignored, because they describe methods that
+    /// fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {

@@ -1,9 +1,9 @@
 //! Hash of a text.
 
-/// Computes a hash: 64-bit FNV-1a (Fowler, Noll & Vo), modified to read eight bytes per step.
-/// Larger steps are faster, because a program has tens of millions of bytes and each step depends
-/// on the previous one. A shift after each product moves high bits down, where the next product
-/// spreads them. Every step is a bijection of the hash.
+/// Computes a 64-bit FNV-1a hash (Fowler, Noll & Vo), modified to read eight bytes per step. This
+/// is faster for programs of tens of millions of bytes, because each step depends on the previous
+/// one. A shift after each product moves high bits down, where the next product spreads them. Every
+/// step is a bijection of the hash.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     let next = |hash: u64, word: u64| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
@@ -19,7 +19,6 @@ pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
 
-    /// Changing any bit, or adding a byte, changes the hash.
     #[test]
     fn texts_that_differ_have_other_numbers() {
         let text: Vec<u8> = (1..20).collect();

@@ -25,12 +25,12 @@ pub struct GradientPlan {
     pub cases: Vec<GradientCase>,
 }
 
-/// A parameter with respect to which the functional is differentiated.
+/// A parameter for which the study verifies the derivative.
 #[derive(Debug, Clone)]
 pub struct Differentiated {
-    /// The parameter of the problem that is differentiated.
+    /// The problem parameter.
     pub parameter: GradientParameter,
-    /// Name of the suite parameter that sets it.
+    /// Name of the suite parameter that sets the problem parameter.
     pub name: String,
     /// The exact motion as a function of the suite parameter.
     pub motion: ParametricMotion,
@@ -61,7 +61,7 @@ pub struct GradientCase {
     pub parameter: usize,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(GradientTerms, String)>,
-    /// Treatment by `run --gate`, for a solver without an expectation.
+    /// Role in `run --gate` (required, not gated or excepted), for a solver without an expectation.
     pub gating: Option<Gating>,
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct ForcePlan {
     /// Cell size (m).
     pub cell: f64,
-    /// Particles per cell, before the moving particle leaves.
+    /// Particles per cell, before the moving particle changes its cell.
     pub ppc: u64,
     /// Volume of each particle (m).
     pub volume: f64,

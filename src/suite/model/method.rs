@@ -130,7 +130,7 @@ impl Method {
                     ("walls", "nodes on a fixed face are held"),
                     ("start", start.name()),
                 ];
-                // The default frame is not listed.
+                // The default frame is omitted.
                 if *frame == FrameName::Total {
                     rows.push(("frame", frame.name()));
                 }
@@ -166,7 +166,7 @@ impl Method {
     }
 }
 
-/// Properties that an external solver states about itself.
+/// Properties of an external solver, as stated by the solver.
 #[derive(Debug, Clone, Copy)]
 pub struct ExternalMethod<'a> {
     /// Solver name, which is also the name of its cases.
@@ -186,7 +186,7 @@ pub struct AnyMethod {
     pub error_below: Option<f64>,
     /// Whether no body deforms in the problem; a solver may then use any law.
     pub any_law: bool,
-    /// Whether the gate has requirements for external solvers.
+    /// Whether the gate applies to external solvers.
     pub gated: bool,
     /// The reason; empty if the key is absent.
     pub because: String,
@@ -200,14 +200,14 @@ impl Default for AnyMethod {
     }
 }
 
-/// Gate terms for one suite, from the configuration file of a solver's author.
+/// Requirements of the gate on one suite, from the configuration file of a solver's author.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GateTerms {
     /// Formal order that replaces the order stated by the solver.
     pub formal_order: Option<f64>,
     /// Required order on this suite.
     pub order: Option<f64>,
-    /// Error bound below which this suite requires no order.
+    /// Bound on errors that are accepted without an order.
     pub error_below: Option<f64>,
     /// Reason for not running this suite.
     pub skip: Option<String>,

@@ -35,13 +35,13 @@ pub struct Suite {
     pub group: String,
     /// Headline of the report.
     pub title: String,
-    /// Reference for the problem.
+    /// Source of the problem, such as a textbook.
     pub source: String,
     /// The author's remarks for readers.
     pub about: String,
     /// Name and text of every parameter, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
-    /// Head and body of each user function.
+    /// Head and formula of each declared function.
     pub functions: Vec<(String, String)>,
     /// The study plan.
     pub study: Arc<dyn StudyPlan>,
@@ -54,9 +54,9 @@ pub struct Suite {
 pub struct ConvergencePlan {
     /// The body with its conditions and loads.
     pub scene: Scene,
-    /// The checked problem that the formulas solve; `None` if the suite has a reference only.
+    /// The problem that the formulas solve; `None` if the suite has a reference only.
     pub exact: Option<Problem>,
-    /// The checked heat problem that the stated temperature solves, for a body at rest.
+    /// The heat problem that the stated temperature solves, for a body at rest.
     pub conduction: Option<Conduction>,
     /// A fine FEM computation to compare with.
     pub reference: Option<ReferencePlan>,
@@ -66,7 +66,7 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Kind of the steps. A load step advances time by one unit: a run of N load steps ends at time
+    /// Kind of steps. A load step advances time by one unit, so a run of N load steps ends at time
     /// N.
     pub steps: StepKind,
     /// Number of instants at which the error is measured.
@@ -81,13 +81,13 @@ pub struct ConvergencePlan {
     pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
-    /// Whether levels with cell crossings may count.
+    /// Whether the order may use levels on which particles change their cell.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Point whose displacement limit and velocity history are reported (m).
+    /// Point (m) whose displacement limit and velocity history are reported.
     pub observe: Option<Vec<f64>>,
-    /// The cases: the product of the lists in `methods`, in order.
+    /// The cases: all combinations of the lists in `methods`, in order.
     pub cases: Vec<Case>,
     /// Warnings that the suite acknowledges, in file order.
     pub acknowledged: Vec<WarningName>,
@@ -104,17 +104,18 @@ pub struct Case {
     pub solver: Option<String>,
     /// End of the run (s).
     pub until: f64,
-    /// The truth with which the case is compared.
+    /// The solution with which the case is compared.
     pub against: Against,
     /// Expectation for a usual run; `None` if the suite states no expectations.
     pub expectation: Option<Expectation>,
     /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Treatment by `run --gate`, for an external solver without an expectation.
+    /// Role in `run --gate` (required, not gated or excepted), for an external solver without an
+    /// expectation.
     pub gating: Option<Gating>,
 }
 
-/// The truth with which a case is compared.
+/// The solution with which a case is compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Against {
     /// The exact solution, given by formulas.
@@ -123,7 +124,7 @@ pub enum Against {
     Reference,
     /// A run by the same method with a much smaller spacing.
     SameMethod(SameMethod),
-    /// No truth: only changes of conserved quantities are bounded.
+    /// Nothing: only changes of conserved quantities are bounded.
     Nothing,
 }
 
@@ -143,7 +144,7 @@ pub struct ReferencePlan {
 }
 
 impl Against {
-    /// Returns the phrase for this truth in a sentence.
+    /// Returns the phrase for this solution in a sentence.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -153,12 +154,12 @@ impl Against {
         }
     }
 
-    /// Whether the truth is computed, and available only at instants that all runs share.
+    /// Whether the solution is computed, and available only at instants that all runs share.
     pub fn is_computed(self) -> bool {
         matches!(self, Self::Reference | Self::SameMethod(_))
     }
 
-    /// Returns the level of a fine-grid reference run; `None` for other truths.
+    /// Returns the level of a fine-grid reference run; `None` for other solutions.
     pub fn fine_grid(self) -> Option<LevelPlan> {
         match self {
             Self::SameMethod(SameMethod::FineGrid(level)) => Some(level),
@@ -237,7 +238,7 @@ impl StudyPlan for ConvergencePlan {
 }
 
 impl ConvergencePlan {
-    /// Returns the problem with a manufactured body force; `None` for other problems.
+    /// Returns the problem if its body force is manufactured.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
     }
@@ -279,7 +280,6 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     }
 }
 
-/// Returns the elements for whose index `keep` returns true.
 pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
     let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
     kept.map(|(_, member)| member.clone()).collect()

@@ -11,10 +11,10 @@ pub struct RefinePlan {
     pub levels: Vec<LevelPlan>,
     /// Number of levels that run without `--full`, starting with the coarsest.
     pub usual: usize,
-    /// The time steps as the suite states them: one formula of h, or one for each level.
+    /// The time steps as stated: one formula of h, or one for each level.
     pub steps: Vec<String>,
     /// Share of the stable time step, if time steps are automatic. The steps of the levels are then
-    /// preliminary: they do not depend on the state of the particles.
+    /// preliminary, because they do not depend on the particles.
     pub rule: Option<f64>,
 }
 
@@ -56,7 +56,7 @@ impl RefinePlan {
 }
 
 impl LevelPlan {
-    /// Returns the level with half the spacing along `axis`; `None` if it has no such spacing.
+    /// Returns the level with half the spacing along `axis`; `None` without such a spacing.
     pub fn halved(self, axis: Axis, dimension: usize) -> Option<Self> {
         match axis {
             Axis::Space => Some(Self { cells: 2 * self.cells, h: 0.5 * self.h, ..self }),
@@ -73,15 +73,16 @@ impl LevelPlan {
 }
 
 /// Minimum ratio of the cells of a fine-grid reference run to the cells of the finest level. For a
-/// second-order method, the error of the reference run is then 1/16 of that on the finest level.
+/// second-order method, the error of the reference run is then 1/16 of the error on the finest
+/// level.
 pub(crate) const FINE_GRID: u64 = 4;
 
-/// The spacing that a same-method reference run reduces.
+/// The spacing that is smaller in a same-method reference run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SameMethod {
     /// The time step (s), on the same grid, in a study of time steps.
     ShorterSteps(f64),
-    /// The cell size, in a study of space. Contains the level with the fine grid.
+    /// The cell size, in a study of space; contains the level with the fine grid.
     FineGrid(LevelPlan),
 }
 

@@ -25,9 +25,9 @@ pub struct SpectrumPlan {
     pub shift: f64,
     /// The waves, one for each report row.
     pub waves: Vec<Wave>,
-    /// External solvers, each with the case whose prediction applies to it.
+    /// External solvers, each with the case that predicts its results.
     pub solvers: Vec<(String, String)>,
-    /// The cases: the product of the lists in `methods`, in order.
+    /// The cases: all combinations of the lists in `methods`, in order.
     pub cases: Vec<SpectrumCase>,
 }
 
@@ -55,7 +55,7 @@ pub struct SpectrumCase {
     pub limit: Option<f64>,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(SpectrumExpectation, String)>,
-    /// Treatment by `run --gate`, for an external solver.
+    /// Role in `run --gate` (required, not gated or excepted), for an external solver.
     pub gating: Option<Gating>,
 }
 
@@ -66,17 +66,15 @@ impl SpectrumPlan {
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }
     }
 
-    /// Returns the scene with the initial velocity of `wave`.
     pub(crate) fn started(&self, wave: &Wave) -> Scene {
         Scene { initial_velocity: vec![wave.velocity.clone()], ..self.scene.clone() }
     }
 
-    /// Returns the translation of the particle lattice by `shift`.
     pub(crate) fn lattice(&self) -> LatticeEdits {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }
 
-    /// Returns the case whose prediction applies to the external solver `name`: the case that the
+    /// Returns the case that predicts the results of the external solver `name`: the case that the
     /// suite assigns to the solver, otherwise the case with the same name.
     fn case_of(&self, name: &str) -> Option<&SpectrumCase> {
         let stated = self.solvers.iter().find(|(solver, _)| solver == name);

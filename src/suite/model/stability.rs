@@ -11,7 +11,6 @@ use std::sync::Arc;
 /// A stability study.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    /// Template from which the set-up for any parameter values is computed.
     pub(crate) template: SetupTemplate,
     /// Name of the swept parameter.
     pub swept: String,
@@ -23,7 +22,7 @@ pub struct StabilityPlan {
     pub frozen: bool,
     /// Measured quantities in the report tables.
     pub figures: Vec<RunFigure>,
-    /// The cases: the product of the lists in `methods`, in order.
+    /// The cases: all combinations of the lists in `methods`, in order.
     pub cases: Vec<StabilityCase>,
 }
 
@@ -34,15 +33,14 @@ pub(crate) struct SetupTemplate {
     pub(crate) spec: StabilitySpec,
 }
 
-/// Changes of the particle lattice before a run.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LatticeEdits {
     /// Translation of all particles (m), one number for each axis; empty for none.
     pub(crate) shift: Vec<f64>,
     /// Offsets of the particles from the lattice.
     pub(crate) scatter: LatticeOffsets,
-    /// Positions of additional particles (m). All other properties equal those of the first
-    /// particle of the lattice.
+    /// Positions of additional particles (m), which are otherwise equal to the first particle of
+    /// the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
 }
 
@@ -55,11 +53,11 @@ pub struct StabilityCase {
     pub method: Method,
     /// Expectation for each row; empty if the suite states no expectations.
     pub expected: Vec<StabilityExpectation>,
-    /// All expectations in one line; `None` if the suite states no expectations.
+    /// Summary of all expectations in one line; `None` if the suite states none.
     pub summary: Option<String>,
     /// The reason for the expectations.
     pub because: String,
-    /// Treatment by `run --gate`, for an external solver.
+    /// Role in `run --gate` (required, not gated or excepted), for an external solver.
     pub gating: Option<Gating>,
 }
 

@@ -5,7 +5,7 @@ use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Names of the faces in axis order, the low face of each axis before the high face.
+/// Names of the faces in axis order, with the low face of each axis before the high face.
 pub(crate) const FACES: [&str; 6] = ["left", "right", "bottom", "top", "back", "front"];
 
 /// One face of the body.
@@ -28,7 +28,7 @@ impl SceneFace {
     }
 }
 
-/// Returns the number of the face called `name`. The name is the key at `path` if `is_key` is true,
+/// Returns the number of the face called `name`, which is the key at `path` if `is_key` is true,
 /// otherwise the value.
 pub(crate) fn face(
     evaluator: &Evaluator<'_>,
@@ -49,20 +49,17 @@ pub(crate) fn face(
     })
 }
 
-/// Returns the JSON schema of a face name.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_name(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": FACES})
 }
 
-/// Returns the JSON schema of the name of a face, or of a rim of a round body.
 #[cfg(feature = "schemas")]
 pub(crate) fn face_or_rim(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     let names: Vec<&str> = FACES.into_iter().chain(["inner", "outer"]).collect();
     schemars::json_schema!({"type": "string", "enum": names})
 }
 
-/// Returns the JSON schema of a map whose keys are face names.
 #[cfg(feature = "schemas")]
 pub(crate) fn by_face<T: schemars::JsonSchema>(
     all: &mut schemars::SchemaGenerator,

@@ -2,14 +2,14 @@
 
 use super::{Scene, SceneFace};
 
-/// Minimum length of a body (m). Powers of smaller lengths underflow.
+/// Minimum length of a body (m), because powers of smaller lengths underflow.
 pub(crate) const SHORTEST: f64 = 1e-30;
 
-/// Maximum length of a body (m). Powers of larger lengths overflow.
+/// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Number of spare grid cells outside a free face, for bodies that expand. The grid also extends
-/// beyond the face by a tenth of the body.
+/// Number of spare grid cells outside a free face, for bodies that expand. The grid is also
+/// extended there by a tenth of the body length.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {
@@ -65,7 +65,7 @@ pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
         Some((from, to)) => (from[axis], to[axis]),
         None => roomy(scene, axis, h),
     };
-    // Without the factor, a rounding error could add a cell to an integer number of cells.
+    // The factor keeps a rounding error from adding a cell.
     (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 

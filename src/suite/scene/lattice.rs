@@ -1,10 +1,10 @@
 //! The particle lattice that fills a body.
 //!
 //! A box is divided into equal parts. Other bodies use a lattice on the grid cells, with spacing
-//! `h/n` for n particles along a cell. The outline determines the part of each lattice cell in the
-//! body ([`Outline::cut`](crate::exact::Outline::cut)): all or nothing in a round body, the exact
-//! intersection in a polygon. A quadrilateral is filled by its bilinear map, independently of the
-//! grid.
+//! `h/n` for n particles along a cell. The outline determines which part of each lattice cell is in
+//! the body ([`Outline::cut`](crate::exact::Outline::cut)): all or nothing for a round body, the
+//! exact intersection for a polygon. A quadrilateral is filled by its bilinear map, independently
+//! of the grid.
 
 use super::Scene;
 use super::grid_size::grid_axis;
@@ -30,8 +30,8 @@ impl LatticeOffsets {
     }
 }
 
-/// Returns the box to fill: the body itself if it is a box, otherwise whole cells of the grid that
-/// starts at `origin`.
+/// Returns the box to fill with particles: the body itself if it is a box, otherwise whole cells of
+/// the grid that starts at `origin`.
 pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
     let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
         Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
@@ -44,7 +44,7 @@ pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -
     }
 }
 
-/// Whether a body with a free rim is smaller than one particle volume, for cell size `h`.
+/// Whether a body with a free surface is smaller than one particle volume, for cell size `h`.
 pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     scene.each().iter().filter(|body| body.outline.is_some() && body.mapped.is_none()).any(|body| {
         let mut shares = 0.0;
@@ -55,7 +55,7 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for any particle of a `body` with a free rim. The arguments of
+/// Whether `holds` returns true for any particle of a `body` with a free surface. The arguments of
 /// `holds` are the particle position (m) and the particle's share of a lattice cell. The grid of
 /// `scene` has cells of size `h`.
 pub(crate) fn any_particle(

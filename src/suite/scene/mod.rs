@@ -1,7 +1,7 @@
 //! The scene of a suite: the body with its conditions and loads.
 //!
-//! Each load and each boundary condition has one file, which contains the keys, their checks, and
-//! the conversions for the solver and the exact solution.
+//! Each load and each boundary condition has one file with its keys, their checks, and the
+//! conversions for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -30,7 +30,8 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// The map of a body that is a mapped box. All other bodies with an outline have free rims.
+    /// Map of a quadrilateral, which is a mapped box. All other bodies with an outline have free
+    /// surfaces.
     pub mapped: Option<Quadrilateral>,
     /// Lowest and highest corner of the stated grid (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
@@ -40,16 +41,16 @@ pub struct Scene {
     pub material: MaterialPlan,
     /// Reference density.
     pub density: Density,
-    /// The 2 D faces of a box in axis order, the low face of each axis before the high face. Empty
-    /// for a body with a free rim.
+    /// The 2 D faces of a box in axis order, with the low face of each axis before the high face.
+    /// Empty for a body with a free surface.
     pub faces: Vec<SceneFace>,
     /// Particle sets, each with one load.
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
     /// The bodies if there are several, otherwise empty. Each is a scene with the same grid, faces
-    /// and loads. This scene is then the bounding box of all bodies, with the material of the first
-    /// body.
+    /// and loads. In this case, `self` is the bounding box of all bodies, with the material of the
+    /// first one.
     pub bodies: Vec<Self>,
     /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
     /// field.
@@ -76,7 +77,7 @@ impl Scene {
         self.from.iter().zip(&self.to).map(|(from, to)| to - from).fold(0.0, f64::max)
     }
 
-    /// Returns the distance from the body or a face that is treated as rounding error (m).
+    /// Returns the distance (m) that is treated as rounding error.
     pub(crate) fn rounding(&self) -> f64 {
         ROUNDING * self.size()
     }
@@ -89,7 +90,7 @@ impl Scene {
             return false;
         }
         let Some(outline) = &self.outline else { return true };
-        // A position near the rim is inside if a small shift moves it inside.
+        // A position near the edge is inside if a small shift moves it inside.
         let moved = |k: usize| {
             let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
             label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
@@ -97,12 +98,10 @@ impl Scene {
         outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
     }
 
-    /// Whether the scene lists `effect`.
     pub(crate) fn lists(&self, effect: EffectName) -> bool {
         self.loads.iter().any(|load| load.effect == effect)
     }
 
-    /// Returns the loads on one part of the scene.
     pub(crate) fn loads_on(&self, target: LoadTarget) -> impl Iterator<Item = &ListedLoad> {
         self.loads.iter().filter(move |load| load.target() == target)
     }
@@ -113,12 +112,10 @@ impl Scene {
         self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
     }
 
-    /// Returns the heat conduction of the scene, if any.
     pub(crate) fn heat(&self) -> Option<&SceneHeat> {
         self.loads.iter().find_map(|load| load.heat())
     }
 
-    /// Returns the terms of the loads in the equation of motion.
     pub(crate) fn terms(&self) -> Vec<Arc<dyn Term>> {
         self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }

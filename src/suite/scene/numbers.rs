@@ -19,7 +19,6 @@ pub(crate) struct LoadNumbers {
 /// A quantity given by formulas of t, the coordinates and the displacement, or some of these.
 #[derive(Debug, Clone)]
 pub(crate) struct NumberField {
-    /// Key of the quantity.
     pub(crate) key: &'static str,
     /// Whether the quantity is a vector with D components.
     pub(crate) is_vector: bool,
@@ -38,7 +37,6 @@ impl LoadNumbers {
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// Creates numbers from one scalar.
     pub(crate) fn scalar(key: &'static str, formula: &Formula) -> Self {
         let field = NumberField { key, is_vector: false, formulas: vec![formula.clone()] };
         Self { field: Some(field), ..Self::default() }
@@ -49,7 +47,6 @@ impl LoadNumbers {
         Self { region: Some(region.clone()), ..self }
     }
 
-    /// Whether there are no numbers.
     pub(crate) fn is_empty(&self) -> bool {
         self.constants.is_empty() && self.field.is_none()
     }
@@ -61,7 +58,7 @@ impl NumberField {
         self.formulas.iter().map(Formula::constant).collect()
     }
 
-    /// Returns whether the value depends on the coordinates, on time and on the displacement, in
+    /// Returns whether the value depends on the coordinates, on time, and on the displacement, in
     /// `d` dimensions.
     pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
         let reads = |from: usize, to: usize| {
@@ -111,8 +108,8 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
 }
 
-/// Evaluates a formula at the reference position `label` (m) and time `t` for the displacement `u`
-/// (m). The formula need not depend on the displacement.
+/// Evaluates a formula at the reference position `label` (m) and time `t`, for the displacement `u`
+/// (m), on which the formula need not depend.
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
     label: &[f64],
@@ -128,7 +125,6 @@ pub(crate) fn of_displacement<T: Number>(
     formula.eval(&all[..formula.variables()])
 }
 
-/// Formats the formulas as text, for reports.
 pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }

@@ -5,10 +5,11 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use std::fmt;
 use std::ops::Range;
 
-/// Maximum length of a text in a diagnostic: a file may contain a key of 60 000 characters.
+/// Maximum length of a text in a diagnostic (characters). A file may contain a key of 60 000
+/// characters.
 const MAX_WORDS: usize = 300;
 
-/// Maximum length of advice, which may list all names of a family.
+/// Maximum length of advice (characters), which may list many names.
 const MAX_HELP: usize = 500;
 
 /// Severity of the diagnostic.
@@ -179,7 +180,7 @@ fn printable(words: &str) -> String {
     shortened(words, MAX_WORDS)
 }
 
-/// Printable text of at most `most` characters.
+/// Converts text to one safe line of at most `most` characters.
 fn shortened(words: &str, most: usize) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {

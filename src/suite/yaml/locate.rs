@@ -1,8 +1,8 @@
 //! Locates a value in a file after parsing.
 //!
 //! The YAML library reports positions only in errors. The text is therefore parsed again with a
-//! seed that follows a path and fails on purpose at the end of the path. This needs no second
-//! parser, and the position agrees with the first parse.
+//! seed that follows a path and fails on purpose at its end. The position thus agrees with the
+//! first parse, without a second parser.
 
 use super::{Diagnostic, OneOrMany, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -31,29 +31,25 @@ impl From<usize> for Step {
     }
 }
 
-/// The path of a value in a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Path(Vec<Step>);
 
 impl Path {
-    /// Returns the path of a top-level key.
     pub(crate) fn top(key: &str) -> Self {
         Self(vec![Step::from(key)])
     }
 
-    /// Returns the path with one more step.
     pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
         let mut longer = self.0.clone();
         longer.push(step.into());
         Self(longer)
     }
 
-    /// Returns the path of alternative `i`, for `alternatives` at this path.
+    /// Returns the path of value `i` of the setting `alternatives` at this path.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
-    /// Returns the steps of the path.
     pub(crate) fn steps(&self) -> &[Step] {
         &self.0
     }
@@ -201,7 +197,7 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Compares a key with `wanted`. Fails on purpose at the key to be located.
+/// Key to compare with `wanted`. Deserialization fails on purpose at the key to be located.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

@@ -58,5 +58,6 @@ pub use source::{MAX_BYTES, Source};
 /// Maximum number of entries in a list or a map.
 pub const MAX_ENTRIES: usize = 1000;
 
-/// Maximum nesting depth of lists and maps. The cost of the YAML parser is quadratic in the depth.
+/// Maximum nesting depth of lists and maps, because the cost of the YAML parser is quadratic in the
+/// depth.
 pub const MAX_NESTING: usize = 64;

@@ -8,8 +8,8 @@ use std::marker::PhantomData;
 
 /// A number in a suite, or a formula for a number: `25`, `1e-3` or `"pi/(2*L)"`.
 ///
-/// Formulas are not parsed here. `Display` returns the text to parse; for a number, it returns the
-/// shortest text that parses to the same number.
+/// The text of a formula is not parsed here. `Display` returns this text; for a number, it returns
+/// the shortest text that parses to the same number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumberText {
     /// A finite number.
@@ -29,7 +29,7 @@ impl fmt::Display for NumberText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Formula(text) => f.write_str(text),
-            // Without an exponent, 1e300 would be a one and 300 zeros.
+            // Without an exponent, 1e300 would be printed as 1 and 300 zeros.
             Self::Number(value) if *value != 0.0 && !(1e-5..1e16).contains(&value.abs()) => {
                 write!(f, "{value:e}")
             }
@@ -92,9 +92,7 @@ impl Visitor<'_> for NumberOrFormula {
 /// A number or formula, or a map in its place: `1e-3`, `{courant: 0.5}`.
 #[derive(Clone, Debug)]
 pub(crate) enum NumberOr<T> {
-    /// A number, or the text of a formula.
     Number(NumberText),
-    /// A map in place of a number.
     Map(T),
 }
 

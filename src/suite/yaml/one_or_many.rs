@@ -7,7 +7,8 @@ use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, Se
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A setting that a suite may vary: `scheme: [musl, usl]` gives one case for each entry.
+/// A setting that a suite may vary. For example, `scheme: [musl, usl]` gives one case for each
+/// entry.
 ///
 /// The list is never empty. `T` may be a number, text, a struct or an enum. It must not be a list,
 /// because the first bracket always opens the list of alternatives.

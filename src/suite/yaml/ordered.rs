@@ -16,7 +16,7 @@ impl<T> Ordered<T> {
         &self.0
     }
 
-    /// Replaces the value of `name`, if it exists.
+    /// Replaces the value of `name`, if there is one.
     #[must_use]
     pub fn with(mut self, name: &str, value: T) -> Self {
         if let Some((_, old)) = self.0.iter_mut().find(|(key, _)| key == name) {

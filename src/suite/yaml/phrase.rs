@@ -60,7 +60,6 @@ pub(crate) fn found(serde: &str) -> String {
     )
 }
 
-/// Formats the names in backticks, separated by commas.
 pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     quoted.join(", ")

@@ -15,8 +15,8 @@ pub struct Place {
 impl Place {
     /// Returns the position of a byte range of `text`, cut at the end of its first line.
     ///
-    /// Any range is valid: its ends are moved into the text and to character boundaries. A range
-    /// that starts at the end of the text is moved back to the last visible character.
+    /// Any range is valid, because its ends are moved into the text and to character boundaries. A
+    /// range that starts at the end of the text is moved to the last visible character.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         let start = if range.start >= text.len() {
             text.trim_end().len()
@@ -58,7 +58,8 @@ impl Place {
     }
 }
 
-/// Returns the byte range, without line break, of the line at `offset`, a character boundary.
+/// Returns the byte range, without line break, of the line that contains the character boundary
+/// `offset`.
 pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);

@@ -1,5 +1,5 @@
 //! Converts a checked text to a typed value, and rewrites errors of the YAML library for authors of
-//! suites. Also writes and reads text that only this program uses.
+//! suites. Also reads and writes YAML that only this program uses.
 
 use super::phrase::{expected, found, listed, syntax};
 use super::shape::{TopValue, refused};
@@ -28,25 +28,18 @@ pub(crate) struct CheckedShape<'s> {
 }
 
 impl<'s> CheckedShape<'s> {
-    /// Checks the shape of `source`. Stores the value of the top-level key `key`.
-    ///
-    /// # Errors
-    /// The first shape error, with its position.
+    /// Checks the shape of `source`, and stores the value of the top-level key `key`.
     pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
         let top = shape::check(source, key);
         let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
         Ok(Self { source, top })
     }
 
-    /// Returns the stored value of the key.
     pub(crate) fn top(&self) -> &TopValue {
         &self.top
     }
 
     /// Parses the file into a type. The error for a missing key shows a value from `sample`.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
         let parser = serde_yaml::Deserializer::from_str(self.source.text());
         serde_yaml::with::singleton_map_recursive::deserialize(parser)
@@ -67,9 +60,6 @@ impl From<WriteError> for String {
 }
 
 /// Writes a value as YAML text.
-///
-/// # Errors
-/// [`WriteError`] if the library cannot write the value.
 pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }
@@ -79,7 +69,8 @@ pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
 
-/// Returns a valid value for a key. Arguments: owner of the key (empty: the whole file), and key.
+/// Function that returns a sample value for a key. Its arguments are the owner of the key (empty
+/// for the whole file) and the key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
 /// Converts an error of the library to a diagnostic at the same position.
@@ -133,7 +124,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// Returns this fault, moved to the first name after a bracket, and that name.
+    /// Moves this fault to the first name after a bracket, and also returns that name.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
@@ -150,7 +141,7 @@ impl<'a> Fault<'a> {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
         };
-        // The name may contain anything from the file; the expected text is from this crate.
+        // The name may contain any text from the file; the expected text is from this crate.
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
@@ -198,7 +189,7 @@ impl<'a> Fault<'a> {
         })
     }
 
-    /// Returns the error for unexpected or missing settings of a choice, or for several choices.
+    /// Returns the error for a choice with missing or unexpected settings, or for several choices.
     fn wrong_settings(self, unexpected: &str, wanted: &str) -> Option<Diagnostic> {
         let (fault, name) = self.at_first_name();
         match (unexpected, wanted) {

@@ -59,7 +59,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Returns the first column that belongs to the current block.
+    /// Returns the first column of the current block.
     fn least_column(&self) -> usize {
         self.indents.last().map_or(0, |indent| indent + 1)
     }

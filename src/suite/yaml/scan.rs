@@ -1,15 +1,15 @@
 //! Scans a file before parsing: checks its nesting depth and refuses unsupported features.
 //!
-//! The cost of the YAML parser is quadratic in the nesting depth, and its own limit applies too
-//! late. The scan follows the parser's rules for the start of tokens only, and builds no values. If
-//! a file is not YAML, the scan stops, and the parser reports the reason. The scan records the
-//! extent of each scalar, for carets that underline a whole scalar. It also reports brackets and
-//! quotes that are never closed, which the parser would only report at the end of the file.
+//! The cost of the YAML parser is quadratic in the nesting depth, and its own depth limit applies
+//! too late. The scan follows the parser's rules for the start of tokens, and builds no values. It
+//! stops if a file is not YAML, and the parser reports the reason. The scan records the extent of
+//! each scalar, because carets underline whole scalars. It also reports unclosed brackets and
+//! quotes, which the parser would only report at the end of the file.
 
 use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
 
-/// The extent of one scalar, including its quotes.
+/// The extent of one scalar with its quotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Scalar {
     pub(crate) range: Range<usize>,
@@ -25,7 +25,8 @@ pub(crate) enum Style {
 }
 
 impl Scalar {
-    /// Returns the byte range of the value, if it is verbatim: without escapes or folded lines.
+    /// Returns the byte range of the value without quotes; `None` if it has escapes or folded
+    /// lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let Range { start, end } = self.range;
         let (inside, altered) = match self.style {
@@ -61,7 +62,7 @@ pub(crate) fn scan(name: &str, text: &str) -> Result<Vec<Scalar>, Diagnostic> {
     Ok(scanner.scalars)
 }
 
-/// State of the scan. Its methods are named after YAML rules.
+/// State of the scan. Its methods are named after rules of YAML.
 pub(crate) struct Scanner<'t> {
     pub(crate) name: &'t str,
     pub(crate) text: &'t str,
@@ -232,7 +233,6 @@ impl Scanner<'_> {
     }
 }
 
-/// Position in the text.
 impl Scanner<'_> {
     pub(crate) fn byte(&self, ahead: usize) -> Option<u8> {
         self.text.as_bytes().get(self.at + ahead).copied()
@@ -247,7 +247,8 @@ impl Scanner<'_> {
         !self.open.is_empty()
     }
 
-    /// Returns the column in bytes: only ASCII text precedes a block key or dash on its line.
+    /// Returns the column in bytes, because only ASCII text precedes a block key or dash on its
+    /// line.
     pub(crate) fn column(&self) -> usize {
         self.at - self.line_start
     }
@@ -286,7 +287,6 @@ impl Scanner<'_> {
     }
 }
 
-/// Diagnostics of the scan.
 impl Scanner<'_> {
     pub(crate) fn nesting(&self) -> Result<(), Diagnostic> {
         if self.open.len() + self.indents.len() <= MAX_NESTING {
@@ -305,7 +305,7 @@ impl Scanner<'_> {
             .with_label(&format!("no matching `{closing}`")))
     }
 
-    /// Returns the error, at the opening bracket, for a closing bracket of another kind.
+    /// Returns the error for a closing bracket that does not match the opening bracket at `start`.
     pub(crate) fn crossed(&self, start: usize, byte: u8) -> Diagnostic {
         let (bracket, byte) = (&self.text[start..=start], byte as char);
         let closing = Place::of(self.text, self.here());

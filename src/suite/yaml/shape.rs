@@ -1,28 +1,23 @@
-//! Rules for every suite file, independent of its keys: no duplicate keys, no merge keys, limited
-//! lists, finite numbers only.
+//! Checks rules for every suite file, independent of its keys: no duplicate keys, no merge keys,
+//! limited lists, finite numbers only.
 //!
-//! A separate pass checks the shape. A typed parser would notice a duplicate key only after its
+//! A separate pass is needed: a typed parser would report a duplicate key only after parsing its
 //! value, and a field of type `f64` accepts `.nan`.
 
 //!
-//! Refusals are messages of this crate that pass through the error type of a deserializer. That
-//! type holds one string; the YAML library adds a path before the message and a position after it.
-//! Separators mark the parts of the message. A file cannot forge separators, because sources with
-//! control characters are refused.
+//! A refusal has three texts, but the error type of a deserializer holds one string, to which the
+//! YAML library adds a path and a position. Separators therefore mark the three texts. A file
+//! cannot forge separators, because sources with control characters are refused.
 
 use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::collections::HashSet;
 use std::fmt;
 
-/// Value of a top-level key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum TopValue {
-    /// The file has no such key.
     Absent,
-    /// Text.
     Text(String),
-    /// Anything else.
     Other,
 }
 
@@ -34,7 +29,7 @@ pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::
     Ok(found)
 }
 
-/// Checks the shape of a value.
+/// Deserialization seed that checks the shape of a value.
 enum ShapeCheck<'k> {
     /// The whole file, and the key whose value is stored.
     Root { key: &'k str, found: &'k mut TopValue },
@@ -129,7 +124,7 @@ impl<'de> Visitor<'de> for ShapeCheck<'_> {
     }
 }
 
-/// Deserializes a map key and refuses duplicates. The error is located at the key.
+/// Deserializes a map key, and refuses a duplicate with an error at the key.
 pub(crate) struct NewKey<'a> {
     pub(crate) seen: &'a mut HashSet<String>,
 }
@@ -169,7 +164,6 @@ impl Visitor<'_> for NewKey<'_> {
     }
 }
 
-/// Refuses a list or a map with more than the maximum number of entries.
 pub(crate) fn within_cap<E: de::Error>(length: usize, what: &str) -> Result<(), E> {
     if length <= MAX_ENTRIES {
         return Ok(());

@@ -7,7 +7,7 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Maximum file size (bytes). A long suite has a tenth of this size.
+/// Maximum file size (bytes), about ten times the size of a long suite.
 pub const MAX_BYTES: usize = 64 * 1024;
 
 /// A text that is safe to parse, with its file name.
@@ -66,8 +66,8 @@ impl Source {
         Ok(Self { name, text, scalars })
     }
 
-    /// Paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted by file
-    /// name.
+    /// Returns the paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted
+    /// by file name.
     ///
     /// # Errors
     /// If a folder cannot be read.
@@ -104,7 +104,7 @@ impl Source {
         &self.text
     }
 
-    /// Returns a diagnostic at a position in this file.
+    /// Creates a diagnostic at a position in this file.
     pub fn diagnostic(&self, place: Place, message: &str) -> Diagnostic {
         Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
@@ -114,7 +114,6 @@ impl Source {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
 
-    /// Returns the scalar that starts at byte `offset`.
     pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
@@ -144,7 +143,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// Reads all bytes of a reader, up to the maximum. The size may be unknown in advance, or grow.
+/// Reads all bytes up to the maximum. The size may be unknown in advance, or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -152,8 +151,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether the file is a named pipe. A named pipe may have no writer, so reading it may block. A
-/// pipe that the shell opens for a command has a writer.
+/// Whether the file is a named pipe, which may have no writer, so reading it may block. Pipes that
+/// the shell opens for a command have a writer.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

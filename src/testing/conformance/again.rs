@@ -4,7 +4,6 @@ use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
 use crate::subject::{Checkpoint, Samples, Subject, SubjectError};
 
-/// Creates the subject in its initial state.
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, SubjectError>;
 
 /// Reports a breach if a second call of `sample` changes the given samples or appends to them.
@@ -16,8 +15,8 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     Some(Breach::new("sample", wanted, seen))
 }
 
-/// Reports a breach if a step ignores its given length: points must move half as far in a step of
-/// half the length. Not applicable to a body that starts at rest.
+/// Reports a breach if the step length is ignored: in a step of half the length, points must move
+/// half as far. Returns `None` for a body that starts at rest.
 pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
@@ -32,7 +31,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     };
     let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
     let far = largest(&whole);
-    // In a stable step, forces cannot reduce the distance to a quarter.
+    // In a stable step, forces do not reduce the distance to less than a quarter.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
         return Some(Breach::new("step", wanted, format!("{far:e} m at most")));
@@ -45,7 +44,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Reports a breach if another subject of the same problem gives a different run. Rounding
+/// Reports a breach if a second subject of the same problem gives a different run. Rounding
 /// differences are allowed, because sums may be computed in another order.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
@@ -61,8 +60,8 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
     Some(Breach::new("repeat", wanted, off.next()?))
 }
 
-/// Reports a breach if a checkpoint disturbs the run, does not match, or continues differently from
-/// the uninterrupted run. Not applicable to a subject without checkpoints.
+/// Reports a breach if saving a checkpoint changes the run, or if a run resumed from the checkpoint
+/// differs from the uninterrupted run. Not applicable to a subject without checkpoints.
 pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
     let (first, rest) = states.split_at(states.len().div_ceil(2));
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];

@@ -9,8 +9,8 @@ use crate::subject::Samples;
 /// Maximum relative rounding error of numbers passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the body volume and the sum of all sample weights. Solvers
-/// may resolve the rim differently.
+/// Maximum relative difference between the body volume and the sum of all sample weights. It is
+/// large because solvers may resolve the body's edge differently.
 const RIM: f64 = 0.1;
 
 /// Returns breaches due to columns of wrong size and numbers that are not finite.
@@ -93,9 +93,9 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     vec![Breach::new("weights", wanted, format!("{sum:e} m^D"))]
 }
 
-/// Returns breaches due to displacements and velocities that differ from those of the particles.
-/// Velocities may be those half a step before the start, which differ by less than half of the
-/// largest velocity.
+/// Returns breaches due to initial displacements and velocities that differ from those of the
+/// particles. Leapfrog solvers may report the velocities half a step before the start, so a
+/// difference of up to half the largest velocity is allowed.
 fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let particles = &problem.particles;
     let mut breaches = Vec::new();
@@ -142,7 +142,6 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
                 breaches.push(Breach::new(about, wanted, seen));
             }
         }
-        // The first step with a breach is sufficient.
         if !breaches.is_empty() {
             break;
         }
@@ -150,7 +149,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     breaches
 }
 
-/// Returns a breach if the work does not grow with each step.
+/// Returns a breach if the counter `transfers` does not grow in every step.
 pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     let work: Vec<u64> = states.iter().map(|state| state.counters.transfers).collect();
     let step = (1..work.len()).find(|step| work[*step] <= work[step - 1])?;
@@ -190,7 +189,6 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
                 note(wanted, format!("{:e}", now.min_j));
             }
         }
-        // The first step with a breach is sufficient.
         if !breaches.is_empty() {
             break;
         }

@@ -19,10 +19,10 @@ use crate::subject::SubjectError;
 use crate::suite::{ConvergencePlan, Suite, embedded};
 use record::{RunState, record};
 
-/// Number of steps per run.
 const STEPS: usize = 6;
 
-/// Built-in suites for the checks, starting with the simplest. Their bodies move from the start.
+/// Built-in suites for the checks, starting with the simplest. Their bodies move at the start,
+/// because a body at rest hides errors of the step length.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 
@@ -71,9 +71,6 @@ pub(crate) fn examined(
 }
 
 /// Returns the coarsest level of a suite.
-///
-/// # Errors
-/// One line with the reason why the solver cannot run the suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
     let lacks = lacking(suite, solver);
@@ -98,7 +95,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let mut states = vec![RunState::from_subject(subject.as_ref())];
     let mut breaches = course::counts(problem, &states[0].samples);
     if !breaches.is_empty() {
-        // Without valid columns nothing else can be compared.
+        // The other checks need valid columns.
         return breaches;
     }
     breaches.extend(course::start(problem, &states[0].samples));
@@ -115,7 +112,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     if breaches.is_empty() {
         breaches.extend(again::repeat(&make, &states, problem.dt));
     }
-    // These comparisons need two subjects, and are meaningful only if runs are repeatable.
+    // These comparisons are meaningful only if runs are repeatable.
     if breaches.is_empty() {
         breaches.extend(again::step_length(&make, &states, problem.dt));
         breaches.extend(again::restart(&make, &states, problem.dt));

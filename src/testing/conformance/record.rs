@@ -19,7 +19,8 @@ impl RunState {
     }
 }
 
-/// Appends the state after each of the `steps` steps of length `dt` (s), until a step fails.
+/// Advances the subject by `steps` steps of length `dt` (s) and appends the state after each, until
+/// a step fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
     steps: usize,
@@ -65,7 +66,6 @@ pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Op
     })
 }
 
-/// Returns the largest magnitude of a column.
 pub(super) fn largest(column: &[f64]) -> f64 {
     column.iter().fold(0.0, |most: f64, number| most.max(number.abs()))
 }

@@ -13,15 +13,12 @@ pub(super) struct Course {
     pub(super) failure: Option<String>,
 }
 
-/// A sample column of a state.
 pub(super) type Field = fn(&Samples) -> &[f64];
 
-/// Returns the displacements (m).
 pub(super) fn displacement(samples: &Samples) -> &[f64] {
     &samples.displacement
 }
 
-/// Returns the velocities (m/s).
 pub(super) fn velocity(samples: &Samples) -> &[f64] {
     &samples.velocity
 }
@@ -56,7 +53,6 @@ impl Course {
         samples.velocity = at_labels(velocity);
     }
 
-    /// Returns the index of the last state.
     pub(super) fn last(&self) -> usize {
         self.states.len() - 1
     }
@@ -74,12 +70,12 @@ impl Course {
         sum.map(|sum| sum / all)
     }
 
-    /// Returns the largest distance between a point's vector and `wanted` in state `k`.
+    /// Returns the largest distance between `wanted` and the vector of a point in state `k`.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }
 
-    /// Returns label and vector of every point in state `k`; components on missing axes are zero.
+    /// Returns the label of every point and its vector in state `k`; missing components are zero.
     pub(super) fn points(
         &self,
         field: Field,
@@ -118,7 +114,6 @@ pub(super) fn shown(x: f64) -> String {
     }
 }
 
-/// Formats a vector.
 pub(super) fn shown_vector(x: [f64; 3], dimension: usize) -> String {
     let all: Vec<String> = x[..dimension].iter().map(|x| shown(*x)).collect();
     format!("({})", all.join(", "))
@@ -151,12 +146,10 @@ pub(super) struct AffineField {
 }
 
 impl AffineField {
-    /// Creates a uniform field.
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
     }
 
-    /// Evaluates the field at a position (m).
     pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
         let from = minus(place, self.centre);
         std::array::from_fn(|i| {
@@ -181,7 +174,7 @@ impl AffineField {
         (0..dimension).map(formula).collect()
     }
 
-    /// Returns the field in units of value and length that are smaller by these factors.
+    /// Converts the field to other units: multiplies values by `value` and lengths by `length`.
     pub(super) fn scaled(&self, value: f64, length: f64) -> Self {
         Self {
             value: self.value.map(|x| x * value),

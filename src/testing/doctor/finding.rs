@@ -9,7 +9,7 @@ named! {
     pub enum FindingWeight {
         /// A defect that should be repaired.
         Defect = "defect",
-        /// A property of a correct scheme that its author should know.
+        /// A property of a correct scheme, for the information of its author.
         Remark = "remark",
     }
 }
@@ -114,7 +114,7 @@ impl ExaminationResult {
     }
 }
 
-/// Advice for solvers that ignore nodes with little mass.
+/// Code to check in solvers that ignore nodes with little mass.
 pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
      be zero, or far below the mass of a particle times the smallest weight";
 
@@ -168,7 +168,6 @@ fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
     row(lines, "  look at", &finding.look_at);
 }
 
-/// Returns the overall result in one sentence.
 fn verdict(report: &DoctorReport) -> String {
     if let Some(why) = &report.silent {
         return format!("verdict: {} cannot be examined: {why}", report.solver);

@@ -52,7 +52,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Returns why no examination is possible, from the result of the first examination.
+/// Returns the reason why no examination is possible, from the result of the first one.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {
@@ -66,7 +66,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
     }
 }
 
-/// Name of the finding on a solver that does not complete an examination.
+/// Name of the finding that a run did not complete.
 const BROKE: &str = "does-not-get-through";
 
 fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {
@@ -93,7 +93,7 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// Returns the first examination with defects on which this examination depends.
+/// Returns the first examination with defects among those that `examination` depends on.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

@@ -7,10 +7,8 @@ use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use crate::subject::{Precision, SubjectError};
 use rayon::prelude::*;
 
-/// Result of an examination.
 #[derive(Default)]
 pub(super) struct Examined {
-    /// Measured values.
     pub(super) measured: String,
     pub(super) findings: Vec<SolverFinding>,
 }
@@ -32,7 +30,6 @@ impl From<SubjectError> for Hindrance {
     }
 }
 
-/// A solver under examination.
 pub(super) struct Patient<'a> {
     pub(super) solver: &'a dyn SolverFactory,
 }
@@ -48,12 +45,13 @@ impl Patient<'_> {
     pub(super) fn rounding(&self) -> f64 {
         match self.solver.precision() {
             Precision::Double => 1e-9,
-            // 24 bits resolve 6e-8; several hundred steps and a change of units increase the error.
+            // 24 bits resolve 6e-8. Several hundred steps and a change of units increase the error.
             Precision::Single => 1e-3,
         }
     }
 
-    /// Returns the first scene that the solver supports, in order of `dimensions`, then `laws`.
+    /// Returns the first scene that the solver supports, over all `dimensions`, and all `laws` in
+    /// each.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
@@ -63,7 +61,7 @@ impl Patient<'_> {
         self.able_with(dimensions, laws, scene, &|_| {})
     }
 
-    /// Like [`Patient::able`], for scenes with additional requirements, set by `more`.
+    /// Like [`Patient::able`], for scenes with the additional requirements that `more` sets.
     pub(super) fn able_with(
         &self,
         dimensions: &[usize],
@@ -136,9 +134,7 @@ impl Patient<'_> {
     }
 }
 
-/// An examination of a solver.
 pub(super) struct Examination {
-    /// Name in reports.
     pub(super) name: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,

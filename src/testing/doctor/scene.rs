@@ -7,7 +7,6 @@ use crate::subject::SubjectError;
 use crate::suite::yaml::Source;
 use crate::suite::{ConvergencePlan, Suite};
 
-/// Number of dimensions and name of a law.
 pub(super) type Kind = (usize, &'static str);
 
 /// Finite-strain elastic laws that are linear at small strains, starting with the simplest.
@@ -24,10 +23,11 @@ pub(super) const ANY: [&str; 7] =
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Stiffness factor with negligible effect, even at nodes whose mass is only a rounding error.
+/// Stiffness factor of a soft body. It is negligible even at nodes whose mass is only a rounding
+/// error.
 pub(super) const SOFT: f64 = 1e-24;
 
-/// Names of the faces of a box, lower and higher face of each axis.
+/// Names of the lower and the higher face of a box for each axis.
 pub(super) const FACES: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["back", "front"]];
 
 /// Coefficient of friction of a Drucker-Prager soil.
@@ -72,8 +72,8 @@ pub(super) struct BoxScene {
 }
 
 impl BoxScene {
-    /// Creates a soft body at rest with `cells` cells along each axis, starting at `from`, and
-    /// `margin` empty cells around it.
+    /// Creates a body at rest with `cells` cells along each axis. Its lowest corner is `from`, and
+    /// `margin` empty cells surround it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -93,7 +93,8 @@ impl BoxScene {
             poisson: 0.3,
             strength: 1e-4,
             dilation: 1.0 / 3.0,
-            // Must not be a power, product or ratio of the other numbers, see `fall::factors`.
+            // Must not be a power, product or ratio of the other numbers, so causes of wrong
+            // factors differ (see `fall::factors`).
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -115,12 +116,10 @@ impl BoxScene {
         Self { steps, dt, ..self }
     }
 
-    /// Returns this scene with negligible stiffness.
     pub(super) fn soft(&self) -> Self {
         Self { young: SOFT * self.young, ..self.clone() }
     }
 
-    /// Returns the centre of the body (m).
     pub(super) fn centre(&self) -> [f64; 3] {
         let (low, high) = &self.body;
         std::array::from_fn(|i| if i < self.dimension { 0.5 * (low[i] + high[i]) } else { 0.0 })
@@ -139,7 +138,8 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// Returns this scene in different units of length, time and mass.
+    /// Converts the scene to other units of length, time and mass, given by the factors of their
+    /// numbers.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -159,7 +159,6 @@ impl BoxScene {
         }
     }
 
-    /// Formats the material in suite notation.
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
@@ -219,10 +218,7 @@ impl BoxScene {
         )
     }
 
-    /// Converts the scene to a problem with its requirements, with a sample after every step.
-    ///
-    /// # Errors
-    /// One line with the reason why the scene is not a valid problem.
+    /// Converts the scene to a problem and its requirements. Samples are taken after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
@@ -240,17 +236,11 @@ impl BoxScene {
     }
 
     /// Runs this crate's MPM with PIC and the named basis, to show averaging alone.
-    ///
-    /// # Errors
-    /// One line with the reason why this run is not possible.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }
 
-    /// A run of the built-in MPM with `method`, in the notation of suites.
-    ///
-    /// # Errors
-    /// One line with the reason why there is none.
+    /// Runs the built-in MPM with `method`, in suite notation.
     pub(super) fn built_in(&self, method: &str) -> Result<Course, SubjectError> {
         let suite = self.suite(method)?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;

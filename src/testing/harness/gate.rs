@@ -1,4 +1,4 @@
-//! The gate of a suite: comparison with theory, report drift from the snapshot, and case run times.
+//! Tests of a suite: comparison with theory, report drift from the snapshot, and case run times.
 
 use crate::external::SolverFactory;
 use crate::report;
@@ -17,13 +17,12 @@ use std::path::{Path, PathBuf, absolute};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A folder of suites, and the solver to test.
 pub(super) struct Gate {
     pub(super) folder: PathBuf,
     pub(super) snapshots: PathBuf,
-    /// The solver that replaces the methods of the suites, if any.
+    /// Solver that replaces the methods of the suites.
     pub(super) solver: Option<&'static dyn SolverFactory>,
-    /// Whether to compare snapshots of all suites together.
+    /// Whether to compare the snapshots that cover all suites.
     pub(super) with_overview: bool,
 }
 
@@ -52,7 +51,6 @@ impl Gate {
         trials
     }
 
-    /// Returns the tests of the snapshots of all suites together.
     fn of_all(&self, suites: Vec<Arc<SharedSuite>>) -> [Trial; 2] {
         let suites: Arc<[Arc<SharedSuite>]> = suites.into();
         let trial = |name: &'static str, text: fn(&[SuiteOutcome]) -> String| {
@@ -80,7 +78,6 @@ impl Gate {
         }
     }
 
-    /// Returns the snapshot folder of a suite, given by the relative path of its file.
     fn snapshots_of(&self, file: &Path) -> PathBuf {
         let folder = file.parent().unwrap_or(Path::new(""));
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
@@ -104,9 +101,6 @@ impl Gate {
 }
 
 /// Returns `suite` with `solver` in place of its methods.
-///
-/// # Errors
-/// One line with the reason why the solver cannot run the suite.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
     let suite = under(suite, solver, true).ok_or("it looks inside the methods of this crate")?;
     match lacking(&suite, solver) {
@@ -123,7 +117,6 @@ fn stem(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// Checks whether a solver conforms to the contract of `Subject`.
 fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Failed> {
     match examined(solver, suite) {
         Err(why) => Ok(Completion::ignored_with(why)),
@@ -153,7 +146,6 @@ impl SharedSuite {
         })
     }
 
-    /// Compares a case with its expectation.
     fn hold(&self, index: usize) -> Result<Completion, Failed> {
         let outcome = self.case(index);
         if !outcome.is_tested() {
@@ -172,7 +164,7 @@ impl SharedSuite {
         })
     }
 
-    /// Compares the report with its snapshot. Without any run there is no report.
+    /// Compares the report with its snapshot, unless no case was run.
     fn compare_report(&self) -> Result<Completion, Failed> {
         let outcome = self.outcome();
         if let [first, ..] = &outcome.cases[..]
@@ -185,7 +177,6 @@ impl SharedSuite {
     }
 }
 
-/// Creates the test that compares the report of a suite.
 fn report(suite: &Arc<SharedSuite>) -> Trial {
     let of_report = Arc::clone(suite);
     Trial::ignorable_test(format!("{}::report", suite.suite.name), move || {
@@ -193,7 +184,6 @@ fn report(suite: &Arc<SharedSuite>) -> Trial {
     })
 }
 
-/// Creates the tests of the cases of a suite, with the listed methods or with `solver`.
 fn trials(
     suite: Suite,
     snapshots: &Path,
@@ -215,7 +205,8 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // A suite without expectations is ignored; it must not look like a passing gate.
+        // A suite without expectations is ignored, because a passing test would look like a passing
+        // gate.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };
@@ -227,7 +218,6 @@ fn trials(
     (trials, shared)
 }
 
-/// Compares the report of `suite` with its snapshot in `folder`.
 pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result<(), Failed> {
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(absolute(folder)?);
@@ -271,7 +261,6 @@ static CASES: Mutex<Vec<(Duration, String)>> = Mutex::new(Vec::new());
 /// Maximum number of cases, and of suites, in the list of the slowest.
 const SHOWN: usize = 10;
 
-/// Records the run time of a case.
 pub(super) fn record_time(time: Duration, case: &str) {
     CASES.lock().unwrap_or_else(PoisonError::into_inner).push((time, case.to_string()));
 }

@@ -51,9 +51,10 @@ impl SuiteFolder {
         Self(Gate { snapshots: folder.clone(), folder, solver: None, with_overview: false })
     }
 
-    /// Tests a solver in place of the methods of the suites. Its order is compared with the suite's
-    /// expectation for this solver, otherwise with the order that the solver states. A case that
-    /// needs a missing capability is ignored with the reason, and does not count as passed.
+    /// Tests a solver in place of the methods of the suites. The observed order is compared with
+    /// the suite's expectation for this solver, otherwise with the order that the solver states. A
+    /// case that needs a missing capability is ignored with the reason, and does not count as
+    /// passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
         // The tests live until the end of the process, and so must the solver.
@@ -68,8 +69,8 @@ impl SuiteFolder {
         self
     }
 
-    /// Adds two snapshots of all suites together: `OVERVIEW`, with the result of each case and the
-    /// matrix of problems and methods, and `profile`, with the memory and passes of a step.
+    /// Adds two snapshots that cover all suites. `OVERVIEW` contains the result of each case and
+    /// the matrix of problems and methods; `profile` contains the memory and passes of a step.
     #[must_use]
     pub fn with_overview(mut self) -> Self {
         self.0.with_overview = true;
@@ -91,8 +92,9 @@ impl SuiteFolder {
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on rayon threads, and a test thread only waits. A rayon thread that has
-        // finished its part of one case starts another case, which then delays the first.
+        // Cases run on rayon threads, and a test thread only waits. A rayon thread that finishes
+        // its part of one case may start another case, which delays the first. More tests than
+        // threads therefore wait at the same time.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

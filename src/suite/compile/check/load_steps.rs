@@ -1,5 +1,5 @@
-//! Checks of suites that use load steps instead of time steps. They refuse keys that need a time,
-//! and loads, boundary conditions and laws that the quasi-static solver does not support.
+//! Checks suites that use load steps instead of time steps. Refuses keys that need a time, and
+//! loads, boundary conditions and laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator};
@@ -9,10 +9,7 @@ use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Refuses load steps with keys that need a time, and quasi-static methods without load steps.
-///
-/// # Errors
-/// A diagnostic at the key, with the reason.
+/// Refuses suites that combine load steps with keys for time, or a quasi-static method with time.
 pub(crate) fn refuse_time(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -80,11 +77,7 @@ pub(crate) fn refuse_time(
     }
 }
 
-/// Refuses a scene in which load steps are meaningless, or that the quasi-static solver does not
-/// support.
-///
-/// # Errors
-/// A diagnostic at the unsupported part of the scene, with the reason.
+/// Refuses a scene that load steps do not support.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -162,7 +155,6 @@ fn is_held(scene: &Scene, axis: usize) -> bool {
     scene.faces.iter().any(holds)
 }
 
-/// Names of the face conditions that the quasi-static solver supports.
 const KNOWN_CONDITIONS: [&str; 4] = ["free", "fixed", "roller", "periodic"];
 
 /// Returns the reason why the quasi-static solver cannot apply `load`; `None` if it can.
@@ -191,7 +183,7 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     of_displacement.then_some("it depends on the displacement, which the tangent does not contain")
 }
 
-/// Returns the paths of the loads in the file, in the order of `scene`.
+/// Returns the paths of the loads in the suite file, in the order of `scene`.
 fn listed_paths(spec: &ConvergenceSpec, scene: &Scene) -> Vec<Path> {
     let mut stated: Vec<(EffectName, Path)> = spec
         .scene

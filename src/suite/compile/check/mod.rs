@@ -1,5 +1,5 @@
-//! Checks that involve several keys. They refuse features that the solvers, the loads or the exact
-//! solution do not support. Checks of sizes, time steps and judged sums are in separate files.
+//! Checks that involve several keys: they refuse features that the solvers, the loads or the exact
+//! solution do not support.
 
 pub(crate) mod load_steps;
 pub(crate) mod size;
@@ -16,7 +16,6 @@ use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Conserved, Limits};
 
-/// Refuses conditions that the FEM bar does not support, if the suite uses the FEM bar.
 pub(crate) fn refuse_conditions_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -53,7 +52,6 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses the FEM bar, as method or reference, if it has no law for the material.
 pub(crate) fn refuse_law_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -93,8 +91,7 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses a study that one of its loads does not support, and the FEM if it does not support all
-/// loads.
+/// Refuses loads that do not support the study, and the FEM bar if it does not support all loads.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -112,7 +109,7 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the FEM, as method or reference, for a scene with this unsupported `effect`.
+/// Refuses the FEM bar, as method or reference, because it does not support `effect`.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -128,7 +125,6 @@ fn refuse_fem_without(
     }
 }
 
-/// Refuses to judge a quantity that the FEM does not compute.
 pub(crate) fn refuse_quantity_unknown_to_fem(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -154,8 +150,8 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses bounds on the drift of sums that the FEM does not compute; `path` is the path of the
-/// expectation.
+/// Refuses bounds, in the expectation at `path`, on the drift of sums that the FEM bar does not
+/// compute.
 pub(crate) fn check_drift(
     evaluator: &Evaluator<'_>,
     path: &Path,

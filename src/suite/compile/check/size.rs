@@ -11,10 +11,9 @@ use crate::suite::yaml::{Diagnostic, Path};
 /// Maximum number of particles per level, and of nodes per level.
 const MOST: f64 = 5e7;
 
-/// Distance (cells) between a fixed face and the grid face that is treated as rounding error.
+/// Maximum distance (cells) between a fixed face and the grid face that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Paths of the keys that determine the size and time step of a level.
 pub(crate) struct LevelPaths {
     pub(crate) size: Path,
     pub(crate) dt: Path,
@@ -73,7 +72,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a body with a free rim if the body is smaller than one particle volume.
+/// Refuses a body with a free surface that is smaller than one particle volume.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -91,7 +90,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// Returns name and amount of a quantity that exceeds its limit; `None` if there is none.
+/// Returns the name and the amount of a quantity that exceeds its limit.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -111,8 +110,8 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// Refuses grids whose last face does not coincide with a fixed face of the body, or whose end does
-/// not coincide with the stated period. Conditions apply to the nodes on the last grid face.
+/// Refuses grids whose last face is not on a fixed face of the body, because conditions apply to
+/// the nodes of that grid face. Also refuses periodic grids whose length is not the stated period.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -141,7 +140,6 @@ pub(crate) fn held_faces(
     Ok(())
 }
 
-/// Refuses sets that contain no particle.
 fn sets(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,5 +1,3 @@
-//! Checks that time steps are valid.
-
 use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::{Against, Case, ConvergencePlan};
@@ -10,7 +8,7 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 /// Label under the caret for a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
-/// A stated time step (s), and the clock computed from it.
+/// A stated time step (s), and the actual steps computed from it.
 #[derive(Clone, Copy)]
 struct StatedStep {
     dt: f64,
@@ -18,8 +16,8 @@ struct StatedStep {
 }
 
 /// Checks that every level and the reference have valid time steps. If time is refined, the steps
-/// must decrease from level to level. Instants that a run shares with a computed reference must not
-/// change its step by more than the tolerance.
+/// must decrease from level to level. Runs that are compared with a computed reference must share
+/// its instants without changing their step by more than the tolerance.
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -72,7 +70,7 @@ fn usable(
     })
 }
 
-/// Refuses a level whose actual step equals that of the previous level, as in a short run.
+/// Refuses a level with as many steps as the previous level, which can happen in a short run.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,

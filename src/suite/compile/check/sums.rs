@@ -1,4 +1,5 @@
-//! Checks that every method and the exact solution define the judged sum over the body.
+//! Checks that every method and the exact solution define the judged quantity if it is a sum over
+//! the body, such as the energy.
 
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
@@ -11,7 +12,8 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// Returns the judged sum and its exact value; `None` if the judged quantity is not a sum.
+/// Returns the sum that the suite judges, with its exact value; `None` if the suite judges another
+/// quantity.
 ///
 /// # Errors
 /// The reason why a method or the exact solution does not define the sum.
@@ -145,7 +147,6 @@ fn rotation(
     Ok(())
 }
 
-/// Returns the indices of the walls whose reaction is judged.
 fn walls(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -198,7 +199,8 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a consistent mass matrix, which adds the inertia of other nodes to the wall reaction.
+/// Refuses a consistent mass matrix if a wall reaction is judged, because the reaction would
+/// include the inertia of other nodes.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
@@ -210,7 +212,7 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("use `lumped` to judge a reaction"))
 }
 
-/// Refuses an energy bound for a body whose law has no energy; `path` is the path of the bound.
+/// Refuses the energy bound at `path` for a body whose law has no energy.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -11,12 +11,11 @@ use std::collections::BTreeMap;
 
 /// A method before its name is final.
 pub(crate) struct MethodDraft {
-    /// Index of the entry in `methods`.
     entry: usize,
     pub(crate) method: Method,
     /// Name of the solver; `None` for built-in methods.
     solver: Option<String>,
-    /// Whether each setting is part of the name, in the order of [`settings`].
+    /// Whether each setting appears in the name, in the order of [`settings`].
     said: Vec<bool>,
 }
 
@@ -28,7 +27,6 @@ pub(crate) struct NamedMethod {
 }
 
 impl MethodDraft {
-    /// Returns the first part of the names of the method's cases.
     fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
         let subject = self.solver.as_deref().unwrap_or(subject);
@@ -68,8 +66,8 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
     }
 }
 
-/// Compiles entry number `entry` to methods, one for each combination of list values. A setting is
-/// part of the name if the entry lists several values, or if the setting has no default.
+/// Compiles entry number `entry` to methods, one for each combination of list values. A setting
+/// appears in the name if the entry lists several values, or if the setting has no default.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -165,7 +163,6 @@ pub(crate) fn methods(
     Ok(drafts)
 }
 
-/// Refuses an entry that combines `scheme: quasi_static` with keys or schemes of dynamics.
 fn refuse_keys_of_dynamics(
     evaluator: &Evaluator<'_>,
     entry: usize,
@@ -200,7 +197,6 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-/// Returns the number of methods in an entry.
 pub(crate) fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
@@ -226,7 +222,7 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// Gives the methods their final names. Refuses an empty list, and equal methods.
+/// Gives the methods their final names. Refuses an empty list and duplicate methods.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
@@ -255,8 +251,8 @@ fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds settings to equal names. Returns whether a name has changed: the new name may equal that of
-/// another method, so this step must be repeated.
+/// Adds settings to equal names, and returns whether a name has changed. A new name may equal that
+/// of another method, so the caller repeats this step.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -287,17 +283,14 @@ fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
     list.map_or(vec![default], |list| list.as_slice().to_vec())
 }
 
-/// Returns the length of an optional list; 1 if absent.
 fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
 }
 
-/// Whether an optional list has several values.
 fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }
 
-/// Checks the name of a solver and returns it.
 fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
     if is_solver_name(name) {
         return Ok(name.to_owned());

@@ -18,14 +18,12 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
 use methods::{NamedMethod, count, methods, named};
 
-/// Maximum number of cases in a suite.
 const MOST_CASES: usize = 1000;
 
-/// Maximum number of load steps in a run.
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// Compiles the ends of the runs. Returns for each end its text in case names, and its value (s, or
-/// number of load steps).
+/// Compiles the ends of the runs. Returns for each end its text in case names and its value (s, or
+/// the number of load steps).
 pub(crate) fn ends(
     evaluator: &Evaluator<'_>,
     run: &RunSpec,
@@ -46,7 +44,6 @@ pub(crate) fn ends(
     }
 }
 
-/// Compiles the numbers of load steps.
 fn load_steps(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -67,7 +64,6 @@ fn load_steps(
     Ok(counts)
 }
 
-/// Compiles the end times of the runs (s).
 fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
@@ -87,7 +83,6 @@ fn until(
     Ok(ends)
 }
 
-/// Compiles all cases of a suite, without expectations.
 pub(crate) fn cases(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -120,7 +115,6 @@ pub(crate) fn cases(
     Ok(drafts.into_iter().map(case).collect())
 }
 
-/// Returns the cases of `plan`, each with its expectation.
 pub(crate) fn expected(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -137,7 +131,6 @@ pub(crate) fn expected(
     Ok(cases.iter().zip(expectations).map(with).collect())
 }
 
-/// A case without expectation.
 struct Draft {
     name: String,
     method: Method,
@@ -146,7 +139,7 @@ struct Draft {
     against: Against,
 }
 
-/// Returns the truths of the study, each with its suffix in case names.
+/// Returns the solutions to compare with, each with its suffix in case names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -157,8 +150,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// Returns the cases of one method, for all run ends and truths. A case name includes the end or
-/// the truth only if there are several.
+/// Returns the cases of one method, for all run ends and all solutions to compare with. A case name
+/// includes the end or the solution only if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
     let mut drafts = Vec::new();
     for (text, until_value) in until {
@@ -206,7 +199,7 @@ fn combined(
     })
 }
 
-/// Refuses too many combinations of list values before they are computed.
+/// Refuses too many combinations of list values, before they are computed.
 fn few(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -278,8 +271,8 @@ fn possible(
     }
 }
 
-/// Returns the reason why the scene's walls cannot be combined with a consistent mass matrix;
-/// `None` if they can.
+/// Returns the reason why walls of the scene exclude a consistent mass matrix; `None` if they do
+/// not.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
@@ -294,8 +287,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// Returns the default law of an FEM case, which is the law of the material. The check
-/// `fem_support` has already refused materials without such a law.
+/// Returns the default law of an FEM case: the law of the material. The check `fem_support` has
+/// already refused materials without such a law.
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

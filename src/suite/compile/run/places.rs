@@ -7,17 +7,16 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum displacement of a particle, as a share of the spacing: halfway to the next particle.
+/// Maximum offset of a particle from its lattice, as a share of the spacing: halfway to the next
+/// particle.
 const MOST: f64 = 0.5;
 
-/// Maximum random displacement as a share of the spacing if a face carries a load. With this limit,
-/// the particle layer at the face remains distinct from the next layer.
+/// Maximum random offset, as a share of the spacing, if a face carries a load. It keeps the
+/// particle layer at the face separate from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 
-/// The default seed of random displacements.
 const SEED: u64 = 1;
 
-/// Compiles the stated offsets of particles from their lattice.
 pub(crate) fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -12,9 +12,6 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
 /// Compiles the FEM reference, if `spec` states one.
-///
-/// # Errors
-/// A diagnostic about a missing key, or about a scene that is not one-dimensional.
 pub(crate) fn reference(
     evaluator: &Evaluator<'_>,
     spec: &ReferenceSpec,
@@ -44,12 +41,11 @@ pub(crate) fn reference(
     }))
 }
 
-/// Minimum ratio of the time step on the finest level to that of the same-method reference run. The
-/// start of the reference run is second-order accurate. For a second-order method, the error of the
-/// reference run is then 1/64 of that on the finest level.
+/// Minimum ratio of the time step on the finest level to the step of the same-method reference run.
+/// For a second-order method, the error of the reference run is then 1/64 of the error on the
+/// finest level.
 const SHORTER: f64 = 8.0;
 
-/// Compiles the reference run by the same method, if the suite states one.
 pub(crate) fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -94,7 +90,7 @@ pub(crate) fn same_method(
     }
 }
 
-/// Returns the time step of the reference run (s), and refuses one that is too long.
+/// Returns the time step of the reference run (s). Refuses a step that is too long.
 fn shorter(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -141,7 +137,7 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Returns `level` with the cell size and the time step for its number of cells.
+/// Returns `level` with the cell size and the time step that belong to its number of cells.
 fn with_step(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -163,7 +159,8 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles form no lattice, because only lattices are interpolated.
+/// Refuses bodies whose particles form no lattice, because the fine-grid reference is interpolated
+/// on a lattice.
 fn one_lattice(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,5 +1,5 @@
-//! Compiles the refinement plan: the key with a list is refined. Time steps are stated, or
-//! automatic as a share of the stable time step.
+//! Compiles the refinement plan. The key with a list is refined; time steps are stated or a share
+//! of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -12,13 +12,12 @@ use crate::suite::scene::grid_size::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 
-/// A list entry with its path.
 struct Located<T> {
     value: T,
     at: Path,
 }
 
-/// Compiles the levels of a suite, and the positions in the file for diagnostics about each level.
+/// Compiles the levels of a suite. Also returns their positions in the file, for diagnostics.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -60,7 +59,7 @@ pub(crate) fn plan(
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// Refuses an expectation for a full run if the suite has no additional levels for a full run.
+/// Refuses an expectation for a full run if the suite has no levels for full runs.
 fn no_idle_expectation(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -73,7 +72,7 @@ fn no_idle_expectation(
     Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"))
 }
 
-/// Returns the entry for level `k`: its own, or the single entry shared by all levels.
+/// Returns the entry for level `k`, which is the only entry if all levels share one.
 fn of_level<T>(entries: &[Located<T>], k: usize) -> Option<&Located<T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
@@ -82,7 +81,8 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
     spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// Returns the refined axis. Only cells and time steps may both be lists, with one entry per level.
+/// Returns the refined axis. At most one key is a list, except that `cells` and `dt` may both have
+/// one entry per level.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = Path::top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
@@ -168,7 +168,6 @@ fn equally_spaced(
     Err(evaluator.diagnostic(&ppc.at, &message).with_label(&label))
 }
 
-/// Compiles the time steps: one step in `run`, or a list in `refine`.
 fn steps(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -225,8 +224,8 @@ pub(crate) fn stable_share(
     }
 }
 
-/// Returns the step (s) as a formula of h: the stated step, or the preliminary value of an
-/// automatic step, which does not depend on particles.
+/// Returns the step (s) as a formula of h: the stated step, or a preliminary value for an automatic
+/// step, which is computed when the particles exist.
 pub(crate) fn step_formula(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -246,7 +245,6 @@ pub(crate) fn step_formula(
     Err(evaluator.diagnostic(path, message).with_label("expected a number"))
 }
 
-/// Refuses methods without automatic time steps.
 fn refuse_methods_without_rule(
     evaluator: &Evaluator<'_>,
     methods: &[MethodSpec],

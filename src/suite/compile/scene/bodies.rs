@@ -8,10 +8,8 @@ use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{BodySpec, OneBodySpec, SceneSpec, StressSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum number of bodies in a scene.
 const MOST: usize = 100;
 
-/// The keys of one body, and their path.
 pub(crate) struct Listed<'w> {
     /// Path of the map that contains these keys.
     pub(crate) at: Path,
@@ -22,7 +20,6 @@ pub(crate) struct Listed<'w> {
     pub(crate) initial_velocity: Option<&'w Vec<NumberText>>,
 }
 
-/// Returns the keys of each body of a scene.
 pub(crate) fn listed<'w>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -63,7 +60,7 @@ pub(crate) fn listed<'w>(
     }])
 }
 
-/// Refuses keys of a single body together with a list of bodies.
+/// Refuses keys of a single body next to a list of bodies.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -94,7 +91,6 @@ fn refuse_beside(
     Ok(())
 }
 
-/// Compiles the friction coefficient of the contact between bodies, if there is contact.
 pub(crate) fn contact(
     evaluator: &Evaluator<'_>,
     path: &Path,

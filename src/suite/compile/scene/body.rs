@@ -17,7 +17,6 @@ use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Compiles one body with its conditions and loads.
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -102,7 +101,6 @@ fn dimension(
     }
 }
 
-/// Compiles the faces of a box or a quadrilateral, in axis order.
 fn faces(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -114,7 +112,6 @@ fn faces(
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
-/// Compiles the boundary conditions of all faces, in axis order.
 fn holds(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -154,7 +151,7 @@ fn both_ends(
 }
 
 /// Replaces the free faces of a body at rest by faces at rest. Refuses keys that fix, load or move
-/// the body, and a list of bodies. `path` is the path of the map that contains the body.
+/// the body, and a list of bodies. `path` is the map that contains the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -225,7 +222,7 @@ fn plane(
     Ok(plane)
 }
 
-/// Refuses a material (at `path`) whose law is not implemented for the plane state.
+/// Refuses the material at `path` if its law is not implemented for the plane state.
 fn knows(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -8,15 +8,11 @@ use crate::suite::model::Scene;
 use crate::suite::scene::load::EffectName;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Returns the path of the density of a body.
 fn path(own: &Listed<'_>) -> Path {
     own.at.then("material").then(own.material.name()).then("density")
 }
 
 /// Compiles a density that is a number; returns `None` for a formula of the coordinates.
-///
-/// # Errors
-/// A diagnostic about a density that is not positive.
 pub(crate) fn uniform(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -29,17 +25,13 @@ pub(crate) fn uniform(
     }
 }
 
-/// Whether `diagnostic` reports that a coordinate is an unknown name in the formula of a number.
+/// Whether `diagnostic` reports that the formula of a constant uses a coordinate.
 pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
     let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
     COORDINATES.iter().any(names)
 }
 
 /// Compiles the varying density of a body with the shape of `scene`.
-///
-/// # Errors
-/// A diagnostic about the formula, a position in the body with a density that is not positive, or a
-/// part of the scene that does not support a varying density.
 pub(crate) fn varying(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -78,7 +70,7 @@ fn not_positive(
     evaluator.unusable(path, text, &message, label)
 }
 
-/// Returns why a part of the scene does not support a varying density; `None` if all parts do.
+/// Returns the reason why the scene does not support a varying density; `None` if it does.
 fn unsupported(scene: &Scene) -> Option<&'static str> {
     if scene.mapped.is_some() || scene.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
         return Some("masses are integrated in a box or a round body only");
@@ -93,9 +85,6 @@ fn unsupported(scene: &Scene) -> Option<&'static str> {
 }
 
 /// Refuses loads that require a uniform density.
-///
-/// # Errors
-/// A diagnostic at the density.
 pub(crate) fn refuse_loads(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,

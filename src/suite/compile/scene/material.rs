@@ -8,7 +8,6 @@ use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Compiles the material at `path`.
 pub(crate) fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -33,7 +32,7 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// Adds help to a diagnostic about a parameter that varies in space.
+/// Adds help to a diagnostic if it reports a parameter that varies in space.
 fn uniform(diagnostic: Diagnostic) -> Diagnostic {
     if !names_coordinate(&diagnostic) {
         return diagnostic;
@@ -99,14 +98,10 @@ fn poissons_ratio(
     Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
 }
 
-/// Names of stress components, each with row and column of the tensor.
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
 /// Compiles the initial displacement (m); empty if not stated.
-///
-/// # Errors
-/// A diagnostic about a formula, or about a `material` that cannot start deformed.
 pub(crate) fn displacement(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -121,9 +116,6 @@ pub(crate) fn displacement(
 }
 
 /// Compiles the initial velocity (m/s); empty if not stated.
-///
-/// # Errors
-/// A diagnostic about a formula.
 pub(crate) fn velocity(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -136,10 +128,6 @@ pub(crate) fn velocity(
 }
 
 /// Compiles the initial stress of the reference configuration.
-///
-/// # Errors
-/// A diagnostic about a `material` without initial stress, about a component on a missing axis, or
-/// about a formula.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -168,7 +156,7 @@ pub(crate) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// Returns text with the stress components that a scene of this dimension can state.
+/// Lists the stress components that a scene of this dimension can state.
 fn known(dimension: usize) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();

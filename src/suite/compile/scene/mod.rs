@@ -15,7 +15,6 @@ use crate::suite::scene::boundary::FreeFace;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Compiles the scene of a suite.
 pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let listed = bodies::listed(evaluator, &path, spec)?;
@@ -32,9 +31,9 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene
     Ok(scene)
 }
 
-/// Checks that the grid contains the body. A fixed face must lie on the grid face, because its
-/// condition applies to grid nodes. A periodic axis must end at the grid face. If the body may
-/// start deformed, the grid period is checked later against the period of the motion.
+/// Checks that the grid contains the body. Fixed and periodic faces must lie on grid faces, because
+/// conditions apply to grid nodes. If the body may start deformed, the grid period is checked later
+/// against the period of the motion.
 fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -67,7 +66,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// Combines all `bodies` into one scene. A single body is the scene itself.
+/// Combines all `bodies` into one scene, which is the body itself if there is only one.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -102,7 +101,8 @@ fn together(
     Ok(scene)
 }
 
-/// Frees the faces of a body that are not on the bounding box of all bodies, where the walls are.
+/// Makes the faces of a body free unless they are on the bounding box of all bodies, where the
+/// walls are.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;
@@ -120,7 +120,6 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     }
 }
 
-/// Refuses bodies that overlap.
 fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {

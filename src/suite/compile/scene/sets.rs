@@ -8,10 +8,10 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Volumes up to this share of a box count as rounding errors.
+/// Maximum volume, as a share of a box, that counts as rounding error.
 const SLIVER: f64 = 1e-12;
 
-/// Compiles the particle sets, without loads.
+/// Compiles the particle sets. Their loads are compiled later.
 pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -44,7 +44,6 @@ fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Resul
     Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
 }
 
-/// Refuses a set outside the bounding box of the body.
 fn refuse_outside(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -66,7 +65,7 @@ fn refuse_outside(
     Ok(())
 }
 
-/// Refuses a set that contains no part of a body that is not a box.
+/// Refuses a set that contains no part of a round or polygonal body.
 fn refuse_beside(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -6,7 +6,6 @@ use crate::suite::model::stability::SetupTemplate;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
 
-/// Returns the measured quantities that an entry of `expect` bounds.
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -24,7 +23,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect` to expectations, one for each of the `rows` of parameter values.
+/// Compiles entry `i` of `expect`, to one expectation for each of the `rows` of parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
@@ -44,7 +43,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // The suite's own values are evaluated first, which marks parameters as used.
+    // Evaluating the suite's own values first marks its parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
@@ -76,8 +75,8 @@ fn row(
     })
 }
 
-/// Refuses an entry without expectations, a bound on a limit in a study that determines no limit,
-/// and bounds on runs in a study that determines a limit.
+/// Refuses an entry without expectations. Also refuses a bound on a limit if the study determines
+/// no limit, and bounds on runs if it determines one.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -131,7 +130,6 @@ fn wanted(
     Ok(FigureBounds { is, above, below })
 }
 
-/// Returns a one-line summary of an entry.
 pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
     let mut parts = Vec::new();
     if let Some(verdicts) = &spec.verdict {

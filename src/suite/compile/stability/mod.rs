@@ -21,10 +21,8 @@ use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::{RunSetup, setup};
 
-/// Maximum number of rows, and of cases, in a study.
 const MOST: usize = 500;
 
-/// Compiles a stability study.
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     source: &Source,
@@ -32,7 +30,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // The suite's own values are evaluated first, which marks parameters as used.
+    // Evaluating the suite's own values first marks its parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
@@ -61,7 +59,6 @@ pub(crate) fn plan(
     Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
 }
 
-/// Returns name and values of the swept parameter.
 fn sweep(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -87,7 +84,6 @@ fn sweep(
     Ok((name.clone(), values))
 }
 
-/// Refuses an undeclared parameter in `sweep` or `critical`.
 fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -104,7 +100,6 @@ fn declared(
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
 }
 
-/// Returns the parameter whose limit is sought, and its range.
 fn sought(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -126,7 +121,7 @@ fn sought(
     Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
 }
 
-/// Refuses too many combinations of list values before they are computed.
+/// Refuses too many combinations of list values, before they are computed.
 fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic> {
     let mut all = 0_usize;
     for (i, spec) in spec.methods.iter().enumerate() {
@@ -139,7 +134,6 @@ fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic
     Ok(())
 }
 
-/// Compiles all combinations of the lists in `methods`.
 fn drafts(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

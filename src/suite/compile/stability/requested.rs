@@ -1,4 +1,4 @@
-//! Quantities with a separate measurement, which a run makes only if a suite requests them.
+//! Quantities that a run measures separately, only if a suite requests them.
 
 use crate::mpm::TransferKind;
 use crate::subject::PlaneState;
@@ -10,7 +10,7 @@ use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::RunFigure;
 
-/// Returns the first quantity under `show` or `expect` for which `is_meant` is true, with its path.
+/// Returns the first quantity in `show` or `expect` for which `is_meant` is true, with its path.
 fn first(
     spec: &StabilitySpec,
     is_meant: impl Fn(RunFigure) -> bool,
@@ -41,7 +41,8 @@ fn refuse_several_bodies(
     Err(evaluator.diagnostic(path, &message))
 }
 
-/// Whether a requested quantity needs the null space of the grid, implemented for one body only.
+/// Whether a requested quantity needs the null space of the grid. Refuses several bodies, for which
+/// the null space is not implemented.
 pub(crate) fn null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -52,8 +53,8 @@ pub(crate) fn null_space(
     Ok(true)
 }
 
-/// Whether a requested quantity needs the energy ledger, which assigns the energy of one body to
-/// the stages of a step.
+/// Whether a requested quantity needs the energy ledger, which assigns energy changes to the stages
+/// of a step. Refuses several bodies.
 pub(crate) fn ledger(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -76,8 +77,7 @@ pub(crate) fn ledger(
     Ok(true)
 }
 
-/// Refuses a method whose steps the energy ledger does not describe; `path` is the entry of
-/// `methods`.
+/// Refuses the method at `path` if the energy ledger does not describe its steps.
 pub(crate) fn refuse_unledgered(
     evaluator: &Evaluator<'_>,
     path: &Path,

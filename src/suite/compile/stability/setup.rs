@@ -15,13 +15,11 @@ use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::Scales;
 
-/// Initial perturbation amplitude for a run with frozen particles.
+/// Default initial perturbation amplitude for a run with frozen particles.
 const PERTURBATION: f64 = 1e-9;
 
-/// Parameter names and their values.
 pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
 
-/// Set-up of one run.
 #[derive(Debug, Clone)]
 pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
@@ -33,18 +31,15 @@ pub(crate) struct RunSetup {
     /// exist.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
-    /// Number of steps in a full run.
     pub(crate) full_steps: u64,
     pub(crate) frozen: bool,
-    /// Whether a run keeps an energy ledger.
     pub(crate) ledger: bool,
-    /// Amplitude of the random perturbation at the start.
     pub(crate) perturb: f64,
     pub(crate) scales: Scales,
 }
 
 impl SetupTemplate {
-    /// Returns the evaluator of the suite with `values` instead of the declared values.
+    /// Returns the evaluator of the suite with `values` in place of the values in the file.
     pub(crate) fn evaluator(
         &self,
         values: &ParameterValues<'_>,
@@ -56,13 +51,11 @@ impl SetupTemplate {
         Ok(Evaluator::new(&self.source, &parameters, &self.spec.functions)?.0)
     }
 
-    /// Computes the set-up of a run for these values.
     pub(crate) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
         setup(&self.evaluator(values)?, &self.spec)
     }
 }
 
-/// Computes the set-up that `spec` states.
 pub(crate) fn setup(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
@@ -211,15 +204,14 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
-/// Maximum energy of a stable run, relative to the initial energy. This limit allows for the energy
-/// exchange between velocities and stresses after a random start just below the stability limit of
-/// a leapfrog scheme.
+/// Default maximum energy of a stable run, relative to the initial energy. It allows for the energy
+/// exchange between velocities and stresses in a leapfrog scheme just below its stability limit.
 const STABLE_BELOW: f64 = 1e3;
 
-/// Energy above which a run is unstable, relative to the initial energy.
+/// Default energy, relative to the initial energy, above which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Returns scales and bounds for the runs of `scene`.
+/// Returns the scales of measured values and the energy bounds for runs of `scene`.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

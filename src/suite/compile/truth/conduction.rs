@@ -73,7 +73,7 @@ fn refuse_methods_of_other_bodies(
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
-/// Refuses keys that judge, observe, expect or state quantities of a motion.
+/// Refuses keys about the motion, because the body is at rest.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "the judged quantity needs a motion, but the body is `rigid`";
@@ -107,7 +107,7 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     }
 }
 
-/// Compiles the heat problem of `scene` with the temperature at `path`, which is not checked yet.
+/// Compiles the heat problem of `scene` with the temperature at `path`, which is checked later.
 /// Returns `None` if the suite has neither heat nor temperature.
 pub(crate) fn problem(
     evaluator: &Evaluator<'_>,
@@ -158,7 +158,6 @@ pub(crate) fn problem(
     }))
 }
 
-/// Refuses methods without heat conduction.
 fn refuse_methods_without_heat(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -198,7 +197,7 @@ fn refuse_methods_without_heat(
     Ok(())
 }
 
-/// Inputs of a heat problem other than the scene.
+/// Inputs of a heat problem in addition to the scene.
 pub(crate) struct ConductionInputs {
     /// Deformation of the body.
     pub(crate) motion: Option<Motion>,
@@ -210,7 +209,7 @@ pub(crate) struct ConductionInputs {
     pub(crate) tolerance: f64,
 }
 
-/// Refuses a temperature at `path` that does not solve its heat problem.
+/// Refuses the temperature at `path` if it does not solve the heat problem.
 pub(crate) fn refuse_wrong_temperature(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,7 +1,7 @@
-//! Checks exact solutions of several bodies: each solution, and conditions on common faces.
+//! Checks exact solutions of several bodies, and the conditions on their common faces.
 //!
-//! Boxes meet face to face along an axis: the high face of one box and the low face of the next
-//! have the same extent. They touch or have a gap between them. Conditions for other faces and for
+//! Neighbouring bodies are boxes along an axis: the high face of one and the low face of the next
+//! have the same extent, with or without a gap between them. Conditions for other faces and for
 //! rims are not implemented.
 
 use crate::exact::{Interface, Problem, Survey, Violation, meets};
@@ -11,14 +11,11 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Help for two bodies without contact whose exact motions separate or slide.
+/// Help for bodies without contact whose exact motions separate or slide.
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
                        they can separate or slide, add `contact: {friction: 0}` to `scene`";
 
 /// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
-///
-/// # Errors
-/// A diagnostic about the first such key.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         ("manufactured", spec.manufactured.is_some()),
@@ -33,10 +30,6 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
 }
 
 /// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.
-///
-/// # Errors
-/// A diagnostic from `check`, a diagnostic about a violation (from `diagnostic`), or a diagnostic
-/// about bodies whose interface condition is not implemented.
 pub(crate) fn refuse_violated_conditions(
     evaluator: &Evaluator<'_>,
     scene: &Scene,
@@ -100,7 +93,7 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     pairs
 }
 
-/// Refuses bodies that touch with parts of their faces only.
+/// Refuses bodies that share only a part of their faces.
 fn refuse_other_touch(
     evaluator: &Evaluator<'_>,
     at: &Path,

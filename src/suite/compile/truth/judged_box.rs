@@ -1,7 +1,8 @@
-//! The box to which errors are restricted, and the faces that it is independent of.
+//! The box `judge.within` to which errors are restricted, and the faces that cannot affect the
+//! solution in the box.
 //!
 //! The stated solution may violate the condition on a face if no elastic wave from that face
-//! reaches the box during the run: the solution in the box then depends on initial data only.
+//! reaches the box during the run. The solution in the box then depends only on initial data.
 
 use crate::exact::{Face, Problem, Survey};
 use crate::suite::compile::scene::outline;
@@ -11,15 +12,11 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedBox, format_number};
 
-/// Help for a box in a suite whose solution is not a stated motion.
+/// Help for a box in a suite that states no motion.
 const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
 /// Compiles the box of `judge.within`, if the suite has one. `exact` is the problem of a stated
 /// solution.
-///
-/// # Errors
-/// A diagnostic of a box that is empty or not in the body, of a judged quantity that is not a
-/// field, or of a suite whose solution is not a stated motion of one box-shaped body.
 pub(crate) fn judged_box(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -74,11 +71,12 @@ pub(crate) fn judged_box(
     Ok(Some(within))
 }
 
-/// Returns `exact` without the faces whose condition the motion violates. The check of the solution
-/// then skips these faces.
+/// Returns `exact` without the faces whose condition the motion violates, so that the check of the
+/// solution skips them.
 ///
 /// # Errors
-/// A diagnostic of a box that an elastic wave from such a face reaches before the end of the run.
+/// A diagnostic about a box that an elastic wave from such a face reaches before the end of the
+/// run.
 pub(crate) fn without_distant_faces(
     evaluator: &Evaluator<'_>,
     within: &JudgedBox,

@@ -1,6 +1,6 @@
 //! Compiles the exact solution or equilibrium of a suite, and checks that it solves its problem.
 //!
-//! An equilibrium is compared with the state at the end of the run.
+//! A stated equilibrium is compared with the state at the end of the run.
 
 pub(crate) mod conduction;
 mod interface;
@@ -22,10 +22,7 @@ use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 /// before a run evaluates the formula about 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// Compiles the problem of the stated formulas, if any. The solution is checked later.
-///
-/// # Errors
-/// A diagnostic about contradicting keys, or about a formula.
+/// Compiles the problem that the stated formulas must solve, if any. The solution is checked later.
 pub(crate) fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -62,9 +59,6 @@ pub(crate) fn exact(
 
 /// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
 /// conditions.
-///
-/// # Errors
-/// A diagnostic at the formula, with the violated condition, the position and the difference.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -91,7 +85,7 @@ pub(crate) fn refuse_violated(
     )
 }
 
-/// Compiles the problem of the scene with the formulas at `path`, not yet checked.
+/// Compiles the problem of the scene with the formulas at `path`, which are checked later.
 fn solution(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -114,7 +108,7 @@ fn solution(
     Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
-/// Returns the equation for checking a formula, which must be that of the scene's material.
+/// Returns the equation for checking a solution. A stated equation must be that of the material.
 fn equation(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -142,7 +136,7 @@ fn equation(
     Err(evaluator.diagnostic(path, &message).with_help(help))
 }
 
-/// Compiles the problem whose body force is computed from the stated motion.
+/// Compiles the problem with the body force that the stated motion requires.
 fn manufactured(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -186,7 +180,6 @@ fn manufactured(
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
-/// Converts the scene to a continuum problem with the `motion` to check.
 fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Problem {
     Problem {
         from: scene.from.clone(),
@@ -245,7 +238,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// Returns a face with its condition. On a free face, the condition is determined by the load.
+/// Returns a face with its condition, which is the load on the face if the face is free.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -255,10 +248,7 @@ fn face(scene: &Scene, number: usize) -> Face {
 }
 
 /// Refuses a solution for a quadrilateral. The check of solutions is implemented only for boxes and
-/// bodies with a free rim.
-///
-/// # Errors
-/// A diagnostic at the stated solution.
+/// bodies with a free surface.
 fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -278,8 +268,8 @@ fn refuse_truth_of_mapped(
     }
 }
 
-/// Returns the equation of motion for a material, selected by the name of the material. Some laws
-/// restrict the motion: J2 needs monotonic loading, and a fluid must be at rest.
+/// Returns the equation of motion for a material. Some equations restrict the motion: J2 needs
+/// monotonic loading, and a fluid must be at rest.
 pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(material.name(), |key| material.parameter(key))
 }
@@ -296,7 +286,6 @@ pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     BarLaw::find(name).and(EquationName::find(name))
 }
 
-/// Refuses an `equilibrium` that contradicts other keys of the suite.
 fn refuse_equilibrium_with(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -313,7 +302,7 @@ fn refuse_equilibrium_with(
         let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
-    // Binding the formula without t makes a formula with t an error.
+    // A formula with t is an error, because t is not a variable here.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
@@ -343,8 +332,8 @@ fn refuse_equilibrium_with(
     }
 }
 
-/// Refuses walls and sets with prescribed velocity in an equilibrium study. The velocity at the end
-/// of a run does not determine their final positions.
+/// Refuses prescribed velocities in an equilibrium study, because the velocity at the end of a run
+/// does not determine the final position.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = Path::top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
@@ -378,18 +367,19 @@ impl Truth for Unknown {
     }
 }
 
-/// Whether a suite has neither exact solution nor reference.
+/// Whether a suite has nothing to compare with: no formulas, no FEM reference and no fine-grid
+/// reference.
 pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
     !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
 }
 
-/// Whether a same-method reference is sufficient as the only truth of a suite. A reference with
-/// shorter steps is not, because it shows only the error of the time step.
+/// Whether a same-method reference can be the only reference of a suite. A reference with shorter
+/// steps cannot, because it shows only the error of the time step.
 pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
     matches!(same_method, Some(SameMethod::FineGrid(_)))
 }
 
-/// Refuses a key that needs a truth, in a suite without exact solution or reference.
+/// Refuses a key that needs an exact solution or a reference if the suite has neither.
 pub(crate) fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -5,13 +5,13 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Default tolerance of an exact solution (relative residual): rounding of second derivatives.
+/// Default tolerance of an exact solution (relative residual). It allows for rounding of second
+/// derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Maximum tolerance that a suite may state.
 const MOST: f64 = 1e-2;
 
-/// Returns the stated tolerance at `path`, or the default.
 pub(crate) fn tolerance(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -27,7 +27,6 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-/// Returns the stated residual of the linearised solution at `path`.
 pub(crate) fn linearised(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -40,8 +39,8 @@ pub(crate) fn linearised(
     Ok(Some(Linearised { tolerance, because }))
 }
 
-/// Returns the diagnostic about a violation in `problem`. The text includes the residual of the law
-/// if the suite states, or could state, the key `linearised`.
+/// Returns the diagnostic about a violation in `problem`. It includes the residual of the law if
+/// the suite states, or could state, the key `linearised`.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -73,7 +72,7 @@ pub(crate) fn violated(
 /// Maximum relative residual that rounding or a truncated series can explain.
 const ROUNDING: f64 = 1e-5;
 
-/// Returns advice on accepting a small violation of a solution with this `tolerance`.
+/// Returns advice for accepting a small violation of a solution with this `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(
@@ -85,7 +84,6 @@ pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     }
 }
 
-/// Returns the diagnostic about a violation of a solution with this `tolerance`.
 pub(crate) fn no_solution(
     evaluator: &Evaluator<'_>,
     path: &Path,

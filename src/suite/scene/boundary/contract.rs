@@ -9,12 +9,8 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Keys of a boundary condition in a suite.
 pub(crate) trait BoundaryKeys {
     /// Checks the keys and returns the condition with all numbers computed.
-    ///
-    /// # Errors
-    /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 
     /// Whether the face coincides with the opposite face.
@@ -23,7 +19,7 @@ pub(crate) trait BoundaryKeys {
     }
 }
 
-/// A condition without parameters is its own set of keys.
+/// A condition without parameters needs no separate type for its keys.
 impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(*self))
@@ -39,7 +35,6 @@ pub(crate) struct FaceEntry<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
     /// Path of the condition's value.
     pub(crate) path: Path,
-    /// Number of space dimensions.
     pub(crate) dimension: usize,
 }
 
@@ -56,7 +51,7 @@ impl FaceEntry<'_> {
     }
 }
 
-/// A face of a D-dimensional grid for which a condition is built.
+/// A face of a D-dimensional grid, for which a condition is built.
 pub(crate) struct FaceSite<'a, const D: usize> {
     pub(crate) grid: &'a Grid<D>,
     pub(crate) basis: BasisName,
@@ -79,7 +74,6 @@ in_every_dimension! {
 
 /// Compiled boundary condition on the motion of one face of the body.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
-    /// Returns the name in suites.
     fn name(&self) -> &'static str;
 
     /// Returns the numbers for external solvers; empty if the name describes the condition fully.
@@ -87,7 +81,7 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         LoadNumbers::default()
     }
 
-    /// Returns the verb phrase after "the left face" in messages.
+    /// Returns the verb phrase that follows "the left face" in messages.
     fn verb(&self) -> &'static str;
 
     /// Returns the text for the report row of the face; empty for no row.
@@ -96,7 +90,8 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
     }
 
     /// Returns the priority at nodes that several faces share: the condition with the largest
-    /// number applies. A fixed face has priority over a face with a prescribed velocity.
+    /// number applies. A fixed face, for example, has priority over a face with a prescribed
+    /// velocity.
     fn strength(&self) -> u8 {
         0
     }
@@ -136,13 +131,13 @@ pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
         false
     }
 
-    /// Returns why the condition cannot be combined with several bodies; `None` if it can.
+    /// Returns the reason why the condition excludes several bodies; `None` if it does not.
     fn against_several_bodies(&self) -> Option<&'static str> {
         None
     }
 
-    /// Returns the reason why the condition cannot be combined with a consistent mass matrix;
-    /// `None` if it can.
+    /// Returns the reason why the condition excludes a consistent mass matrix; `None` if it does
+    /// not.
     fn against_consistent_mass(&self) -> Option<&'static str> {
         None
     }

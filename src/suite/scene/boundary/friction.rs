@@ -26,7 +26,6 @@ impl BoundaryKeys for FrictionSpec {
     }
 }
 
-/// A frictional wall with this coefficient of friction.
 #[derive(Debug)]
 struct FrictionFace(f64);
 

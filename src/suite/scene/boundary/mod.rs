@@ -1,5 +1,5 @@
 //! Boundary conditions on the faces of a body. A new condition needs a file in this folder, its
-//! `mod` line and a line in `conditions!` below; its condition on grid nodes is a file of the
+//! `mod` line and a line in `conditions!` below. The condition on grid nodes is a file of the
 //! solver. Two conditions have no name in suites: a face without a stated condition is a
 //! [`FreeFace`], or a [`FaceAtRest`] if the body does not move.
 
@@ -38,7 +38,6 @@ macro_rules! conditions {
         }
 
         impl $spec {
-            /// Returns the name of the condition, and its keys.
             pub(crate) fn named(&self) -> (&'static str, &dyn $contract) {
                 match self {
                     $(
@@ -62,7 +61,7 @@ conditions! {
     Fixed = "fixed" is fixed::FixedFace;
     /// No displacement along the normal, no traction along the face.
     Roller = "roller" is roller::RollerFace;
-    /// A wall that presses and does not pull, with a coefficient of friction.
+    /// A wall that can push but not pull, with a coefficient of friction.
     Friction = "friction" of friction::FrictionSpec;
     /// State equal to that of the opposite face.
     Periodic = "periodic" is periodic::PeriodicFace;

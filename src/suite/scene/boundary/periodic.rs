@@ -3,7 +3,7 @@
 use super::contract::{BoundaryCondition, BuildBoundary};
 use crate::exact::{Condition, FacePoint, Violation};
 
-/// A face with the state of the opposite face, one period away.
+/// A face whose state equals that of the opposite face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PeriodicFace;
 

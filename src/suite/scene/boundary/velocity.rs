@@ -20,7 +20,6 @@ impl BoundaryKeys for VelocitySpec {
     }
 }
 
-/// Prescribed velocity (m/s), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct MovingFace(Vec<Formula>);
 

@@ -63,7 +63,7 @@ struct ViscosityLoad {
     speed: f64,
 }
 
-/// Artificial viscosity belongs to the method, so it adds no term to the equation of motion.
+/// Artificial viscosity is part of the method, so it adds no term to the equation of motion.
 impl Term for ViscosityLoad {}
 
 impl SceneLoad for ViscosityLoad {

@@ -9,7 +9,8 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations, with unrolled sums, of a formula precomputed per position.
+/// Maximum number of operations (with unrolled sums) of a formula that is precomputed for each
+/// position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.
@@ -29,8 +30,8 @@ impl LoadKeys for BodyForceSpec {
     }
 }
 
-/// Force per unit mass (m/s2), one formula for each component. Variables are the coordinates and t,
-/// and the displacement if one of the formulas uses it.
+/// Force per unit mass (m/s2): one formula of the coordinates, t and optionally the displacement
+/// for each component.
 #[derive(Debug)]
 struct BodyForceLoad(Vec<Formula>);
 
@@ -100,7 +101,7 @@ impl SceneLoad for BodyForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
-    /// Formulas above the maximum number of operations are evaluated without precomputation.
+    /// Formulas with more than `MOST_OPERATIONS` operations are not precomputed.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));

@@ -61,7 +61,6 @@ impl EffectName {
 /// Part of the scene on which a load acts. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum LoadTarget {
-    /// The whole body.
     Body,
     /// A face, given by its number.
     Face(usize),
@@ -72,7 +71,6 @@ pub(crate) enum LoadTarget {
 }
 
 impl LoadTarget {
-    /// Returns the number of the face; `None` if the load does not act on a face.
     pub(crate) fn face(self) -> Option<usize> {
         match self {
             Self::Face(number) => Some(number),
@@ -90,13 +88,10 @@ pub(crate) struct BodySite<'a, const D: usize> {
     pub(crate) particles: &'a mut Particles<D>,
 }
 
-/// Reason why the effect of a load cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BuildError {
-    /// The named set is empty.
     #[error("the set `{0}` holds no particle")]
     EmptySet(String),
-    /// The solver does not support this number of dimensions.
     #[error("there is no MPM in {0} dimensions")]
     Dimension(usize),
 }
@@ -110,9 +105,6 @@ impl From<BuildError> for SubjectError {
 /// Converts a load to an effect of the solver.
 pub(crate) trait BuildEffect<const D: usize> {
     /// Builds the effect on the body at `site`.
-    ///
-    /// # Errors
-    /// The reason why the effect cannot be built.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError>;
 }
 
@@ -123,7 +115,6 @@ in_every_dimension! {
 
 /// A load or effect of a scene, with all numbers computed.
 pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
-    /// Returns the part of the scene on which the load acts.
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
@@ -153,7 +144,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         Vec::new()
     }
 
-    /// Returns the heat conduction; `None` for other loads.
+    /// Returns the heat conduction; `None` for all other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }
@@ -164,7 +155,6 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
     }
 }
 
-/// A load of a scene, with its name.
 #[derive(Debug, Clone)]
 pub(crate) struct ListedLoad {
     pub(crate) effect: EffectName,
@@ -179,10 +169,6 @@ impl Deref for ListedLoad {
     }
 }
 
-/// Builds the effect of `load` in D dimensions.
-///
-/// # Errors
-/// The reason why the effect cannot be built.
 pub(crate) fn build<const D: usize>(
     load: &ListedLoad,
     site: &mut BodySite<'_, D>,

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Number of times during a run at which the sign of the rate is checked.
 const TIMES: u32 = 1000;
 
-/// Rate (1/s) at which velocities decay, a formula of t.
+/// Rate (1/s) at which velocities decay: a formula of t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]
@@ -29,7 +29,7 @@ impl LoadKeys for DampingSpec {
         Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
     }
 
-    /// Refuses a rate that is negative at any time of the run.
+    /// Refuses a rate that is negative during the run.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         let LoadEntry { evaluator, path, .. } = entry;
         let rate = evaluator.formula(path, &self.0, &["t"])?;

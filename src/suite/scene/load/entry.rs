@@ -11,7 +11,7 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Facts about a convergence study against which a load is checked.
+/// Properties of a convergence study that may exclude a load.
 pub(crate) struct StudyFacts {
     /// Whether the body force is manufactured.
     pub(crate) manufactured: bool,
@@ -21,22 +21,16 @@ pub(crate) struct StudyFacts {
 
 /// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
-    /// Returns example YAML for a load of strength `s` (zero: no effect) with vector value
-    /// `vector`, on the face `right` or the set `some`. Used by tests of all loads.
+    /// Returns the YAML of an example load with strength `s` (zero: no effect) and the vector value
+    /// `vector`, on the face `right` or the set `some`. Tests of all loads use it.
     fn example(vector: &str) -> String
     where
         Self: Sized;
 
     /// Checks the keys and returns the load with all numbers computed.
-    ///
-    /// # Errors
-    /// The first error in the keys.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
-    /// Refuses a convergence study that does not support the load.
-    ///
-    /// # Errors
-    /// A diagnostic about the unsupported part of the study.
+    /// Refuses a convergence study in which the load is not supported.
     fn check(&self, _: &LoadEntry<'_>, _: &StudyFacts) -> Result<(), Diagnostic> {
         Ok(())
     }
@@ -51,7 +45,6 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Returns the name of the face on which the load acts.
     fn face(&self) -> Option<&str> {
         None
     }
@@ -82,7 +75,6 @@ pub(crate) struct LoadEntry<'a> {
 }
 
 impl LoadEntry<'_> {
-    /// Returns the number of space dimensions.
     pub(crate) fn dimension(&self) -> usize {
         self.scene.dimension()
     }
@@ -95,7 +87,6 @@ impl LoadEntry<'_> {
         Ok(())
     }
 
-    /// Compiles one formula of t for each component.
     pub(crate) fn of_time(
         &self,
         path: &Path,
@@ -114,8 +105,8 @@ impl LoadEntry<'_> {
         self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
     }
 
-    /// Compiles one formula for each component. Variables are the coordinates and t, and the
-    /// displacement if one of the formulas uses it.
+    /// Compiles one formula of the coordinates, t and optionally the displacement for each
+    /// component.
     pub(crate) fn of_displacement(
         &self,
         path: &Path,
@@ -185,16 +176,14 @@ impl LoadEntry<'_> {
     }
 }
 
-/// A face on which a load acts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedFace {
-    /// Index in axis order, the low face of each axis before the high face.
+    /// Index in axis order, with the low face of each axis before the high face.
     pub(crate) number: usize,
     pub(crate) name: &'static str,
 }
 
 impl LoadedFace {
-    /// Returns the report row for the load on this face.
     pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
         let place = match placement {
             Placement::Particles => "",
@@ -209,16 +198,13 @@ impl LoadedFace {
     }
 }
 
-/// A particle set on which a load acts.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedSet {
-    /// Index in the order of the suite.
     pub(crate) number: usize,
     pub(crate) region: Region,
 }
 
 impl LoadedSet {
-    /// Returns the report row for the load on this set.
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
@@ -226,9 +212,6 @@ impl LoadedSet {
     }
 
     /// Returns the indices of the particles in the set.
-    ///
-    /// # Errors
-    /// [`BuildError::EmptySet`] if the set contains no particles.
     pub(crate) fn members<const D: usize>(
         &self,
         particles: &Particles<D>,
@@ -242,7 +225,8 @@ impl LoadedSet {
     }
 }
 
-/// Refuses tractions and pressures on a set: they are forces per area, and a set has no area.
+/// Refuses tractions and pressures on a set, because they are forces per area and a set has no
+/// area.
 fn refuse_surface_load(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -258,7 +242,6 @@ fn refuse_surface_load(
     Err(evaluator.diagnostic(path, &message).with_help(&help))
 }
 
-/// Returns the index of the set called `name`.
 fn set_number(
     evaluator: &Evaluator<'_>,
     path: &Path,

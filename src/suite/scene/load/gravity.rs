@@ -26,7 +26,6 @@ impl LoadKeys for GravitySpec {
     }
 }
 
-/// Uniform acceleration (m/s2), one formula of t for each component.
 #[derive(Debug)]
 struct GravityLoad(Vec<Formula>);
 

@@ -20,10 +20,9 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use std::sync::Arc;
 
-/// Name of the temperature in the formula of a heat source.
 const TEMPERATURE: &str = "T";
 
-/// Conduction of heat, and the conditions on the faces.
+/// Heat conduction, and thermal conditions on faces.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -36,7 +35,7 @@ pub(crate) struct HeatSpec {
     source: Option<NumberText>,
     /// Initial temperature (K), a formula of the coordinates.
     initial: Option<NumberText>,
-    /// Conditions on faces; one that is not named is insulated.
+    /// Thermal conditions on faces; other faces are insulated.
     #[serde(default)]
     #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<ThermalSpec>"))]
     boundary: Ordered<ThermalSpec>,
@@ -86,7 +85,8 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// Compiles the heat source. A suite may declare a name `T`, unless the source uses `T`.
+/// Compiles the heat source. `T` is the temperature, so a source that uses `T` excludes a declared
+/// name `T`.
 fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
     let evaluator = entry.evaluator;
     let mut variables = coordinates_and_time(entry.dimension());
@@ -157,7 +157,6 @@ fn initial<const D: usize>(
     }
 }
 
-/// Returns the heat source that the scene states.
 fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
     let formula = formula.clone();
     Box::new(move |t, particles, into| {
@@ -174,7 +173,8 @@ fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> 
     Box::new(move |t, _, into| forcing.at(t, into))
 }
 
-/// Compiles the conditions on all faces of the body; faces that the keys do not name are insulated.
+/// Compiles the conditions on all faces of the body. Faces without a stated condition are
+/// insulated.
 fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
@@ -200,8 +200,8 @@ fn faces(
     Ok(faces)
 }
 
-/// Refuses faces on which a temperature or heat flux cannot be prescribed. The condition applies to
-/// the nodes on the grid face, so the body must end there and stay there.
+/// Refuses prescribed temperatures and heat fluxes on faces that are not on the grid face or do not
+/// stay there, because the condition applies to the nodes of the grid face.
 fn on_grid(
     entry: &LoadEntry<'_>,
     path: &Path,
@@ -221,7 +221,6 @@ fn on_grid(
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 
-/// Builds the thermal conditions for the solver.
 fn build_faces<const D: usize>(
     faces: &[ThermalFace],
     site: &BodySite<'_, D>,

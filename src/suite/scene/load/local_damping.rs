@@ -9,7 +9,7 @@ use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Share of the force out of balance that opposes the motion, node by node.
+/// Share of the unbalanced force that opposes the motion at each node.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]

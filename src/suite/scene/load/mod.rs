@@ -32,8 +32,8 @@ macro_rules! loads {
         }
 
         impl EffectName {
-            /// Returns an example entry of `loads` with this effect and strength `s`, in
-            /// `dimension` dimensions. The load acts on the body, face `right` or set `some`.
+            /// Returns an example entry of `loads` with this effect and the strength `s`, in
+            /// `dimension` dimensions. It acts on the body, the face `right` or the set `some`.
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");
@@ -45,14 +45,12 @@ macro_rules! loads {
         }
 
         impl LoadSpec {
-            /// Returns the effect of the entry.
             pub(crate) fn effect(&self) -> EffectName {
                 match self {
                     $(Self::$member(_) => EffectName::$member,)+
                 }
             }
 
-            /// Returns the keys of the entry.
             pub(crate) fn keys(&self) -> &dyn LoadKeys {
                 match self {
                     $(Self::$member(keys) => keys,)+
@@ -65,13 +63,12 @@ macro_rules! loads {
 each_effect!(loads);
 
 impl LoadSpec {
-    /// Returns the path of the value of the entry with this `number` in `loads`.
+    /// Returns the path of entry `number` in `loads`.
     pub(crate) fn path(&self, number: usize) -> Path {
         Path::top("scene").then("loads").then(number).then(self.effect().name())
     }
 }
 
-/// Refuses effects whose required effects are missing.
 fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<(), Diagnostic> {
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {

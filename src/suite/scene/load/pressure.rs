@@ -12,7 +12,7 @@ use crate::suite::scene::numbers::{LoadNumbers, scalar};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Pressure that follows one face or rim (Pa), a formula of the coordinates and t.
+/// Pressure (Pa) on a face or rim that follows the surface: a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -22,12 +22,11 @@ pub(crate) struct PressureSpec {
     on: String,
     /// Pressure (Pa), a formula of the coordinates and `t`.
     value: NumberText,
-    /// Point of action on a face; by default at the outermost particles. On a rim it is the
-    /// surface.
+    /// Where the pressure acts on a face; by default at the outermost particles. On a rim, it acts
+    /// at the surface.
     at: Option<Placement>,
 }
 
-/// Part of the surface on which the pressure acts.
 #[derive(Debug)]
 enum PressedPart {
     Face(LoadedFace, Placement),

@@ -46,7 +46,7 @@ impl LoadKeys for SetForceSpec {
     }
 }
 
-/// Total force on the set (N, per m^(3-D) of thickness), one formula of t for each component.
+/// Total force on the set (N, per m^(3-D) of thickness): one formula of t for each component.
 #[derive(Debug)]
 struct SetForceLoad {
     set: LoadedSet,
@@ -57,7 +57,7 @@ struct SetForceLoad {
     density: f64,
 }
 
-/// Adds a force f on a set of volume V as a body force `f/(rho0 V)` in the set.
+/// The force f on a set of volume V is a body force `f/(rho0 V)` in the set.
 impl Term for SetForceLoad {
     fn stated(&self, i: usize, label: &[f64], t: f64, _: &[f64; 3]) -> f64 {
         if !self.set.region.holds(label) {

@@ -33,7 +33,6 @@ impl LoadKeys for SetVelocitySpec {
     }
 }
 
-/// Velocity of the set (m/s), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct SetVelocityLoad {
     set: LoadedSet,

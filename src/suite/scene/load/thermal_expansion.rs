@@ -12,9 +12,9 @@ use std::sync::Arc;
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpansionSpec {
-    /// alpha (1/K).
+    /// Coefficient of thermal expansion (1/K).
     coefficient: NumberText,
-    /// Temperature (K) at which a body that is not deformed is free of stress.
+    /// Temperature (K) at which the undeformed body is stress-free.
     reference: NumberText,
 }
 

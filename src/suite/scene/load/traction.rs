@@ -17,12 +17,12 @@ use std::sync::Arc;
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TractionSpec {
-    /// The face.
+    /// Face on which the traction acts.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "face_name"))]
     on: String,
     /// Force per reference area (Pa), formulas of the coordinates and `t`.
     value: Vec<NumberText>,
-    /// Point of action; by default at the outermost particles.
+    /// Where the traction acts; by default at the outermost particles.
     at: Option<Placement>,
 }
 
@@ -44,7 +44,6 @@ impl LoadKeys for TractionSpec {
     }
 }
 
-/// Traction (Pa, per reference area), one formula of the coordinates and t for each component.
 #[derive(Debug)]
 struct TractionLoad {
     face: LoadedFace,

@@ -6,7 +6,6 @@ use std::env::temp_dir;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
-/// A file or folder that is deleted at the end of the test.
 struct Temporary(PathBuf);
 
 impl Temporary {
@@ -55,7 +54,7 @@ fn a_folder() {
     assert_eq!(diagnostic.help(), Some("name a file in it"));
 }
 
-/// Opening a named pipe without a writer would block.
+/// A named pipe is refused, because opening it without a writer would block.
 #[cfg(unix)]
 #[test]
 fn a_named_pipe() {

@@ -5,7 +5,6 @@ use crate::suite::yaml::{Source, Step, read};
 use proptest::prelude::*;
 use serde_yaml::Value;
 
-/// Parses a text as several types, and prints the results.
 fn survives(text: &str) {
     let outcome = Source::from_text("any.yaml", text).and_then(|source| {
         source.value_at(&["suite".into()]);
@@ -47,7 +46,6 @@ fn mutated() -> impl Strategy<Value = String> {
     })
 }
 
-/// Collects the paths of all non-empty scalars.
 fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     match value {
         Value::Mapping(map) => {
@@ -102,7 +100,7 @@ proptest! {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
             match Source::from_text("any.yaml", text.as_str()) {
                 Err(diagnostic) => prop_assert!(refused_on_purpose(diagnostic.message()), "{diagnostic}"),
-                // A list or map as a key hides the keys after it; `read` refuses such a key.
+                // `read` refuses a list or map as a key, which hides the keys after it.
                 Ok(source) if read::<Value>(&source).is_err() => {}
                 Ok(source) => {
                     let mut all = Vec::new();
@@ -116,7 +114,7 @@ proptest! {
         }
     }
 
-    /// Parts of a verbatim text are located correctly, in any quotation style.
+    /// Parts of a verbatim text are located correctly in any quotation style.
     #[test]
     fn a_part_of_a_formula_is_where_it_says(
         style in prop::sample::select(vec!["", "'", "\""]),

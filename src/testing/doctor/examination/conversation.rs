@@ -1,5 +1,5 @@
-//! Examination of the protocol: equal requests give equal answers, no matter how steps are grouped
-//! into messages.
+//! Examination of the protocol: equal requests must give equal answers, and the number of steps per
+//! message must not matter.
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
@@ -10,7 +10,6 @@ use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
 
-/// Number of steps per run.
 const STEPS: u64 = 6;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -54,7 +53,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
-/// Returns the largest difference of a column at the end, relative to its largest value.
+/// Returns the largest difference of a column at the end of two runs, relative to its largest
+/// value.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
@@ -88,9 +88,9 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     })
 }
 
-/// Compares six steps in one message with six messages of one step, under all loads that the solver
-/// supports: stresses, and a time-dependent body force or gravity. Only acceleration reveals an
-/// operation that is done once per message instead of once per step.
+/// Compares six steps in one message with six messages of one step. The body accelerates under all
+/// loads that the solver supports, because only acceleration reveals an operation that is done once
+/// per message instead of once per step.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -100,7 +100,7 @@ fn grouped_under_acceleration(
         let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
         for i in 0..kind.0 {
             stretch.gradient[i][i] = 0.1;
-            // Fast enough for particles to change cells.
+            // Fast enough to make particles change cells.
             stretch.value[i] = 1.0;
         }
         scene.velocity = stretch;
@@ -123,7 +123,7 @@ fn grouped_under_acceleration(
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // The examinations of forces report a run that fails.
+    // Other examinations report a run that fails.
     if stepwise.failure.is_some() {
         return Ok(None);
     }
@@ -150,7 +150,8 @@ fn grouped(
         a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale
     });
     let columns = others.into_iter().fold(0.0, f64::max);
-    // Stresses depend on differences of displacements, which amplify rounding errors.
+    // Rounding errors of stresses are larger, because stresses depend on differences of
+    // displacements.
     if off.max(speed) <= patient.rounding() && columns <= 1e3 * patient.rounding() {
         return None;
     }

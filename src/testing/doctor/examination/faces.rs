@@ -15,15 +15,16 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) of the outermost particles from a cell face that they have crossed. The next
-/// node has only this share of a regular nodal mass.
+/// Distance (cells) by which the outermost particles have crossed a cell face. The nodes that they
+/// newly reach have only this fraction of a regular nodal mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Maximum strain of a rigid body due to rounding errors.
 const RIGID: f64 = 1e-6;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    // All numbers have only a few bits, so all particles lie on faces again every eighth step.
+    // All numbers have few binary digits, so after every eighth step all particles lie exactly on
+    // faces.
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
         let from = [0.75 + 0.25 * H, 0.25 + 0.25 * H, 0.5 + 0.25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);
@@ -62,12 +63,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
 }
 
-/// Returns a finding if the columns of a soft body in rigid motion show a strain.
+/// Returns a finding if the columns `stress` or `deformation_gradient` of a soft body in rigid
+/// motion show a strain.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();
     let mut most = 0.0_f64;
-    // Only changes since the first step count: other examinations check the meaning of the columns.
+    // Only changes since the first step count, because other examinations check the initial values.
     let after_start = course.states.get(1..).and_then(<[_]>::split_first);
     let Some((first, later)) = after_start else { return Ok(None) };
     for state in later {
@@ -75,7 +77,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
         most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
-        // The stress of a fluid has no suitable scale.
+        // The elastic modulus is no scale for the stress of a fluid.
         if ELASTIC.contains(&scene.law) {
             most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }

@@ -16,10 +16,11 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2), different from that of the earth, which may be a default of the solver.
+/// Gravity (m/s2). It differs from 9.81, which may be a default of the solver.
 const GRAVITY: f64 = 3.7;
 
-/// Maximum relative difference between a measured value and the pattern that explains it.
+/// Maximum relative difference between a measured value and the value that a suspected cause
+/// predicts.
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -156,7 +157,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Returns a finding if the positions differ from g t^2/2 and the velocities have no defect.
+/// Returns a finding if the positions differ from g t^2/2. The velocities must be correct.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

@@ -24,16 +24,17 @@ const FORCE: f64 = 0.8;
 /// Growth rate of the force per unit mass (m/s3).
 const RATE: f64 = 6.0;
 
-/// Maximum relative difference between a measured value and the pattern that explains it.
+/// Maximum relative difference between a measured value and the value that a suspected cause
+/// predicts.
 const NEAR: f64 = 0.1;
 
 /// Recorded requests: times (s) and reference positions (m).
 type Questions = Arc<Mutex<Vec<(f64, [f64; 3])>>>;
 
-/// A force along the first axis, as a function of the position along that axis (m) and of time (s).
+/// A force along the first axis as a function of position (m) and time (s).
 type ForceAlong = fn(f64, f64) -> f64;
 
-/// A body force that records the requests for it.
+/// A body force that records the times and positions at which the solver requests it.
 #[derive(Clone)]
 struct AskedForce {
     asked: Questions,
@@ -61,14 +62,15 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     )?;
     let asked = Questions::default();
     let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
-    // Requests for positions outside the body are refused; a second run records them.
+    // A request for a position outside the body ends the run. A second run without this check
+    // records all requests.
     if matches!(course, Err(Hindrance::Broke(_))) {
         let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
         if again.is_ok() {
             course = again;
         }
     }
-    // Requests for wrong positions or times explain a run that fails.
+    // Wrong requests explain a run that fails.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
@@ -102,15 +104,14 @@ fn integral(t: f64) -> f64 {
     FORCE * t + 0.5 * RATE * t * t
 }
 
-/// Sets the body force of `problem` to a force along the first axis that grows with time.
 pub(super) fn ramp(problem: &mut LevelProblem) {
     let force = AskedForce { asked: Questions::default(), force: |_, t| FORCE + RATE * t };
     problem.body_force = Some(BodyForceField(Arc::new(force)));
     problem.constant_body_force = None;
 }
 
-/// Runs `scene` with the force `force(x, t)` along the first axis. Optionally checks that requested
-/// positions are inside the body.
+/// Runs `scene` with the force `force(x, t)` along the first axis. If `checks_places`, a request
+/// for a position outside the body is an error.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -185,7 +186,7 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Returns a finding if forces have a wrong factor or are those of wrong times.
+/// Returns a finding if forces have a wrong factor or belong to other times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];
@@ -193,7 +194,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let wanted = integral(end);
     let steps = (gained(last) - wanted) / (0.5 * RATE * end * dt);
     let is = |wanted: f64| (steps - wanted).abs() <= NEAR;
-    // Leapfrog velocities are half a step behind.
+    // Velocities half a step behind (leapfrog) are allowed.
     let behind = (gained(last) - integral(end - 0.5 * dt)).abs() <= 0.5 * NEAR * RATE * end * dt;
     if is(-1.0) || is(0.0) || behind {
         return None;
@@ -210,7 +211,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    // With leapfrog velocities, the shift is visible in the requests but not in the momentum.
+    // In a leapfrog scheme, late forces are visible in the requests but not in the momentum.
     let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
     if is(1.0) || is_late {
         return Some(SolverFinding::remark(
@@ -242,8 +243,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if a force that grows along X does not give each point its own velocity after
-/// one step.
+/// Returns a finding if a force that grows linearly with X does not accelerate each point
+/// accordingly in one step.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {
@@ -253,7 +254,8 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     }
     let (_, found, _) = line(&x, &v);
     let share = found / slope;
-    // Near the rim, weights smooth a linear field; APIC and PIC do not smooth more than that.
+    // The range allows for weights that smooth a linear field near the edge of the body, also with
+    // APIC and PIC.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;

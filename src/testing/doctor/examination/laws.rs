@@ -1,10 +1,10 @@
 //! Examination of stresses at finite strain and rotation: the columns `stress` and
 //! `deformation_gradient` for each law.
 //!
-//! A body with negligible stiffness moves with `v = L (X - C)`: stretch, shear and rotation become
-//! of order one. In the middle of the body, F is compared with the displacement gradient. The
-//! stress is compared with the initial stress of a body with the initial displacement
-//! `(F - I) (X - C)`, which is the law's stress for this F.
+//! A body with negligible stiffness moves with `v = L (X - C)` until stretch, shear and rotation
+//! are of order one. In the middle of the body, the column `deformation_gradient` is compared with
+//! F from the displacements. The column `stress` is compared with the initial stress of a second
+//! body, whose initial displacement `(F - I) (X - C)` gives the same F.
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
@@ -31,7 +31,8 @@ const STRETCHED: f64 = 0.5;
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest one. Laws in rate form have a step error.
+/// Maximum error of a component, relative to the largest one. It allows for the step error of laws
+/// in rate form.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
@@ -41,14 +42,15 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         needs.column = Some("stress");
     })?;
     let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
-    // Every law in one number of dimensions, and one law in every number of dimensions.
+    // All laws in the first supported dimension, and the first law in all dimensions.
     let laws = FINITE.into_iter().map(|law| (first.dimension, law));
     let dimensions = [1, 2, 3].into_iter().map(|d| (d, first.law));
     let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();
     kinds.sort_unstable();
     kinds.dedup();
     let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
-    // If a body starts undeformed, F and the velocity gradient commute.
+    // One law also runs from a deformed start, because F and the velocity gradient commute if a
+    // body starts undeformed.
     let elastic = FINITE.map(|law| (first.dimension, law));
     let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
     scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));
@@ -81,7 +83,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             of_law.push(of_stress(&name, column, &stress, gradient, scene)?);
         }
     }
-    // A wrong F explains a wrong stress.
+    // Findings on F replace those on the stress, because a wrong F causes a wrong stress.
     let mut findings: Vec<SolverFinding> = Vec::new();
     for finding in if of_f.is_empty() { of_law } else { of_f } {
         if findings.iter().all(|known| known.name != finding.name) {
@@ -111,8 +113,8 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
         && off <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
 }
 
-/// Examines the momentum flux in a body stretched to 1.5 times its length, relative to the flux
-/// according to the law. Forces must use the current particle volumes.
+/// Compares the momentum flux in a body stretched to 1.5 times its length with the flux according
+/// to the law. A solver that uses reference volumes in its forces has a wrong flux.
 fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
     let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -145,7 +147,6 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     Ok((ratio, finding))
 }
 
-/// Creates a body whose displacement gradient grows to `GRADIENT`.
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
@@ -154,14 +155,13 @@ fn scene(kind: Kind) -> BoxScene {
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
 }
 
-/// Creates the body of `scene` with the initial displacement gradient `START`.
 fn deformed(kind: Kind) -> BoxScene {
     let scene = scene(kind);
     let displacement = field(&scene, &|i, j| START[i][j]);
     BoxScene { displacement, ..scene }
 }
 
-/// Creates the field with this gradient relative to the centre of the body.
+/// Creates the field with this gradient that is zero at the centre of the body.
 fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
     let d = scene.dimension;
     let gradient = std::array::from_fn(|i| {
@@ -192,7 +192,8 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
     f
 }
 
-/// Returns stress (Pa) and F, row by row, of a body with the deformation gradient `f`.
+/// Returns the initial stress (Pa) and F of the problem, row by row, for a body with the
+/// deformation gradient `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
@@ -263,7 +264,7 @@ fn of_stress(
              or leave it out of its `laws`",
         ));
     }
-    // The stress for F^T: isotropic laws give it if F^T F replaces F F^T.
+    // If F^T F is used in place of F F^T, isotropic laws give the stress for F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
     let scaled: Vec<f64> = stress.iter().map(|s| factor * s).collect();
@@ -292,9 +293,9 @@ fn of_stress(
     ))
 }
 
-/// Computes the stress (Pa), row by row, for a displacement gradient that grows linearly in time up
-/// to the deformation gradient `f`. Uses the Jaumann rate of linear elasticity,
-/// `sigma' = C : D + W sigma - sigma W`, with the spin W. `None` if the body becomes inverted.
+/// Integrates the Jaumann rate of linear elasticity, `sigma' = C : D + W sigma - sigma W` with the
+/// spin W. The displacement gradient grows linearly in time up to the deformation gradient `f`.
+/// Returns the stress (Pa), row by row, or `None` if the body becomes inverted.
 fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     const PARTS: u64 = 400;
     let d = scene.dimension;

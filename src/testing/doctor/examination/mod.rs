@@ -1,5 +1,3 @@
-//! The examinations, one per file.
-
 mod conversation;
 mod faces;
 mod fall;
@@ -18,7 +16,7 @@ mod walls;
 
 use super::patient::Examination;
 
-/// All examinations, starting with the simplest. The first one examines the protocol itself.
+/// All examinations, one per file, starting with the simplest. The first one examines the protocol.
 pub(super) const ALL: &[Examination] = &[
     conversation::EXAMINATION,
     rest::EXAMINATION,

@@ -32,7 +32,7 @@ pub(super) const ENDS: Examination = Examination {
 
 /// Length (cells) of a moving body along the periodic axis.
 const CELLS: f64 = 4.0;
-/// Length (cells), along the periodic axis, of a body whose ends push each other.
+/// Length (cells) along the periodic axis of a body whose ends press against each other.
 const LONG: f64 = 12.0;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -50,7 +50,6 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Creates a body that moves along the periodic axis `axis`.
 fn along(kind: Kind, axis: usize) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.grid.0[axis] = scene.body.0[axis];
@@ -78,7 +77,8 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 /// Returns the share of momentum that the upper half of a body loses across the ends of a periodic
-/// axis. The body is stretched at a constant rate, so its ends move towards each other.
+/// axis. The initial velocity increases linearly along the axis, so the ends move towards each
+/// other.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

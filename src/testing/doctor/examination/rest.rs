@@ -16,8 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Maximum deviation of points from their mean motion, relative to the mean, for which all points
-/// count as moving together.
+/// Maximum deviation of points from their mean motion, relative to the mean, for a body that moves
+/// as a whole.
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -38,7 +38,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut findings = Vec::new();
     if !(way <= tolerance && speed <= tolerance) {
         let claims_double = patient.solver.precision() == Precision::Double;
-        // Any real acceleration causes far more in one step.
+        // Any acceleration by a defect causes far larger motion in one step.
         let is_noise = claims_double && way.max(speed) <= 1e-5;
         findings.push(if is_noise { single(way, speed) } else { cause(&course) });
     } else if let Some(failure) = &course.failure {
@@ -104,7 +104,6 @@ fn cause(course: &Course) -> SolverFinding {
     )
 }
 
-/// Returns the finding for points that move differently.
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let centre = {

@@ -1,11 +1,11 @@
-//! Soil plasticity along element paths: yield, flow, edges, the apex, objectivity and the number of
-//! steps.
+//! Examination of soil plasticity along prescribed strain paths: yield, flow, edges, the apex,
+//! objectivity and the number of steps.
 //!
-//! The body is so heavy that no wave moves during the run, so it follows `v = L (X - X_c)` and its
-//! deformation gradient grows from I to `I + L` in one second. The stress in its middle is the
-//! stress of the law along this path. The built-in solver computes the expected stress on a grid in
-//! the reference configuration, which represents the motion exactly. The expected stress belongs to
-//! the measured motion, because averaging (PIC) and functions on a fixed grid change the motion.
+//! The body is so heavy that no wave moves during the run. It therefore follows `v = L (X - X_c)`,
+//! and its deformation gradient grows from I to `I + L` in one second. The stress in its middle
+//! follows from the law along this path. The built-in solver computes the expected stress in a
+//! Total Lagrangian run, which represents the motion exactly. The measured motion determines the
+//! path, because averaging (PIC) and basis functions on a fixed grid change the motion.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -29,43 +29,42 @@ const LAWS: [&str; 2] = ["drucker_prager", "mohr_coulomb"];
 /// and the error is up to 0.016.
 const NEAR: f64 = 0.025;
 
-/// Maximum error with a rotation, which affine transfers change in their first step. The strain is
-/// ten times as large, so errors of the motion are small compared with the strain.
+/// Maximum error with a rotation, which affine transfers change in their first step.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
-/// Maximum ratio of the smaller to the larger of the errors with one and with 20 steps for which
-/// the stress depends on the number of steps.
+/// The stress depends on the number of steps if the errors with one and with 20 steps have at most
+/// this ratio (smaller to larger).
 const STEP_RATIO: f64 = 0.3;
 
-/// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the strain
-/// of a path.
+/// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the final
+/// strain of a path.
 const STRENGTH: f64 = 1.0 / 15_000.0;
 
-/// Number of steps of a path, except for the path with one step.
+/// Number of steps of all paths except the one-step path.
 const STEPS: u64 = 20;
 
-/// Young's modulus (Pa) of the soils.
 const YOUNG: f64 = 15_000.0;
 
-/// Poisson's ratio. Soils with a friction angle of 30 degrees yield in uniaxial compression if it
-/// is below 0.25.
+/// Poisson's ratio. Below 0.25, soils with a friction angle of 30 degrees yield in uniaxial
+/// compression.
 const POISSON: f64 = 0.2;
 
-/// Density (kg/m3). Waves travel about 1e-8 cells in a second.
+/// Density (kg/m3). It is so large that waves travel only about 1e-8 cells in a second.
 const DENSITY: f64 = 1e22;
 
-/// Displacement gradient at the end of each path. The soils yield on all of them.
+/// Displacement gradient at the end of a path of uniaxial compression.
 const COMPRESSION: [[f64; 3]; 3] = [[-0.003, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Extension beyond the apex.
+/// Displacement gradient of a uniaxial extension whose elastic stress lies beyond the apex of the
+/// yield surface.
 const EXTENSION: [[f64; 3]; 3] = [[0.0006, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-/// Shear with three different principal stresses: on a face of the Mohr-Coulomb pyramid.
+/// Displacement gradient of a shear with three different principal stresses, so the stress is on a
+/// face of the Mohr-Coulomb pyramid.
 const SHEAR: [[f64; 3]; 3] = [[0.0012, 0.0, 0.0], [0.0, -0.0012, 0.0], [0.0; 3]];
-/// Compression to 0.97 along X, and a rotation by 0.4 rad: the cosine is 0.921061 and the sine
-/// 0.389418.
+/// Displacement gradient of a compression to 0.97 along X and a rotation by 0.4 rad: the cosine is
+/// 0.921061 and the sine 0.389418.
 const ROTATION: [[f64; 3]; 3] =
     [[0.921_061 * 0.97 - 1.0, -0.389_418, 0.0], [0.389_418 * 0.97, 0.921_061 - 1.0, 0.0], [0.0; 3]];
 
-/// A path with its measured and its expected stress in the middle of the body.
 struct Leg {
     scene: BoxScene,
     stress: Vec<f64>,
@@ -73,18 +72,18 @@ struct Leg {
 }
 
 impl Leg {
-    /// Error of the stress, relative to the largest expected component.
+    /// Returns the error of the stress, relative to the largest expected component.
     fn relative_error(&self) -> f64 {
         error(&self.stress, &self.expected)
     }
 
-    /// Whether the stress is wrong; also if it is not a number.
+    /// Whether the stress is wrong. NaN counts as wrong.
     fn is_wrong(&self) -> bool {
         !(self.relative_error() <= NEAR)
     }
 
-    /// Largest difference of the error of a component from that of `other`, relative to the largest
-    /// component.
+    /// Returns the largest difference between the stress errors of the two paths, relative to the
+    /// largest component.
     fn distance_from(&self, other: &Self) -> f64 {
         let errors = |leg: &Self| -> Vec<f64> {
             leg.stress.iter().zip(&leg.expected).map(|(found, expected)| found - expected).collect()
@@ -94,12 +93,12 @@ impl Leg {
         error(&moved, &self.expected)
     }
 
-    /// Whether the stress agrees with that of another law or of other parameters.
+    /// Whether the measured stress agrees with the expected stress of `other`, which has another
+    /// law or other parameters.
     fn is_that_of(&self, other: &BoxScene) -> Result<bool, Hindrance> {
         Ok(error(&self.stress, &expected(other)?) <= NEAR)
     }
 
-    /// Describes the measured and the expected stress of the `path`, over Young's modulus.
     fn describe(&self, path: &str) -> String {
         let over = |stress: &[f64]| {
             let parts: Vec<String> = stress.iter().map(|s| shown(s / YOUNG)).collect();
@@ -157,7 +156,6 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// Runs the paths of one law.
 fn legs(patient: &Patient<'_>, kind: Kind) -> Result<Legs, Hindrance> {
     let mut scenes = vec![
         path(kind, &COMPRESSION, STEPS),
@@ -224,7 +222,7 @@ fn expected(scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     in_middle(&scene.built_in(METHOD)?, scene)
 }
 
-/// Returns the first finding on a law. Simple paths are examined first.
+/// Returns the first finding on a law. Later paths are examined only if simpler ones are right.
 fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     let Legs { compression, one_step, extension, shear, rotation } = legs;
     let face_is_right = shear.as_ref().is_some_and(|leg| !leg.is_wrong());
@@ -277,8 +275,8 @@ fn sorted(a: f64, b: f64) -> [f64; 2] {
     if a <= b { [a, b] } else { [b, a] }
 }
 
-/// Returns the finding on a wrong stress on a path. `on_edge` is true for a Mohr-Coulomb soil on an
-/// edge whose stress on a face is right.
+/// Returns the finding on a wrong stress on a path. `on_edge` is true for a Mohr-Coulomb soil whose
+/// stress is wrong on an edge but right on a face.
 fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hindrance> {
     if leg.is_that_of(&BoxScene { law: "hencky", ..leg.scene.clone() })? {
         return Ok(SolverFinding::defect(
@@ -337,7 +335,7 @@ fn yield_surface(leg: &Leg, path: &str) -> SolverFinding {
     )
 }
 
-/// Whether the stress of a path of uniaxial strain is on the yield surface, up to rounding of
+/// Whether the stress of a uniaxial strain path is on the yield surface, up to rounding of
 /// parameters. `None` in one dimension, where the lateral stress is unknown.
 fn is_on_surface(leg: &Leg) -> Option<bool> {
     let d = leg.scene.dimension;
@@ -376,8 +374,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Axial and lateral Kirchhoff stress (Pa) of a Drucker-Prager soil in uniaxial compression by
-    /// the logarithmic strain `e`, which is positive.
+    /// Returns the axial and lateral Kirchhoff stress (Pa) of a Drucker-Prager soil in uniaxial
+    /// compression by the logarithmic strain `e > 0`.
     fn cone(scene: &BoxScene, e: f64) -> (f64, f64) {
         let (lambda, mu) = scene.lame();
         let (bulk, dilation) = (lambda + 2.0 * mu / 3.0, FRICTION * scene.dilation);
@@ -388,7 +386,8 @@ mod tests {
         (mean - 2.0 / 3.0_f64.sqrt() * root, mean + root / 3.0_f64.sqrt())
     }
 
-    /// The stress of [`cone`] for a Mohr-Coulomb soil: on an edge, two planes have one multiplier.
+    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil. On an edge of the pyramid, two
+    /// planes share one plastic multiplier.
     fn pyramid(scene: &BoxScene, e: f64) -> (f64, f64) {
         let (lambda, mu) = scene.lame();
         let modulus = lambda + 2.0 * mu;

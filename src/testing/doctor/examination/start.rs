@@ -22,14 +22,15 @@ pub(super) const EXAMINATION: Examination = Examination {
 };
 
 /// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Other
-/// deformations give a lattice that is unevenly distributed over cells, which reduces the force by
-/// a tenth with linear functions.
+/// deformations distribute the particles unevenly over cells, which reduces the force by a tenth
+/// with linear functions.
 const SHEAR: f64 = 1.0;
 
 /// Initial stretch in one dimension.
 const STRETCH: f64 = 0.05;
 
-/// Maximum relative error of the force, because waves are near and the state has changed slightly.
+/// Maximum relative error of the force. It allows for approaching waves and small changes of the
+/// state.
 const NEAR: f64 = 0.12;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -37,8 +38,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear preserves volumes. A stretch reveals errors of masses and volumes; it uses a law that
-    // depends on F if possible.
+    // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes. It uses
+    // a law that depends on F if possible.
     if first.dimension > 1 {
         let law = scenes.last().map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law)));
@@ -81,7 +82,8 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Creates a body of 1.5 times its length. Three particles per cell and axis become two.
+/// Creates a body stretched to 1.5 times its length, so three particles per cell and axis become
+/// two.
 fn stretched(kind: Kind) -> BoxScene {
     let mut scene = scene(kind);
     scene.ppc = 3;
@@ -96,7 +98,7 @@ struct Forces {
     ratio: f64,
     /// Difference from the expected force, relative to the expected force.
     error: f64,
-    /// Number of steps before the force begins to act.
+    /// Delay of the force (steps).
     late: f64,
 }
 
@@ -136,7 +138,6 @@ impl Forces {
         }
     }
 
-    /// Formats the delay in tenths of a step.
     fn shown_delay(&self) -> String {
         shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
     }

@@ -3,13 +3,14 @@
 //!
 //! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
 //! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
-//! rotation or a stretch about the centre C. Its transfer is measured by the moment
-//! `M = sum m (X - C) x v`, or `sum m (X - C) . v`. A transfer that averages (PIC) loses
-//! `beta d D sum m L` of M in each step. D is the second moment of the weights along an axis, 1/4
-//! h2 for quadratic and 1/3 h2 for cubic B-splines, and beta is the share of PIC. An affine
-//! transfer loses `1 - a` times as much if its matrix C is wrong by the factor a. It loses twice as
-//! much of a rotation if C is transposed, and nothing if C is correct (Jiang et al. 2015, eq. 8 to
-//! 11).
+//! rotation or a stretch about the centre C. The moment `M = sum m (X - C) x v` (rotation) or `M =
+//! sum m (X - C) . v` (stretch) measures its transfer.
+//!
+//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. D is the second
+//! moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines, and
+//! beta is the share of PIC. An affine transfer loses `1 - a` times as much if its matrix C is
+//! wrong by the factor a. It loses twice as much of a rotation if C is transposed, and nothing if C
+//! is correct (Jiang et al. 2015, eq. 8 to 11).
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -35,7 +36,7 @@ pub(super) const INITIAL_VELOCITY: Examination = Examination {
 /// Rate of rotation or stretch (1/s). No point moves by more than 1e-4 cells.
 const RATE: f64 = 1e-4;
 
-/// Bases whose averaging loss is known.
+/// Basis functions whose averaging loss is known.
 const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 
 /// Maximum relative difference between a loss and the loss of a basis.
@@ -44,22 +45,21 @@ const NEAR: f64 = 0.03;
 /// Loss (relative to h2 and the inertia) below which a transfer counts as conserving the moment.
 const KEPT: f64 = 0.004;
 
-/// Number of steps per run.
 const STEPS: u64 = 5;
 
-/// A motion whose moment is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum SlowMotion {
     Rotation,
     Stretch,
 }
 
-/// Losses of the moment, in units of `d h2 M/I`: in the first step, and per step on average later.
+/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. I is the
+/// moment of inertia divided by the mass.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
     later: f64,
-    /// The unit of the losses, as a share of the moment.
+    /// The unit of the losses, divided by M.
     unit: f64,
 }
 
@@ -76,7 +76,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // The first step loses the whole moment, and later steps lose nothing.
+    // Velocities in another order lose the whole moment in the first step, and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step the velocities of a stretched body belong to other places";
         let finding = SolverFinding::defect(
@@ -157,7 +157,6 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     Ok(Examined::new(measured, Vec::new()))
 }
 
-/// Creates a soft body that moves about its centre.
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
@@ -191,8 +190,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// Compares the losses of a stretch, of a rotation, and of a stretched body an eighth of the size
-/// with the averaging losses of each basis.
+/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small` is
+/// a stretch of a body of an eighth of the size.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -218,8 +217,9 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // A transposed matrix loses twice as much as averaging: in every step if the matrix starts
-        // with the velocity gradient, and in every step except the first if it starts at zero.
+        // Losses are twice those of averaging if the affine matrix is transposed. They occur in
+        // every step if the matrix starts with the velocity gradient, and in every step except the
+        // first if it starts at zero.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {
@@ -242,15 +242,13 @@ fn cause(
         );
     }
     // Partial averaging affects all motions and steps equally. An affine matrix that starts at zero
-    // averages completely in its first step, by an amount that depends on the basis; only later
-    // steps show the effect of the matrix.
+    // averages completely in its first step, so only later steps show the effect of the matrix.
     let most = averaging.iter().map(|l| l.later).fold(0.0, f64::max);
     let is_share = losses.iter().all(|loss| (-KEPT..=1.1 * most + KEPT).contains(loss));
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));
     let is_averaging = match of_basis {
         Some(of_basis) => is_alike(of_basis.later, stretch.later),
-        // The ratio between the losses of the first and of later steps allows for the decay of the
-        // averaging error.
+        // The factor allows for the decay of the averaging error in later steps.
         None => stretch.later > 0.65 * stretch.first,
     };
     // FLIP may replace a part of the averaging of any basis.

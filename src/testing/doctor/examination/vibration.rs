@@ -1,11 +1,10 @@
 //! Examination of a free vibrating body, whose energy must not grow.
 //!
-//! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy
-//! stays near or below the initial value for two kinds of schemes: those that compute the strain
-//! from the velocity after the forces (USL, MUSL), and those that compute the forces from the
-//! stress after the strain (USF). If a scheme computes both from the beginning of the step, as in
-//! forward Euler, each step multiplies the amplitude of a mode of frequency w by
-//! `sqrt(1 + w2 dt2)`.
+//! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy must
+//! not exceed its initial value by much. This holds for schemes that compute the strain from the
+//! velocity after the forces (USL, MUSL), and for schemes that compute the forces from the stress
+//! after the strain (USF). If a scheme computes both from the beginning of the step, as in forward
+//! Euler, each step multiplies the amplitude of a mode of frequency w by `sqrt(1 + w2 dt2)`.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -19,13 +18,12 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Length of the body (cells).
 const CELLS: f64 = 6.0;
 
 /// Number of periods of the lowest mode. In one period, a wave travels to the other end and back.
 const PERIODS: f64 = 2.0;
 
-/// Distance that waves travel in one step (cells).
+/// Distance that waves travel per step (cells).
 const COURANT: f64 = 0.3;
 
 /// Stretch rate (1/s). Strains stay below 1e-4.

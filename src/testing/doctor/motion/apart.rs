@@ -8,15 +8,16 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Distance from the rim (cells) within which the support of basis functions reaches nodes outside.
+/// Distance from the body's edge (cells) within which basis functions involve nodes outside the
+/// body.
 const RIM: f64 = 1.6;
 
-/// Returns a cause that is visible for any size of the error: a position limit or cell changes.
+/// Returns a cause that is recognised even if the error is small: a position limit, light nodes or
+/// cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
 
-/// Returns the cause of a deviation that is larger than rounding.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     let soft = motion.scene.soft();
     let course = motion.patient.run(&soft)?;
@@ -42,9 +43,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Returns a finding if points slow down by different amounts at a rate that does not depend on the
-/// step length (non-uniform drag). Wrong weights would cost a share of the speed per step instead.
-/// The body in `motion` has no stiffness, so points exert no forces on each other.
+/// Returns a finding if points slow down by different amounts, at rates that do not depend on the
+/// step length (non-uniform drag). Wrong weights would cost a fixed share of the speed per step.
+/// The body has no stiffness, so points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -53,9 +54,9 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // Evaluated at the end of the first step, before losses saturate. With twice as many steps,
-    // drag loses the same amount and wrong weights lose twice as much; the limit is halfway between
-    // these.
+    // The losses are compared at the end of the first step, before they saturate. With half the
+    // step length, drag loses as much in this time, and wrong weights lose twice as much. The limit
+    // is halfway between 1 and 2.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -120,7 +121,6 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let step = course.times[1];
     (0..d).filter(|i| v[*i] != 0.0 && last > 5).find_map(|i| {
-        // Largest position along the direction of motion.
         let end = |k: usize| {
             let places = course.points(displacement, k).map(|(label, u)| label[i] + u[i]);
             places.map(|x| x * v[i].signum()).fold(f64::NEG_INFINITY, f64::max)
@@ -157,7 +157,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let first = (1..=course.last()).find(crosses)?;
     let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
-    // Two correct steps show that the error is not caused by every step.
+    // Two correct steps show that only the cell change causes the error.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
@@ -178,7 +178,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if the error begins only at the rim.
+/// Returns a finding if the error begins only at the edge of the body.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

@@ -7,10 +7,10 @@ use crate::testing::doctor::course::{
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::Hindrance;
 
-/// Maximum relative difference between a measured value and the pattern that explains it.
+/// Maximum relative difference between a measured value and the value that a suspected cause
+/// predicts.
 const NEAR: f64 = 0.02;
 
-/// Returns the cause, if the motion matches a known pattern.
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let course = &motion.course;
     let last = course.last();
@@ -46,7 +46,7 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<So
     ))
 }
 
-/// Returns a finding if velocities change.
+/// Returns a finding if velocities are wrong or change.
 fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let shares = shares(motion);
     let last = shares[shares.len() - 1];
@@ -70,8 +70,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // Repeats the run with half the step length: a loss per unit time keeps its rate, and a loss
-    // per step doubles its rate.
+    // With half the step length, a loss per unit time keeps its rate, and a loss per step doubles
+    // its rate.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
@@ -116,7 +116,7 @@ fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
 }
 
-/// Returns a finding if displacements do not follow from correct velocities.
+/// Returns a finding if displacements disagree with correct velocities.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
@@ -163,7 +163,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns the likely cause of a factor.
+/// Returns the likely cause of a wrong factor of the displacement.
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
     if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {
@@ -173,7 +173,6 @@ fn units(factor: f64) -> &'static str {
     }
 }
 
-/// Returns the finding for a motion that matches no known pattern.
 pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     let (course, d) = (&motion.course, motion.course.problem.dimension);
     let last = course.last();

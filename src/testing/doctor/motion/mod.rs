@@ -17,7 +17,7 @@ use super::scene::BoxScene;
 use crate::subject::Precision;
 use seen::UniformMotion;
 
-/// Maximum error of a motion that rounding to 24 bits can explain.
+/// Maximum relative error of a motion that single precision can explain.
 const SINGLE: f64 = 1e-4;
 
 /// Examines whether `scene`, whose initial velocity is uniform, continues with this velocity.
@@ -54,7 +54,8 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
 }
 
-/// Returns the finding for noise above the level of double precision.
+/// Returns the finding for errors that are too large for double precision but not for single
+/// precision.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",

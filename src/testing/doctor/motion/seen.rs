@@ -4,11 +4,10 @@ use crate::testing::doctor::course::{Course, displacement, minus, size, times, v
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Maximum deviation of points from their mean error, relative to the mean error, for which the
-/// points count as having a common error.
+/// Maximum deviation of the points' errors from their mean, relative to the mean, for a body that
+/// moves as a whole.
 const AS_ONE: f64 = 0.05;
 
-/// A recorded motion that should be uniform.
 pub(super) struct UniformMotion<'a> {
     pub(super) patient: &'a Patient<'a>,
     pub(super) scene: &'a BoxScene,
@@ -47,7 +46,7 @@ impl UniformMotion<'_> {
                 size(minus(u, times(course.times[k], self.velocity))),
                 size(minus(v, self.velocity)),
             ];
-            // Rounding errors also differ between points.
+            // Small differences between points may be rounding errors.
             let small = [
                 1e-6 * size(self.velocity) * course.times[course.last()],
                 1e-6 * size(self.velocity),

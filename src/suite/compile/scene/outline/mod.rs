@@ -12,20 +12,14 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
-/// Shape of a body.
 pub(crate) enum BodyShape<'a> {
-    /// A box, given by its keys.
     Box(&'a BoxSpec),
-    /// A body with a free rim.
+    /// A body with a free surface, such as a disk or a polygon.
     Free(Arc<dyn Outline>),
-    /// A quadrilateral, which is a mapped box.
+    /// A quadrilateral, which is the bilinear map of a box.
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
-/// Compiles the shape in `spec`.
-///
-/// # Errors
-/// A diagnostic about a body that is invalid in `dimension` dimensions.
 pub(crate) fn shape<'a>(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -67,10 +61,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Refuses conditions on rims, and loads on rims other than the few that round rims support.
-///
-/// # Errors
-/// A diagnostic about the first condition or load on a rim.
+/// Refuses conditions on rims, and loads on rims except those that round rims support.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -102,9 +93,6 @@ pub(crate) fn rims_are_free(
 }
 
 /// Refuses a grid that does not contain the whole body.
-///
-/// # Errors
-/// A diagnostic about the end of the grid that is inside the body.
 pub(crate) fn fits(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -130,10 +118,6 @@ pub(crate) fn fits(
     Ok(())
 }
 
-/// Compiles the lowest and highest corner of a box.
-///
-/// # Errors
-/// A diagnostic about a box that is empty, too small or too large.
 pub(crate) fn corners(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -149,7 +133,8 @@ pub(crate) fn corners(
             let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
             return Err(diagnostic.with_label("expected a number above that of `from`"));
         }
-        // Second derivatives contain squares of lengths; volumes contain cubes.
+        // Second derivatives contain squares of the length, and volumes contain cubes; both must be
+        // finite.
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));

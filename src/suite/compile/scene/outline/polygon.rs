@@ -1,19 +1,13 @@
-//! Compiles polygons.
-
 use crate::exact::{Outline, Polygon};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Maximum number of corners of a polygon. It limits the run time, because every lattice cell is
-/// intersected with all sides.
+/// Maximum number of corners of a polygon. It limits the run time, because every side is
+/// intersected with every lattice cell.
 const MOST: usize = 100;
 
-/// Compiles the polygon whose corners are at `path`.
-///
-/// # Errors
-/// A diagnostic if the corners do not form a simple polygon.
 pub(super) fn polygon(
     evaluator: &Evaluator<'_>,
     path: &Path,

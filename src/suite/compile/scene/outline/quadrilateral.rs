@@ -1,5 +1,3 @@
-//! Compiles quadrilaterals.
-
 use super::polygon::corners;
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
@@ -10,9 +8,6 @@ use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
 /// Compiles the quadrilateral in `spec` at `path`, and its outline.
-///
-/// # Errors
-/// A diagnostic about corners that do not form a convex quadrilateral.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -36,10 +31,8 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// Refuses conditions and loads on faces of the bounding box on which no whole side lies.
-///
-/// # Errors
-/// A diagnostic about the first condition or load on such a face.
+/// Refuses conditions and loads on a face of the bounding box that contains no side of the
+/// quadrilateral.
 pub(crate) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -48,7 +41,7 @@ pub(crate) fn faces_are_sides(
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
         let number = FACES.iter().position(|face| *face == name);
-        // A later check reports numbers that are not faces.
+        // A later check reports faces that do not exist in two dimensions.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
     let no_side = |at: &Path, face: &str, is_key: bool| {

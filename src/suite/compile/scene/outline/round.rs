@@ -1,5 +1,3 @@
-//! Compiles round bodies.
-
 use crate::exact::{Outline, Round};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, RoundSpec};
@@ -7,10 +5,6 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Compiles the annulus at `path`.
-///
-/// # Errors
-/// A diagnostic about invalid rims.
 pub(super) fn annulus(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -27,10 +21,6 @@ pub(super) fn annulus(
     Err(diagnostic.with_label("expected a number above `inner`"))
 }
 
-/// Compiles the disk or ball at `path`.
-///
-/// # Errors
-/// A diagnostic about an invalid centre or radius.
 pub(super) fn filled(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -9,12 +9,8 @@ use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Keys of a thermal condition in a suite.
 pub(crate) trait ThermalKeys {
     /// Checks the keys and returns the condition with all numbers computed.
-    ///
-    /// # Errors
-    /// The first error in the keys.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
 
     /// Whether heat can enter through the face.
@@ -32,14 +28,12 @@ pub struct SceneHeat {
     pub capacity: f64,
     /// Heat source (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t. Default: that of the exact
-    /// solution.
+    /// Initial temperature (K), a formula of the coordinates and t. By default it is that of the
+    /// exact solution.
     pub initial: Option<Formula>,
-    /// All faces of the body.
     pub(crate) faces: Vec<ThermalFace>,
 }
 
-/// One face of a heat-conducting body.
 #[derive(Debug, Clone)]
 pub(crate) struct ThermalFace {
     pub(crate) name: &'static str,
@@ -49,7 +43,6 @@ pub(crate) struct ThermalFace {
 }
 
 impl ThermalFace {
-    /// Returns the corresponding face of the exact heat problem.
     pub(crate) fn exact(&self) -> HeatFace {
         let Self { name, axis, high, condition } = self;
         HeatFace { name, axis: *axis, high: *high, condition: condition.clone() }
@@ -69,14 +62,12 @@ in_every_dimension! {
     BuildThermals: BuildThermal
 }
 
-/// A thermal condition on one face of the body, with all numbers computed. The implementations are
-/// in `suite/scene/boundary/thermal`.
+/// A thermal condition on one face of the body, with all numbers computed.
 pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
     /// Returns the text for the report row of the face; `None` for a periodic face.
     fn row(&self) -> Option<String>;
 }
 
-/// Builds `condition` for the solver in D dimensions.
 pub(crate) fn build<const D: usize>(condition: &Arc<dyn HeatCondition>) -> Option<Thermal<D>> {
     let condition: Arc<dyn BuildThermals> = condition.clone();
     condition.in_dimension::<D>()?.build()

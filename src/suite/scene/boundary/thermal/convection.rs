@@ -10,7 +10,7 @@ use crate::suite::scene::numbers::scalar;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Heat transfer; the temperature of the surroundings is a formula of the coordinates and t.
+/// Newton's law of cooling. The ambient temperature is a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -33,9 +33,7 @@ impl ThermalKeys for ConvectionSpec {
 /// The condition `-Q . n = coefficient (ambient - T)`, per reference area.
 #[derive(Debug)]
 struct Convection {
-    /// Heat transfer coefficient (W/(K m^(D-1))).
     coefficient: f64,
-    /// Ambient temperature (K).
     ambient: Formula,
 }
 

@@ -10,7 +10,7 @@ use crate::suite::scene::numbers::scalar;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Heat that enters (W/m^(D-1)), a formula of the coordinates and t.
+/// Heat flux into the body (W/m^(D-1)), a formula of the coordinates and t.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(transparent)]

@@ -1,4 +1,4 @@
-//! Faces without heat supply from outside: insulated faces, and periodic faces.
+//! Faces without heat flux from outside: insulated faces and periodic faces.
 
 use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
 use crate::exact::Violation;

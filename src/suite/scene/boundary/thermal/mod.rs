@@ -18,10 +18,10 @@ conditions! {
     ThermalSpec: ThermalKeys;
     /// No heat flows.
     Insulated = "insulated" is insulated::Insulated;
-    /// The temperature (K).
+    /// Prescribed temperature (K).
     Temperature = "temperature" of temperature::TemperatureSpec;
-    /// Heat that enters (W/m^(D-1)).
+    /// Prescribed heat flux into the body (W/m^(D-1)).
     Flux = "flux" of flux::FluxSpec;
-    /// Heat that enters in proportion to a difference of temperatures.
+    /// Heat flux proportional to the difference from the ambient temperature.
     Convection = "convection" of convection::ConvectionSpec;
 }

@@ -1,29 +1,29 @@
 //! Measures stresses from the momentum flux through the middle of a body.
 //!
-//! Also checks the columns `stress` and `deformation_gradient` of a solver that reports them.
+//! Also checks the columns `stress` and `deformation_gradient`, if the solver reports them.
 
 use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
-/// Rate of stretch along the first axis (1/s). The body is compressed, because artificial viscosity
-/// acts in compression only. Strains stay below 1e-3.
+/// Rate of stretch along the first axis (1/s). It is negative, because artificial viscosity acts in
+/// compression only. Strains stay below 1e-3.
 pub(super) const STRETCH: f64 = -5e-3;
 /// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
 
-/// Half the width of the tube whose momentum is measured (cells).
+/// Half the width (cells) of the tube: the points around an axis whose momentum is measured.
 const TUBE: f64 = 2.0;
 
-/// Distance that waves travel during the run (cells). They reach neither the side of the tube nor
-/// its middle.
+/// Distance that waves travel during the run (cells). It is so short that waves from free faces do
+/// not affect the momentum of the tube.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
 /// Number of steps. It is small, because averaging (PIC) spreads momentum in each step.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
-/// (force along y) and sigma_yx relative to the shear. In 1-D, only the first one.
+/// (force along y) and sigma_yx relative to the shear. In 1-D, only `along` is measured.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MeasuredModuli {
     pub(super) along: f64,
@@ -31,16 +31,16 @@ pub(super) struct MeasuredModuli {
     pub(super) shear: [f64; 2],
     /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate.
     pub(super) viscosity: f64,
-    /// Momentum transferred without stress, as a share of that transferred by stress; at most 1.
+    /// Momentum transferred by averaging, without stress, as a share of that transferred by stress;
+    /// at most 1.
     pub(super) averaged_share: f64,
-    /// Momentum transferred by the viscosity, as a share of that transferred by stress; at most 1.
+    /// Momentum transferred by viscosity, as a share of that transferred by stress; at most 1.
     pub(super) viscous_share: f64,
 }
 
-/// Creates the scene, which the examination `units` also uses.
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // With a cell of 0.15 m and these particle numbers, no two defects cause the same factor.
+    // With a cell of 0.15 m and these particle numbers, each defect causes a different factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -79,7 +79,7 @@ pub(super) fn moduli_by_momentum(
         averaged_share: averaged.abs().min(1.0),
         ..MeasuredModuli::default()
     };
-    // A stress that is half a step ahead or behind is not viscous.
+    // A time shift of the stress by half a step is not viscosity.
     let viscous = (viscous.abs() - 0.6 * (along * scene.dt).abs()).max(0.0);
     let end = course.times[course.last()];
     measured.viscosity = viscous / STRETCH / scene.density;
@@ -91,9 +91,9 @@ pub(super) fn moduli_by_momentum(
     measured
 }
 
-/// Computes the constant part (Pa) and the rate (Pa/s) of a stress from its impulses (Pa s) at
-/// several times (s): least-squares fit of `constant t + rate t^2/2`, starting at the end of the
-/// first step.
+/// Computes the constant part (Pa) and the rate (Pa/s) of a stress from its impulses (Pa s) at the
+/// times `t` (s). Fits `constant t + rate t^2/2` by least squares, starting at the end of the first
+/// step.
 pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
@@ -110,9 +110,9 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Computes the impulse (Pa s) at each time of the stress with normal i and force direction j. This
-/// is the momentum transferred from the upper to the lower half of a tube along axis i, divided by
-/// the area of the tube. It is computed only from velocities at reference positions.
+/// Computes the impulse (Pa s) at each time of the stress with normal i and force direction j. The
+/// impulse is the momentum transferred from the upper to the lower half of a tube along axis i,
+/// divided by the area of the tube. It depends only on velocities at reference positions.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -126,7 +126,8 @@ pub(in crate::testing::doctor) fn impulses(
         (0..d).all(|a| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h * (1.0 + 1e-9))
     };
     let labels = course.points(velocity, 0).map(|(label, _)| label);
-    // Points may lie on the side of the tube, as nodes do. The area is that of the points inside.
+    // Points (such as nodes) may lie exactly on the side of the tube, so the area is computed from
+    // the points inside.
     let volume: f64 = labels.zip(weight).filter(|(x, _)| in_tube(*x)).map(|(_, w)| w).sum();
     let area = volume / (scene.body.1[i] - scene.body.0[i]);
     let impulse = |k: usize| {
@@ -144,7 +145,8 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Maximum relative error of a column. The column may be one step old, and waves are near.
+/// Maximum relative error of a column. It is large because the column may be one step old, and
+/// waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
 /// Returns the growth of the column `stress` along the stretch, relative to its expected growth;
@@ -157,8 +159,8 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Returns F_00 - 1 in the column `deformation_gradient`, relative to that of the motion; `None`
-/// without this column.
+/// Returns F_00 - 1 from the column `deformation_gradient`, relative to its value in the motion;
+/// `None` without this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;
@@ -193,7 +195,8 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Returns the mean of a tensor column within a cell of the middle; `None` without the column.
+/// Returns the mean of a tensor column over the points within one cell of the body's centre; `None`
+/// without the column.
 pub(in crate::testing::doctor) fn inside(
     course: &Course,
     scene: &BoxScene,

@@ -1,10 +1,11 @@
 //! Examination of a body that stretches and shears: the stress is measured from the momentum flux
 //! through the middle.
 //!
-//! With an initial velocity `v = L (X - C)` the strain is uniform, L t, until waves arrive from the
-//! free faces, and no force acts inside. Momentum is transferred from one half to the other by
-//! `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points around axis
-//! i, the transfer can be computed exactly from velocities alone, for any basis functions.
+//! With an initial velocity `v = L (X - C)` the strain L t is uniform, and no net force acts
+//! inside, until waves arrive from the free faces. Momentum is transferred from one half to the
+//! other by `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points
+//! around axis i, the transfer can be computed exactly from velocities alone, for any basis
+//! functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
@@ -33,7 +34,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Examines each number of dimensions that the solver supports, until one has findings.
+/// Examines each supported number of dimensions, until one has findings.
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();
@@ -78,8 +79,8 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     }))
 }
 
-/// Runs `scene` and measures its moduli. If the solver `averages` velocities, a run without
-/// stiffness is made as well.
+/// Runs `scene` and measures its moduli. If the solver averages velocities (`averages`), a second
+/// run without stiffness measures the effect of averaging.
 fn measure(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -105,7 +106,7 @@ fn examine_scene(
     let (mut course, mut measured) = measure(patient, &scene, averages)?;
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
-    // Waves faster than expected have arrived: repeat with a shorter run.
+    // Waves are faster than expected and have arrived: repeat with a shorter run.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;
@@ -128,7 +129,7 @@ fn examine_scene(
     Ok((examined, measured.averaged_share))
 }
 
-/// Names of findings that a viscosity can cause as well.
+/// Findings that viscosity can cause as well.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
@@ -166,7 +167,6 @@ fn lost_momentum(
     let last = course.last();
     let (start, end) = (course.mean(velocity, 0), course.mean(velocity, last));
     let change: [f64; 3] = std::array::from_fn(|i| end[i] - start[i]);
-    // Speed that a face gains during the run.
     let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
     let share = size(change) / gain;
     let most = match patient.solver.precision() {

@@ -8,13 +8,13 @@ use crate::testing::doctor::scene::BoxScene;
 /// Maximum difference between moduli, relative to the largest modulus.
 const NEAR: f64 = 0.03;
 
-/// Additional maximum difference if averaging transfers as much momentum as stress.
+/// Addition to [`NEAR`] if averaging transfers as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
-/// A defect: name, moduli (longitudinal, lateral, shear), cause, and code to check.
+/// A defect: its name, the moduli that it causes (longitudinal, lateral, shear), its cause, and the
+/// code to check.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
-/// Returns a finding if the measured moduli differ from those of the law.
 pub(super) fn cause(
     course: &Course,
     scene: &BoxScene,
@@ -151,8 +151,8 @@ fn mistakes(scene: &BoxScene, lambda: f64, mu: f64) -> Vec<Mistake> {
     all
 }
 
-/// Returns the finding for moduli with a common factor. The modulus, the mass, the volume or the
-/// gradients are wrong; the column `stress` shows whether it is the modulus.
+/// Returns the finding for moduli that all have a wrong `factor`. The modulus, the mass, the volume
+/// or the gradients are wrong; the column `stress` shows whether it is the modulus.
 fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if is(-1.0) {
@@ -223,7 +223,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
-/// Returns distinct acceleration factors whose cause is known.
+/// Returns acceleration factors with known causes; no two factors are equal.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

@@ -5,27 +5,27 @@ use crate::testing::doctor::course::shown;
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::FACES;
 
-/// Accepted range of the force on a decelerated body, relative to the expected force. The force
-/// oscillates about its mean for a long time. With FLIP and cubic functions, the mean over the run
-/// is 0.70.
+/// Accepted range of the force on a body thrown against the wall, relative to the expected force.
+/// The force oscillates about its mean for a long time. With FLIP and cubic functions, the mean
+/// over the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Relative force below which a wall lets the body separate or slide.
+/// Maximum relative force of a wall from which the body can separate or along which it can slide.
 const NONE: f64 = 0.2;
 
-/// Relative force below which a wall counts as missing.
+/// Maximum relative force of a missing wall.
 const ABSENT: f64 = 0.1;
 
 /// Maximum relative difference between forces of walls that are mirror images, or that differ only
 /// in their tangential condition.
 const UNEVEN: f64 = 0.05;
 
-/// Displacement through the wall above which the wall counts as missing. Unit: displacement of a
-/// free body while a wave crosses one cell.
+/// Minimum displacement through a missing wall, relative to the displacement of a free body while a
+/// wave crosses one cell.
 const THROUGH: f64 = 0.8;
 
-/// Maximum relative error of the force under gravity, which begins smoothly. Averaging (PIC) with
-/// cubic functions has an error of 0.15.
+/// Maximum relative error of the force under gravity. Averaging (PIC) with cubic functions has an
+/// error of 0.15.
 const SMOOTH: f64 = 0.2;
 
 /// Maximum missing part of a wall force under gravity, as a share of the weight of a cell.
@@ -40,7 +40,7 @@ const CARRIED: f64 = 0.4;
 /// more.
 const STRETCH: f64 = 0.05;
 
-/// Kinds of findings. A kind that explains others precedes them.
+/// Kinds of findings; each may explain the kinds after it.
 const KINDS: [&str; 11] = [
     "position-limited",
     "wall-holds-acceleration-only",
@@ -55,7 +55,8 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// Returns the defect that explains all others, with its faces; without a defect, the remark.
+/// Returns the defect that explains all others, with the faces that show it, or a remark if there
+/// is no defect.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
 }
@@ -79,7 +80,7 @@ fn first_kind(
     Some(finding)
 }
 
-/// Returns a finding on two walls whose forces differ but should be equal: opposite faces with one
+/// Returns a finding if the forces of two equivalent walls differ: opposite faces with one
 /// condition, or one face with two conditions if nothing moves along the face.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
@@ -105,7 +106,7 @@ fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if the wall moves particles, or if no force acts at the wall.
+/// Returns a finding if the wall moves particles or exerts no force.
 fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
     let seen = format!("forces over the expected ones are {}", wall.describe());
     if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
@@ -167,7 +168,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         ));
     }
     let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
-    // A wall that carries more than the weight of its own nodes is located inside the body.
+    // A wall that carries more than the weight of its own nodes acts inside the body.
     let is_inside = wall.offset.is_some_and(|offset| !(offset <= CARRIED));
     let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
     if !(thrown().all(is_near) && is_even && !is_inside && wall.falling.is_none_or(is_smooth)) {
@@ -207,10 +208,9 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
 /// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // Averaging (PIC) also softens the wall, but softens it more with smaller steps.
+    // Averaging (PIC) also softens the wall, but smaller steps increase that effect.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall does not carry the weight of its own nodes (half a cell), although it fixes them
-    // correctly.
+    // The wall fixes its nodes correctly but does not carry their weight (half a cell).
     let is_missing =
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     if sinks_by_steps || is_missing {
@@ -229,8 +229,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     None
 }
 
-/// Returns a finding if the column `stress` does not show the wall force. A wrong order of the
-/// points is visible only where the stress is not uniform.
+/// Returns a finding if the column `stress` does not show the wall force. Points in a wrong order
+/// are visible only where the stress is not uniform.
 fn of_column(wall: &Wall) -> Option<SolverFinding> {
     let column = wall.column.filter(|column| !THROWN.contains(column))?;
     Some(SolverFinding::defect(

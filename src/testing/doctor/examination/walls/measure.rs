@@ -1,4 +1,4 @@
-//! Measures wall forces, and motions near walls, from the momentum of the halves of a bar.
+//! Measures wall forces, and motions near walls, from the momentum of each half of a bar.
 
 use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
@@ -7,7 +7,7 @@ use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
 /// Length of the bar (cells).
 const CELLS: f64 = 16.0;
-/// Distance that waves travel during a run (cells).
+/// Distance that waves travel during a run (cells). It is less than half the bar.
 pub(super) const TRAVEL: f64 = 7.0;
 
 /// Number of steps; waves travel a quarter of a cell per step.
@@ -16,18 +16,18 @@ const STEPS: u64 = 28;
 /// Speed of the bar, relative to the wave speed.
 const SPEED: f64 = 1e-3;
 
-/// Distance that waves travel in the stretched bar (cells).
+/// Distance that waves travel during the run of the stretched bar (cells).
 const STRETCH_TRAVEL: f64 = 4.0;
 /// Number of steps of the stretched bar.
 const STRETCH_STEPS: u64 = 16;
-/// Strain rate of the stretched bar, times the time in which a wave crosses a cell.
+/// Strain rate of the stretched bar, multiplied by the time in which a wave crosses a cell.
 const STRETCH_RATE: f64 = 1e-4;
 
-/// Gravity (m/s2), which causes a speed of this order during the run.
+/// Gravity (m/s2).
 const GRAVITY: f64 = 1e-3;
 
-/// Displacement into a wall above which the run is repeated with half the step. Unit: g t times the
-/// time in which a wave crosses one cell.
+/// Minimum displacement into a wall for which the run is repeated with half the step, in the unit
+/// of [`Wall::sinking`].
 pub(super) const SUNK: f64 = 0.1;
 
 /// Results of the runs for one wall; `None` for a quantity that no run measures.
@@ -43,18 +43,19 @@ pub(super) struct Wall {
     pub(super) along: Option<f64>,
     /// Force under gravity, relative to the expected force.
     pub(super) falling: Option<f64>,
-    /// Immediate force under gravity, relative to the weight of one cell. This is the force that is
-    /// missing at all times.
+    /// Error of the force under gravity that does not change with time, relative to the weight of
+    /// one cell.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, relative to that of a free body while a wave crosses a cell.
+    /// Displacement through the wall, relative to that of a free body while a wave crosses one
+    /// cell.
     pub(super) through: Option<f64>,
-    /// Largest displacement in the first step, relative to that due to the velocity.
+    /// Largest displacement in the first step, relative to the product of velocity and step length.
     pub(super) jump: Option<f64>,
-    /// Displacement along gravity at the wall, in units of g t times the time in which a wave
-    /// crosses one cell: with the steps of the run, and with half-length steps.
+    /// Displacement along gravity at the wall, for the original and for half the step length. Unit:
+    /// g t times the time in which a wave crosses one cell.
     pub(super) sinking: Option<[f64; 2]>,
-    /// Error of the displacements in a uniform stretch from the wall, relative to the displacement
-    /// at a distance of one cell.
+    /// Error of the displacements in a uniform stretch, relative to the displacement at a distance
+    /// of one cell from the wall.
     pub(super) stretch: f64,
     /// Column `stress` next to the wall at the end of the first run, relative to its expected
     /// value.
@@ -62,7 +63,6 @@ pub(super) struct Wall {
 }
 
 impl Wall {
-    /// Formats the forces for reports.
     pub(super) fn describe(&self) -> String {
         let forces = [
             ("pushed", self.pushed),
@@ -90,8 +90,8 @@ pub(super) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene 
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Examines both walls normal to `axis`: the bar has an initial velocity, moves along the wall, and
-/// falls. On the first axis, both signs of the velocity are tested.
+/// Examines both walls normal to `axis` with bars that are thrown against the walls, move along
+/// them, and fall. On the first axis, both signs of the velocity are tested.
 pub(super) fn walls_across(
     patient: &Patient<'_>,
     kind: Kind,
@@ -175,14 +175,13 @@ pub(super) fn walls_across(
     }))
 }
 
-/// Computes the errors of the displacements within two cells of the walls at both ends of `axis`,
-/// relative to the displacement at a distance of one cell; positive away from the wall.
+/// Computes displacement errors within two cells of the walls at both ends of `axis`, relative to
+/// the displacement at a distance of one cell. Errors away from the wall are positive.
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
-/// uniformly until a wave arrives from its free end, and every particle keeps its velocity. A
-/// method reproduces this if its basis functions represent a linear velocity up to the wall. This
-/// fails if nodes behind the wall are fixed at zero, because the exact nodal values continue with
-/// opposite sign.
+/// uniformly until a wave arrives from its free end. A method reproduces this motion if its basis
+/// functions represent a linear velocity up to the wall. They do not if nodes behind the wall are
+/// fixed at zero, because the exact velocity there has the opposite sign.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -225,8 +224,8 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
 }
 
-/// Creates a broad body between two `fixed` walls normal to `axis`. It moves along the walls with a
-/// thousandth of `c` (m/s), and the run ends before waves have crossed it.
+/// Creates a broad body between two `fixed` walls normal to `axis`. It moves along the walls with
+/// the speed `c/1000` (m/s), and the run ends before waves have crossed it.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     let other = (axis + 1) % kind.0;
@@ -241,7 +240,6 @@ fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     scene.with_waves(0.5 * TRAVEL, STEPS / 2)
 }
 
-/// One end of the bar.
 #[derive(Debug, Clone, Copy)]
 struct BarEnd {
     axis: usize,
@@ -249,7 +247,6 @@ struct BarEnd {
 }
 
 impl BarEnd {
-    /// Returns the sign of the outward normal.
     fn sign(self) -> f64 {
         if self.high { 1.0 } else { -1.0 }
     }
@@ -260,7 +257,7 @@ impl BarEnd {
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Returns the velocity component `along` that this half has gained since the start, times the
+    /// Returns the gain of the velocity component `along` of this half since the start, times the
     /// length of the half. This is the impulse of the wall divided by the mass per length (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
@@ -278,9 +275,8 @@ impl BarEnd {
         half * sum / volume
     }
 
-    /// Returns the wall force on a body with uniform initial velocity, relative to `rho c v`, in
-    /// the last three quarters of the run. The first quarter is ignored, because averaging (PIC)
-    /// increases the force there.
+    /// Returns the wall force on a body with uniform initial velocity, relative to `rho c v`. The
+    /// first quarter of the run is ignored, because averaging (PIC) increases the force there.
     fn force(self, course: &Course, scene: &BoxScene, along: usize, c: f64) -> f64 {
         let last = course.last();
         let late = last / 4..=last;
@@ -290,8 +286,8 @@ impl BarEnd {
         -slope / (c * scene.velocity.value[along])
     }
 
-    /// Returns the wall force under gravity from rest: the immediate part relative to `rho h g`,
-    /// and the growing part relative to `rho c g t`.
+    /// Returns two parts of the wall force under gravity from rest: the constant part relative to
+    /// `rho h g`, and the growing part relative to `rho c g t`.
     fn force_under_gravity(self, course: &Course, scene: &BoxScene, c: f64) -> [f64; 2] {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let held: Vec<f64> = (0..=course.last())
@@ -313,8 +309,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Returns the displacement (m) along the axis at the wall at the end, extrapolated by a line
-    /// through the points less than two cells from the wall.
+    /// Returns the displacement (m) along the axis at the wall at the end. It is extrapolated by a
+    /// line through the points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {

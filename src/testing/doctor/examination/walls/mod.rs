@@ -1,12 +1,12 @@
-//! Examination of walls on every face: a body is thrown against them, is pulled from them, moves
-//! along them, and falls.
+//! Examination of walls on every face: a body is thrown against a wall, is pulled from the wall,
+//! moves along the wall, and falls onto the wall.
 //!
-//! A bar with modulus E and zero Poisson's ratio is fixed at one end and has the initial velocity
-//! v. The fixed end stops it with the force `rho c v A`, c^2 = E/rho, until the wave has crossed
-//! the bar. Under the acceleration g from rest, the force is `rho c g t A`. One run tests both
-//! ends: one end is in compression, the other in tension. The momentum of each half gives the force
-//! of its wall until a wave arrives from the other wall. A bar that is stretched uniformly from a
-//! wall shows whether linear fields are reproduced there.
+//! A bar with modulus E and zero Poisson's ratio is fixed at both ends and has the initial velocity
+//! v. Each wall stops its half with the force `rho c v A`, c^2 = E/rho, until a wave arrives from
+//! the other wall. One end is in compression, the other in tension, so one run tests both. Under
+//! the acceleration g from rest, the force is `rho c g t A`. The momentum of each half gives the
+//! force of its wall. A bar that is stretched uniformly from a wall shows whether linear fields are
+//! reproduced there.
 //!
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall
@@ -76,17 +76,16 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         measured.push(format!("sliding: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
-    // A wall that moves or is missing explains a body that does not slide uniformly.
+    // A wall that moves or is missing also causes non-uniform sliding.
     if findings.is_empty() {
         findings.extend(sliding.findings);
     }
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// Checks that a body between two rollers normal to `axis` moves along them without resistance.
+/// Checks that a body between two rollers normal to `axis` slides along them without resistance.
 fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hindrance> {
     let other = (axis + 1) % kind.0;
-    // Particles keep a distance from cell faces.
     let mut from = [0.25; 3];
     from[other] += 0.1125 * H;
     let mut scene = BoxScene::of_cells(kind, from, 4.0, 4.0);
