@@ -14,7 +14,7 @@
 //!
 //! let text = r#"
 //! suite: my-bar
-//! title: A bar that swings
+//! title: A vibrating bar
 //! source: "one mode of an elastic bar, fixed on the left"
 //! parameters: {L: 25, E: 100, rho: 1, v0: 0.1, omega: "pi/(2*L)*sqrt(E/rho)"}
 //! scene:
@@ -26,7 +26,7 @@
 //! run: {until: 0.5, dt: 0.004*h}
 //! refine: {cells: [5, 10, 20, 40], ppc: 4}
 //! methods: [{mpm: {basis: linear, transfer: flip, scheme: [musl, usl]}}]
-//! expect: [{order: [1.9, 2.1], because: "linear functions, and no particle changes its cell"}]
+//! expect: [{order: [1.9, 2.1], because: "linear functions, and no particle crosses cells"}]
 //! "#;
 //! let suite = Suite::load(&Source::from_text("my-bar.yaml", text)?)?;
 //! let outcome = Runner::new(&suite).run(&|| ());
