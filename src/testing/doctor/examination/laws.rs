@@ -144,7 +144,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
                 shown(ratio)
             ),
             "the particle volumes do not follow J = det F: they are not updated, updated twice, or \
-             updated in the wrong direction",
+             divided by J",
             "the volume in internal forces: V = J V0 with the Cauchy stress, or V0 with the \
              Kirchhoff stress",
         )

@@ -260,9 +260,8 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
             extension.describe("extension beyond the apex"),
             "in tension, the return mapping does not end at the apex of the yield surface, or the \
              strength is wrong",
-            "the condition for a return to the apex, p = k/eta (Drucker-Prager) or p = c cot(phi) \
-             (Mohr-Coulomb): use it if the return to the cone or to an edge would reverse the \
-             deviator",
+            "the return to the apex, p = k/eta (Drucker-Prager) or p = c cot(phi) (Mohr-Coulomb), \
+             which is required if the return to the cone or to an edge would reverse the deviator",
         )));
     }
     let is_wrong = |leg: &&Leg| !(leg.relative_error() <= NEAR_WITH_ROTATION);

@@ -52,8 +52,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             all.measured.push_str("; ");
         }
         all.measured.push_str(&format!(
-            "{}: the force due to the initial stress is {} of the expected force (vector error {}) \
-             and begins {} steps after the start",
+            "{}: the force due to the initial stress is {} of the expected force (relative error \
+             of the force vector: {}) and begins {} steps after the start",
             scene.law,
             shown(forces.ratio),
             shown(forces.error),

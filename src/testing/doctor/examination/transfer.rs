@@ -91,7 +91,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let averaging = |basis: &&str| Ok(losses_of(&plain.averaged(basis)?, &plain));
     let averaging = BASES.iter().map(averaging).collect::<Result<Vec<Losses>, Hindrance>>()?;
     let measured = format!(
-        "in units of h2 (h: cell size), the moment of momentum decreases by {} in the first step \
+        "in units of h^2 (h: cell size), the moment of momentum decreases by {} in the first step \
          and {} in each later step of a stretch, and by {} and {} in a rotation",
         shown(stretch.first),
         shown(stretch.later),
@@ -124,8 +124,8 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
             "affine-matrix-scaled",
             "velocity gradients grow from step to step without stress: the affine matrix C is too \
              large by a power of h, or x_i - x_p is not the vector from the particle to the node",
-            "the affine matrix C, which is B D^-1 in APIC, and has the factor 4/h2 for quadratic \
-             and 3/h2 for cubic B-splines in MLS-MPM",
+            "the affine matrix C, which is B D^-1 in APIC, and has the factor 4/h^2 for quadratic \
+             and 3/h^2 for cubic B-splines in MLS-MPM",
         );
     }
     if let Some(failure) = &course.failure {
@@ -202,9 +202,9 @@ fn cause(
     averaging: &[Losses],
 ) -> Option<SolverFinding> {
     let seen = format!(
-        "each step reduces the moment of momentum by {} h2 in a stretch, by {} h2 in a rotation, \
-         and by {} h2 in a stretch with all lengths divided by eight. PIC averaging takes {} h2 \
-         with linear and {} h2 with cubic functions. A correct affine transfer or FLIP takes \
+        "each step reduces the moment of momentum by {} h^2 in a stretch, by {} h^2 in a rotation, \
+         and by {} h^2 in a stretch with all lengths divided by eight. PIC averaging takes {} h^2 \
+         with linear and {} h^2 with cubic functions. A correct affine transfer or FLIP takes \
          nothing",
         shown(stretch.later),
         shown(rotation.later),
@@ -216,8 +216,8 @@ fn cause(
     if losses.iter().all(|loss| loss.abs() <= KEPT) {
         return first_step(stretch, rotation);
     }
-    let look_at = "the affine matrix C_ab = dv_a/dx_b: its factor (B D^-1 in APIC; 4/h2 for \
-                   quadratic and 3/h2 for cubic B-splines in MLS-MPM), its indices, and the sign \
+    let look_at = "the affine matrix C_ab = dv_a/dx_b: its factor (B D^-1 in APIC; 4/h^2 for \
+                   quadratic and 3/h^2 for cubic B-splines in MLS-MPM), its indices, and the sign \
                    of x_i - x_p";
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
@@ -288,7 +288,7 @@ fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
         SolverFinding::remark(
             "first-step-spreads",
             format!(
-                "the first step reduces the moment of momentum by {} h2, and later steps do not \
+                "the first step reduces the moment of momentum by {} h^2, and later steps do not \
                  change it",
                 shown(first)
             ),

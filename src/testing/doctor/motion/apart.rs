@@ -105,8 +105,9 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
         "weights-do-not-sum-to-one",
         format!(
             "in the first step, points move by {} to {} of v dt, depending on their positions in \
-             the cells. In the whole run, the largest errors are {} of the distance and {} of the \
-             speed; without stiffness they are {} and {}",
+             the cells. In the whole run, displacement errors are up to {} of the distance \
+             travelled, and velocity errors up to {} of the speed; without stiffness they are {} \
+             and {}",
             shown(low),
             shown(high),
             shown(way),
@@ -176,7 +177,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
         "wrong-after-a-cell-crossing",
         format!(
             "displacements are correct up to step {}, and their error at the end is {} of the \
-             distance. In step {first} the first particle moves to another cell",
+             distance travelled. In step {first} the first particle moves to another cell",
             first - 1,
             shown(at)
         ),

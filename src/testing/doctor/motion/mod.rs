@@ -26,8 +26,8 @@ pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examine
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };
     let (way, speed) = motion.off();
     let measured = format!(
-        "in {} steps, the largest errors are {} of the distance in displacements and {} of the \
-         speed in velocities",
+        "in {} steps, displacement errors are up to {} of the distance travelled, and velocity \
+         errors up to {} of the speed",
         motion.course.last(),
         shown(way),
         shown(speed)
@@ -61,8 +61,8 @@ pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",
         format!(
-            "the errors are typical of single precision: {} of the distance and {} of the speed, \
-             where double precision gives about 1e-13",
+            "the errors are typical of single precision: {} of the distance travelled and {} of \
+             the speed, where double precision gives about 1e-13",
             shown(way),
             shown(speed)
         ),

@@ -187,7 +187,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
                 shown(factor)
             ),
             "the factor 1/h in the gradients of basis functions; in MLS-MPM, the factor of the \
-             affine matrix C, which is 4/h2 for quadratic and 3/h2 for cubic B-splines; the time \
+             affine matrix C, which is 4/h^2 for quadratic and 3/h^2 for cubic B-splines; the time \
              step in F <- (I + dt L) F",
         )
     } else if is_right {

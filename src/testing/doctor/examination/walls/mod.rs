@@ -27,9 +27,9 @@ use measure::{Wall, bar, walls_across};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "walls",
-    expected: "every wall exerts the force rho c v of an elastic bar on a body that is pushed \
-               against the wall or pulled from the wall, also under gravity, and a body slides \
-               along a roller without force",
+    expected: "on a body that is pushed against a wall or pulled from the wall, also under \
+               gravity, every wall exerts the force rho c v per area (rho: density, c: wave \
+               speed, v: speed), and a body slides along a roller without force",
     after: &[
         "conversation",
         "rest",
