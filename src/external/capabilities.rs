@@ -132,7 +132,7 @@ impl Capabilities {
             }
         }
         let beyond = needs.beyond.iter();
-        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not contain")));
+        lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not support")));
         lacking
     }
 }
@@ -346,7 +346,7 @@ mod tests {
             "varying_density",
             "loaded_rims",
             "load_steps",
-            "heat, which the protocol does not contain",
+            "heat, which the protocol does not support",
         ];
         assert_eq!(Capabilities::default().lacking(&needs), all);
         let conditions = ["free", "fixed", "roller"];

@@ -88,6 +88,6 @@ pub trait SolverFactory: Sync {
         _problem: LevelProblem,
         _request: &GradientRequest,
     ) -> Result<Gradient, GradientError> {
-        Err(GradientError::Cannot("has no gradients".to_owned()))
+        Err(GradientError::Cannot("does not compute gradients".to_owned()))
     }
 }

@@ -223,7 +223,7 @@ impl Answer {
             let reason = if text.trim_start().starts_with('{') {
                 plain(&error)
             } else {
-                "print other text on standard error".to_owned()
+                "not a JSON object; print other text on standard error".to_owned()
             };
             ProgramError::NoMessage { reason, excerpt: excerpt(&text) }
         })

@@ -14,13 +14,13 @@ pub enum ProgramError {
     #[error("command has an unclosed quote, or ends with a backslash")]
     Quotes,
     /// The command is empty.
-    #[error("is empty: expected a command with its arguments")]
+    #[error("command is empty: expected a program with its arguments")]
     EmptyCommand,
     /// The operating system does not support the memory limit.
     #[error("memory cannot be limited on this system")]
     MemoryLimit,
     /// The program does not start.
-    #[error("`{program}`: {error}")]
+    #[error("program `{program}` does not start: {error}")]
     Start {
         /// Name of the program.
         program: String,
@@ -28,7 +28,7 @@ pub enum ProgramError {
         error: io::Error,
     },
     /// The process has no standard streams.
-    #[error("has no pipe")]
+    #[error("process has no standard input, output or error")]
     Pipe,
     /// No answer arrived in time.
     #[error("did not answer within {0} s")]
@@ -40,7 +40,7 @@ pub enum ProgramError {
     #[error("closed its output but did not end")]
     ClosedOutput,
     /// The output of the process cannot be read.
-    #[error("cannot be read: {0}")]
+    #[error("output cannot be read: {0}")]
     Unreadable(io::Error),
     /// The output ended within an answer or a block of bytes.
     #[error("ended in the middle of {0}")]
@@ -49,7 +49,7 @@ pub enum ProgramError {
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
     /// An answer contains a number that JSON does not support, such as NaN.
-    #[error("answered with {0}, which is not a number")]
+    #[error("answered with {0}, which is not a finite number")]
     NoNumber(&'static str),
     /// The output contains a line that is not a message of the protocol.
     #[error("sent an invalid message ({reason}): `{excerpt}`")]
@@ -86,10 +86,13 @@ pub enum ProgramError {
     )]
     Name(String),
     /// The solver's formal order is out of range.
-    #[error("has the formal order {0}: expected one up to {max}", max = HIGHEST_ORDER)]
+    #[error(
+        "has the formal order {0}: expected a number above 0 and up to {max}",
+        max = HIGHEST_ORDER
+    )]
     FormalOrder(f64),
     /// A second process stated a different name, version or capability than the first process.
-    #[error("sent a different `hello` than the first time")]
+    #[error("sent a different `hello` than in the first process")]
     ChangedHello,
     /// The solver refuses the problem, for the given reason.
     #[error("{0}")]
@@ -102,8 +105,8 @@ pub enum ProgramError {
     NoColumn(&'static str),
     /// A column refers to bytes outside the block.
     #[error(
-        "placed the column `{name}` beyond its {bytes} bytes: {length} doubles from byte \
-             {offset} on"
+        "sent the column `{name}` as {length} doubles from byte {offset}, but the message has \
+         {bytes} bytes"
     )]
     ColumnBytes {
         /// Name of the column.
@@ -136,7 +139,7 @@ pub enum ProgramError {
         index: usize,
     },
     /// The smallest determinant of F is not a positive number.
-    #[error("sent {0} as `min_j`, but a determinant of F is positive")]
+    #[error("sent {0} as `min_j`, which must be positive")]
     Determinant(f64),
     /// A gradient has the wrong number of derivatives.
     #[error("sent a gradient of {found} numbers, expected {expected}: {names}")]
@@ -149,7 +152,9 @@ pub enum ProgramError {
         names: String,
     },
     /// A gradient contains a number that JSON does not support, such as NaN.
-    #[error("answered `differentiate` with {word}, which is not a number; requested: {names}")]
+    #[error(
+        "answered `differentiate` with {word}, which is not a finite number; requested: {names}"
+    )]
     GradientNoNumber {
         /// Text of the number.
         word: &'static str,
@@ -165,7 +170,7 @@ pub enum ProgramError {
         of: String,
     },
     /// The solver stated sample points, but there are none.
-    #[error("has no points")]
+    #[error("sent an empty list of points")]
     NoPoints,
     /// The solver's points are outside the bodies of the problem.
     #[error("sent invalid points: {0}")]
@@ -179,7 +184,7 @@ pub enum ProgramError {
         reason: FieldError,
     },
     /// The solver sent more requests for values than any correct solver needs.
-    #[error("requested values {0} times")]
+    #[error("requested values {0} times, more than the limit")]
     TooManyRequests(u64),
     /// A failure of a process that also wrote to its standard error.
     #[error("{error}; its last output on standard error: {lines}")]
@@ -206,7 +211,7 @@ pub(super) fn plain(error: &serde_json::Error) -> String {
         ("a map", "an object"),
         ("internally tagged enum Answer", "an object with a `type`"),
         ("a boolean", "`true` or `false`"),
-        ("a string", "a text"),
+        ("a string", "a JSON string"),
     ];
     let text = error.to_string();
     if text.starts_with("data did not match any variant of untagged enum") {

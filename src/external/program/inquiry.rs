@@ -168,8 +168,8 @@ impl Inquiry {
         if numbers.asked.iter().any(|(_, keys)| keys.contains(&"reference_position")) {
             return match face {
                 Some(_) => {
-                    let reason =
-                        "it depends on the position, but the request has no `reference_position`";
+                    let reason = "the value depends on the position, but the request has no \
+                                  `reference_position`";
                     Err(FieldError::Request(reason.to_owned()))
                 }
                 None => Ok(self.labels.clone()),
@@ -200,7 +200,7 @@ impl Inquiry {
         match displacement {
             None if force.depends_on_displacement() => {
                 let reason =
-                    "it depends on the displacement, but the request has no `displacement`";
+                    "the value depends on the displacement, but the request has no `displacement`";
                 return Err(FieldError::Request(reason.to_owned()));
             }
             None if *are_own => {
@@ -237,7 +237,7 @@ impl Inquiry {
         places: &RequestedPlaces,
     ) -> Result<Vec<f64>, FieldError> {
         let Some(fields) = &self.fields else {
-            let reason = "the problem has no fields other than its particles";
+            let reason = "the problem defines fields at its particles only";
             return Err(FieldError::Undefined(reason.to_owned()));
         };
         let mut at = FieldPlaces::new(&places.labels, &places.bodies);
@@ -283,9 +283,11 @@ fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
         None if field.is_initial() => Ok(0.0),
         None => Err(FieldError::Request("the request has no time `t`".to_owned())),
         Some(t) if field.is_initial() && t != 0.0 => {
-            Err(FieldError::Request(format!("it is defined at t = 0 only, not at t = {t}")))
+            Err(FieldError::Request(format!("the field is defined at t = 0 only, not at t = {t}")))
         }
-        Some(t) if !t.is_finite() => Err(FieldError::Request(format!("the time is {t}"))),
+        Some(t) if !t.is_finite() => {
+            Err(FieldError::Request(format!("the time `t` is {t}; expected a finite number")))
+        }
         Some(t) => Ok(t),
     }
 }

@@ -175,7 +175,7 @@ impl Subject for ProgramSubject {
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         if dt != self.dt {
             let told = self.dt;
-            let reason = format!("was initialised for steps of {told} s, not {dt} s");
+            let reason = format!("was initialised for steps of {told} s, not of {dt} s");
             return Err(Failure::External(reason));
         }
         self.called += 1;

@@ -11,7 +11,8 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     let mut second = first.clone();
     subject.sample(&mut second);
     let seen = difference(first, &second, 0.0)?;
-    let wanted = "`sample` to replace all that is in the samples, and nothing to change by a look";
+    let wanted = "`sample` to replace the contents of the samples, and a second call to give the \
+                  same samples";
     Some(Breach::new("sample", wanted, seen))
 }
 
@@ -34,13 +35,13 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     // In a stable step, forces do not reduce the distance to less than a quarter.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
-        return Some(Breach::new("step", wanted, format!("{far:e} m at most")));
+        return Some(Breach::new("step", wanted, format!("at most {far:e} m")));
     }
     let pairs = whole.iter().zip(&half);
     let off = pairs.map(|(whole, half)| (2.0 * half - whole).abs()).fold(0.0, f64::max);
     (!(off <= 0.5 * far)).then(|| {
-        let wanted = format!("half of the motion in a step of half the length, {:e} s", 0.5 * dt);
-        Breach::new("step", wanted, format!("{:e} m, and {far:e} m in a whole one", largest(&half)))
+        let wanted = format!("half the motion in a step of half the length, {:e} s", 0.5 * dt);
+        Breach::new("step", wanted, format!("{:e} m, and {far:e} m in a full step", largest(&half)))
     })
 }
 
@@ -49,9 +50,9 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];
-    let wanted = "the same course of two subjects of one problem";
+    let wanted = "two subjects of the same problem to give the same results";
     if let Err(failure) = record(subject.as_mut(), states.len() - 1, dt, &mut again) {
-        return Some(Breach::new("repeat", wanted, format!("the second one fails: {failure}")));
+        return Some(Breach::new("repeat", wanted, format!("the second subject fails: {failure}")));
     }
     let pairs = states.iter().zip(&again).enumerate();
     let mut off = pairs.filter_map(|(step, (a, b))| {
@@ -77,20 +78,24 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
     let bytes = written.into_bytes();
     let mut read = Checkpoint::from_bytes(&bytes);
     if !(fresh.checkpoint(&mut read) && read.is_used_up()) {
-        let seen = format!("its {} bytes do not fit a subject of the same problem", bytes.len());
-        return found("a checkpoint to be taken back by the visits that wrote it", seen);
+        let seen = format!(
+            "a new subject of the same problem does not read exactly the {} bytes of the \
+             checkpoint",
+            bytes.len()
+        );
+        return found("a checkpoint to be read by the same calls that wrote it", seen);
     }
     let mut breaches = Vec::new();
     for (subject, wanted) in [
-        (&mut subject, "a checkpoint to leave the run as it is"),
-        (&mut fresh, "the bits of a run that was not interrupted"),
+        (&mut subject, "a checkpoint not to change the run"),
+        (&mut fresh, "a resumed run to be bit-identical to an uninterrupted run"),
     ] {
         let mut course = Vec::new();
         let stepped = record(subject.as_mut(), rest.len(), dt, &mut course);
         let pairs = rest.iter().zip(&course).enumerate();
         let mut off = pairs.filter_map(|(step, (a, b))| {
             let off = difference(&a.samples, &b.samples, 0.0).or_else(|| counted(a, b));
-            Some(format!("{} {} steps after it", off?, step + 1))
+            Some(format!("{} {} steps after the checkpoint", off?, step + 1))
         });
         let failed = stepped.err().map(|failure| failure.to_string());
         if let Some(seen) = failed.or_else(|| off.next()) {
@@ -108,7 +113,7 @@ fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
     let ((a, b), (c, d)) = (text(wanted), text(seen));
     match (a == c, b == d) {
         (true, true) => None,
-        (false, _) => Some(format!("{c} and not {a}")),
-        (true, false) => Some(format!("{d} and not {b}")),
+        (false, _) => Some(format!("{c} instead of {a}")),
+        (true, false) => Some(format!("{d} instead of {b}")),
     }
 }

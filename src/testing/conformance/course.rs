@@ -17,20 +17,20 @@ const RIM: f64 = 0.1;
 pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let (d, n) = (problem.dimension, samples.len());
     if samples.dimension != d {
-        let wanted = format!("`dimension` = {d}, that of the problem");
+        let wanted = format!("`dimension` = {d}, as in the problem");
         return vec![Breach::new("dimension", wanted, samples.dimension.to_string())];
     }
     if n == 0 {
-        let wanted = "at least one point, each with its weight";
-        return vec![Breach::new("counts", wanted, "no number in `weight`")];
+        let wanted = "at least one point, and a weight for each point";
+        return vec![Breach::new("counts", wanted, "`weight` is empty")];
     }
     let mut breaches = Vec::new();
     for (name, column, width) in columns(samples) {
         let may_be_empty =
             ["mass", "stress", "deformation_gradient", "temperature"].contains(&name);
         if column.len() != n * width && !(may_be_empty && column.is_empty()) {
-            let or_none = if may_be_empty { ", or none" } else { "" };
-            let wanted = format!("{} numbers in `{name}`, {width} a point{or_none}", n * width);
+            let or_none = if may_be_empty { " or none" } else { "" };
+            let wanted = format!("{} numbers in `{name}` ({width} per point){or_none}", n * width);
             breaches.push(Breach::new("counts", wanted, column.len().to_string()));
         } else if let Some(at) = column.iter().position(|number| !number.is_finite()) {
             let seen = format!("{name}[{at}] = {}", column[at]);
@@ -67,7 +67,7 @@ fn labels(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
         !(low - near <= *x && *x <= high + near)
     };
     let at = samples.label.iter().enumerate().position(is_outside)?;
-    let wanted = "reference positions X on the grid of the problem";
+    let wanted = "labels (reference positions) inside the grid of the problem";
     Some(Breach::new("labels", wanted, format!("label[{at}] = {:e}", samples.label[at])))
 }
 
@@ -75,7 +75,7 @@ fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let given = &problem.particles.reference_volume;
     if let Some(at) = samples.weight.iter().position(|weight| !(*weight > 0.0)) {
         let seen = format!("weight[{at}] = {:e}", samples.weight[at]);
-        return vec![Breach::new("weights", "weights above zero: reference volumes", seen)];
+        return vec![Breach::new("weights", "positive weights (reference volumes)", seen)];
     }
     if is_of_particles(problem, samples) {
         let pairs = given.iter().zip(&samples.weight);
@@ -130,7 +130,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
                 let seen = format!("{} after {step} steps", after.len());
                 breaches.push(Breach::new("counts", wanted, seen));
             } else if let Some(at) = after.iter().position(|number| !number.is_finite()) {
-                let wanted = "finite numbers, or a step that fails and says where";
+                let wanted = "finite numbers, or a step that returns an error with the location";
                 let seen = format!("{name}[{at}] = {} after {step} steps", after[at]);
                 breaches.push(Breach::new("finite numbers", wanted, seen));
             } else if ["label", "weight"].contains(&name)
@@ -153,7 +153,7 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
 pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     let work: Vec<u64> = states.iter().map(|state| state.counters.transfers).collect();
     let step = (1..work.len()).find(|step| work[*step] <= work[step - 1])?;
-    let wanted = "a `transfers` that grows by the pairs of particle and node of each step";
+    let wanted = "`transfers` to increase in each step by the number of particle-node pairs";
     let seen =
         format!("{} after step {}, {} after step {step}", work[step - 1], step - 1, work[step]);
     Some(Breach::new("work counters", wanted, seen))
@@ -176,11 +176,12 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
             note(format!("`particles` = {given}, or none"), count.to_string());
         }
         if now.crossings < before.crossings {
-            let wanted = "a count of `crossings` so far, which never falls".to_owned();
-            note(wanted, format!("{:?} and then {:?}", before.crossings, now.crossings));
+            let wanted =
+                "`crossings` to count all crossings so far, and never to decrease".to_owned();
+            note(wanted, format!("{:?}, then {:?}", before.crossings, now.crossings));
         }
         if let Some(count) = now.left_domain.filter(|count| *count > given) {
-            note(format!("a `left_domain` of at most {given}"), count.to_string());
+            note(format!("`left_domain` of at most {given}"), count.to_string());
         }
         if !now.min_j.is_nan() {
             smallest = smallest.min(smallest_j(&state.samples)).min(before.min_j);

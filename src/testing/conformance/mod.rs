@@ -47,14 +47,15 @@ pub fn conformance(solver: &dyn SolverFactory) -> Vec<Breach> {
             Err(why) => refused.push(format!("{name}: {why}")),
         }
     }
-    let wanted = "a solver that can be put to one of our suites, or `conformance_on` one of yours";
+    let wanted = "the solver to accept one of the built-in suites; use `conformance_on` for a \
+                  suite of your own";
     vec![Breach::new("problem", wanted, refused.join("; "))]
 }
 
 /// Returns all breaches of the contract on the coarsest level of `suite`; empty if there are none.
 pub fn conformance_on(solver: &dyn SolverFactory, suite: &Suite) -> Vec<Breach> {
     examined(solver, suite).unwrap_or_else(|why| {
-        let wanted = format!("a solver that can be put to `{}`", suite.name);
+        let wanted = format!("the solver to accept the suite `{}`", suite.name);
         vec![Breach::new("problem", wanted, why.to_string())]
     })
 }
@@ -72,13 +73,13 @@ pub(crate) fn examined(
 
 /// Returns the coarsest level of a suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
-    let plan = suite.plan::<ConvergencePlan>().ok_or("it is no convergence study")?;
+    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is not a convergence study")?;
     let lacks = lacking(suite, solver);
     if !lacks.is_empty() {
         return Err(format!("the solver lacks {}", lacks.join(", ")).into());
     }
-    let level = plan.refine.levels.first().ok_or("it has no level")?;
-    let case = plan.cases.first().ok_or("it has no case")?;
+    let level = plan.refine.levels.first().ok_or("the suite has no level")?;
+    let case = plan.cases.first().ok_or("the suite has no case")?;
     let problem = level_problem(&suite.name, plan, case, *level)?;
     solver.subject(problem.clone())?;
     Ok(problem)
@@ -89,7 +90,11 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let mut subject = match make() {
         Ok(subject) => subject,
         Err(why) => {
-            return vec![Breach::new("problem", "the problem to be taken again", why.to_string())];
+            return vec![Breach::new(
+                "problem",
+                "the solver to accept the same problem a second time",
+                why.to_string(),
+            )];
         }
     };
     let mut states = vec![RunState::from_subject(subject.as_ref())];

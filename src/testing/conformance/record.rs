@@ -53,16 +53,16 @@ pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
 /// the largest number of its column.
 pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Option<String> {
     if wanted.dimension != seen.dimension {
-        return Some(format!("dimension {} and not {}", seen.dimension, wanted.dimension));
+        return Some(format!("dimension {} instead of {}", seen.dimension, wanted.dimension));
     }
     columns(wanted).into_iter().zip(columns(seen)).find_map(|((name, wanted, _), (_, seen, _))| {
         if wanted.len() != seen.len() {
             let (seen, wanted) = (seen.len(), wanted.len());
-            return Some(format!("{seen} numbers in `{name}` and not {wanted}"));
+            return Some(format!("{seen} numbers in `{name}` instead of {wanted}"));
         }
         let most = tolerance * largest(wanted);
         let at = wanted.iter().zip(seen).position(|(a, b)| !((a - b).abs() <= most))?;
-        Some(format!("{name}[{at}] = {:e} and not {:e}", seen[at], wanted[at]))
+        Some(format!("{name}[{at}] = {:e} instead of {:e}", seen[at], wanted[at]))
     })
 }
 
@@ -94,6 +94,6 @@ impl Breach {
 
 impl fmt::Display for Breach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: expected {}; seen: {}", self.about, self.expected, self.seen)
+        write!(f, "{}: expected {}; observed: {}", self.about, self.expected, self.seen)
     }
 }

@@ -115,8 +115,9 @@ impl ExaminationResult {
 }
 
 /// Code to check in solvers that ignore nodes with little mass.
-pub(super) const MASS_THRESHOLD: &str = "a threshold on the mass of nodes, below which they get no velocity: it must \
-     be zero, or far below the mass of a particle times the smallest weight";
+pub(super) const MASS_THRESHOLD: &str = "the threshold on nodal mass below which nodes get no \
+                                         velocity: this threshold must be zero, or far below the \
+                                         particle mass times the smallest weight";
 
 /// Formats the report of all examinations.
 pub fn page(report: &DoctorReport) -> String {
@@ -128,7 +129,7 @@ pub fn page(report: &DoctorReport) -> String {
         let words = match &made.result {
             ExaminationResult::Examined { findings, .. } => heading(findings),
             ExaminationResult::NotApplicable { .. } => "not applicable",
-            ExaminationResult::LeftOut { .. } => "left out",
+            ExaminationResult::LeftOut { .. } => "skipped",
         };
         lines.push(format!("{}: {words}", made.examination));
         row(&mut lines, "expected", made.expected);
@@ -140,11 +141,11 @@ pub fn page(report: &DoctorReport) -> String {
                 }
             }
             ExaminationResult::NotApplicable { lacks } => {
-                row(&mut lines, "what is missing", lacks);
+                row(&mut lines, "not supported", lacks);
             }
             ExaminationResult::LeftOut { after } => {
-                let why = format!("it says nothing as long as `{after}` has a defect");
-                row(&mut lines, "because", &why);
+                let why = format!("`{after}` has a defect that would invalidate this result");
+                row(&mut lines, "reason", &why);
             }
         }
     }
@@ -155,17 +156,17 @@ pub fn page(report: &DoctorReport) -> String {
 
 fn heading(findings: &[SolverFinding]) -> &'static str {
     let heaviest = findings.iter().map(|finding| finding.weight).min();
-    heaviest.map_or("sound", |weight| match weight {
+    heaviest.map_or("no defect", |weight| match weight {
         FindingWeight::Defect => "DEFECT",
-        FindingWeight::Remark => "sound, with a remark",
+        FindingWeight::Remark => "no defect, with a remark",
     })
 }
 
 fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
     row(lines, finding.weight.name(), finding.name);
-    row(lines, "  seen", &finding.seen);
+    row(lines, "  observed", &finding.seen);
     row(lines, "  likely cause", &finding.cause);
-    row(lines, "  look at", &finding.look_at);
+    row(lines, "  check", &finding.look_at);
 }
 
 fn verdict(report: &DoctorReport) -> String {
@@ -183,10 +184,12 @@ fn verdict(report: &DoctorReport) -> String {
     let left_out = count(|result| matches!(result, ExaminationResult::LeftOut { .. }));
     let not = count(|result| matches!(result, ExaminationResult::NotApplicable { .. }));
     let mut text = match report.defects() {
-        0 => format!("verdict: nothing wrong was found in {made} examinations"),
+        0 => format!("verdict: no defect found in {made} examinations"),
         _ => format!("verdict: {}", names(FindingWeight::Defect)),
     };
-    for (number, what) in [(not, "not applicable"), (left_out, "left out until that is mended")] {
+    for (number, what) in
+        [(not, "not applicable"), (left_out, "skipped until all defects are corrected")]
+    {
         if number > 0 {
             text.push_str(&format!("; {number} {what}"));
         }

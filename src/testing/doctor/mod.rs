@@ -60,7 +60,8 @@ fn silent(first: &ExaminationResult) -> Option<String> {
             broke.map(|finding| finding.seen.clone())
         }
         ExaminationResult::NotApplicable { lacks } => Some(format!(
-            "not applicable to it is a body that is free on all sides, the plainest there is: {lacks}"
+            "the solver does not support the simplest problem, a body whose faces are all free: \
+             {lacks}"
         )),
         ExaminationResult::LeftOut { .. } => None,
     }
@@ -77,7 +78,7 @@ fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResu
         }
         Err(Hindrance::Lacks(lacks)) => ExaminationResult::NotApplicable { lacks },
         Err(Hindrance::Broke(seen)) => ExaminationResult::Examined {
-            measured: "nothing".to_owned(),
+            measured: "nothing, because the run did not complete".to_owned(),
             findings: vec![broke(seen)],
         },
     }
@@ -87,9 +88,9 @@ fn broke(seen: String) -> SolverFinding {
     SolverFinding::defect(
         BROKE,
         seen,
-        "the solver ended, failed or broke the protocol amid the run",
-        "its standard error, and the table of errors in docs/protocol.md; `grid.origin` and `grid.cells` of \
-         the problem, which differ between axes",
+        "the solver stopped, reported a failure or violated the protocol during the run",
+        "the solver's standard error; the table of errors in docs/protocol.md; indices that are \
+         computed from `grid.origin` and `grid.cells` of the problem, which differ between axes",
     )
 }
 

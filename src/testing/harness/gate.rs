@@ -32,7 +32,9 @@ impl Gate {
         let shown = self.folder.display();
         let nothing = |why: String| vec![broken("suites::exist", why)];
         let files = match Source::files_in(&self.folder) {
-            Ok(files) if files.is_empty() => return nothing(format!("no suite under {shown}")),
+            Ok(files) if files.is_empty() => {
+                return nothing(format!("no suite in the folder {shown}"));
+            }
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
@@ -69,7 +71,7 @@ impl Gate {
         let unusable = |why: String| (vec![broken(&format!("{stem}::parse"), why)], None);
         match Source::read(file).and_then(|source| Suite::load(&source)) {
             Ok(suite) if suite.name != stem => unusable(format!(
-                "{} calls itself `{}`: rename one of them",
+                "the file {} contains the suite `{}`: rename one of them",
                 file.display(),
                 suite.name
             )),
@@ -102,7 +104,8 @@ impl Gate {
 
 /// Returns `suite` with `solver` in place of its methods.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
-    let suite = under(suite, solver, true).ok_or("it looks inside the methods of this crate")?;
+    let suite =
+        under(suite, solver, true).ok_or("the suite examines internals of the built-in methods")?;
     match lacking(&suite, solver) {
         lacks if lacks.is_empty() => Ok(suite),
         lacks => Err(format!("the solver lacks {}", lacks.join(", "))),
@@ -228,11 +231,11 @@ pub(super) fn compare_snapshot(suite: &str, text: &str, folder: &Path) -> Result
     let outcome = catch_unwind(AssertUnwindSafe(|| settings.bind(compare)));
     outcome.map_err(|_| {
         let file = folder.join(format!("{suite}.snap"));
-        let what = if file.exists() { "has drifted from" } else { "is not yet kept as" };
+        let what = if file.exists() { "differs from" } else { "is not yet stored as" };
         format!(
-            "the report of {suite} {what} {} (the difference stands above).\nIf the change is \
-             meant, accept it with `cargo insta review`, or with `INSTA_UPDATE=always cargo test \
-             {suite}`, and say in the commit why it moved.",
+            "the report of {suite} {what} {} (the difference is printed above).\nIf the change is \
+             intended, accept it with `cargo insta review`, or with `INSTA_UPDATE=always cargo \
+             test {suite}`, and explain the change in the commit message.",
             file.display()
         )
         .into()
@@ -273,8 +276,8 @@ pub(super) fn slowest_cases() -> String {
     }
     cases.sort_by(|a, b| b.cmp(a));
     let mut text = format!(
-        "the slowest of {} cases, with the time that they waited for each other \
-         (`--test-threads 1`: without)\n",
+        "slowest of {} cases; times include waiting for other cases (`--test-threads 1`: no \
+         waiting)\n",
         cases.len()
     );
     let line = |time: &Duration, name: &str| format!("{:>8.2} s  {name}\n", time.as_secs_f64());
@@ -285,7 +288,7 @@ pub(super) fn slowest_cases() -> String {
     }
     let mut suites: Vec<_> = suites.into_iter().collect();
     suites.sort_by_key(|(_, time)| Reverse(*time));
-    text += "of suites:\n";
+    text += "slowest suites:\n";
     text.extend(suites.iter().take(SHOWN).map(|(suite, time)| line(time, suite)));
     text + "\n"
 }
@@ -308,8 +311,8 @@ mod tests {
         fs::write(folder.join("bar.snap"), "---\n---\nerror  1.1e-3\n").expect("a snapshot");
         let (kept, new) = (said("bar"), said("beam"));
         fs::remove_dir_all(&folder).expect("the folder");
-        assert!(kept.starts_with("the report of bar has drifted from "), "{kept}");
+        assert!(kept.starts_with("the report of bar differs from "), "{kept}");
         assert!(kept.contains("`INSTA_UPDATE=always cargo test bar`"), "{kept}");
-        assert!(new.starts_with("the report of beam is not yet kept as "), "{new}");
+        assert!(new.starts_with("the report of beam is not yet stored as "), "{new}");
     }
 }

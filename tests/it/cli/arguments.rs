@@ -64,7 +64,7 @@ fn values_of_options_are_refused_with_what_is_expected() {
     check bar.yaml --solver 'python3 "solver.py'
     error: --solver python3 "solver.py: the solver command has an unclosed quote, or ends with a backslash
     check bar.yaml --solver ''
-    error: --solver : the solver is empty: expected a command with its arguments
+    error: --solver : the solver command is empty: expected a program with its arguments
     "#);
 }
 

@@ -40,11 +40,11 @@ fn run(script: &str) -> (i32, String, String) {
 )]
 #[case::nan(
     r#"echo '{"type":"gradient","value":1,"gradient":[1,NaN,3]}'"#,
-    "answered `differentiate` with NaN, which is not a number; requested: young, density"
+    "answered `differentiate` with NaN, which is not a finite number; requested: young, density"
 )]
 #[case::infinity(
     r#"echo '{"type":"gradient","value":1,"gradient":[1,2,-Infinity]}'"#,
-    "answered `differentiate` with Infinity, which is not a number; requested: young, density"
+    "answered `differentiate` with Infinity, which is not a finite number; requested: young"
 )]
 #[case::too_large_a_number(
     r#"echo '{"type":"gradient","value":1,"gradient":[1e999,2,3]}'"#,

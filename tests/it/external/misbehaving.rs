@@ -38,7 +38,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 )]
 #[case::garbage(
     "echo hello there",
-    "sent an invalid message (print other text on standard error): `hello"
+    "sent an invalid message (not a JSON object; print other text on standard error): `hello"
 )]
 #[case::another_type("echo '{\"type\":\"ready\"}'", "answered `advance` with `ready`")]
 #[case::an_unknown_type("echo '{\"type\":\"done\"}'", "unknown variant `done`")]
@@ -66,15 +66,15 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 )]
 #[case::a_negative_determinant(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":ZEROS,\"velocity\":ZEROS},\"min_j\":-1}'",
-    "sent -1 as `min_j`, but a determinant of F is positive"
+    "sent -1 as `min_j`, which must be positive"
 )]
 #[case::nan(
     "echo '{\"type\":\"state\",\"columns\":{\"displacement\":[NaN]}}'",
-    "answered with NaN, which is not a number"
+    "answered with NaN, which is not a finite number"
 )]
 #[case::beyond_the_block(
     "printf '{\"type\":\"state\",\"bytes\":1,\"columns\":{\"displacement\":{\"f64\":[0,16]}}}\\nx'",
-    "placed the column `displacement` beyond its 1 bytes: 16 doubles from byte 0 on"
+    "sent the column `displacement` as 16 doubles from byte 0, but the message has 1 bytes"
 )]
 #[case::an_impossible_block(
     "echo '{\"type\":\"state\",\"bytes\":99999999999999,\"columns\":{}}'; sleep 9",
@@ -84,7 +84,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
 #[case::a_flood_of_lines("yes", "sent an invalid message")]
 #[case::endless_questions(
     "while :; do echo '{\"type\":\"body_force\",\"t\":0}'; read -r m; done",
-    "requested values 1001 times"
+    "requested values 1001 times, more than the limit"
 )]
 #[case::silence("sleep 99", "did not answer within 0.3 s")]
 #[case::a_closed_pipe("exec >&-; sleep 99", "closed its output but did not end")]
@@ -139,8 +139,11 @@ fn no_grandchild_is_left() {
 }
 
 #[rstest]
-#[case::no_command("", "expected a command with its arguments")]
-#[case::no_program("/no/such/program -x", "`/no/such/program`: No such file")]
+#[case::no_command("", "expected a program with its arguments")]
+#[case::no_program(
+    "/no/such/program -x",
+    "program `/no/such/program` does not start: No such file"
+)]
 #[case::no_hello("true", "ended without an answer (exit status 0)")]
 #[case::an_older_version(
     "sh -c 'read m; echo \"{\\\"type\\\":\\\"hello\\\",\\\"protocol\\\":7,\\\"name\\\":\\\"x\\\"}\"'",

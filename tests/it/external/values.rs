@@ -377,7 +377,7 @@ fn a_body_force_takes_the_displacement() {
 #[case::unknown(json!({"of": "velocty"}), "unknown field; did you mean `velocity`?")]
 #[case::unknown_load(json!({"of": "load:77", "t": 0}), "`load:77`: unknown field")]
 #[case::no_time(json!({"of": "body_force"}), "the request has no time `t`")]
-#[case::a_later_time(json!({"of": "stress", "t": 0.5}), "it is defined at t = 0 only, not at t = 0.5")]
+#[case::a_later_time(json!({"of": "stress", "t": 0.5}), "the field is defined at t = 0 only, not at t = 0.5")]
 #[case::too_few(json!({"of": "velocity", "reference_position": [0.1]}), "sent 1 numbers in the column `reference_position`, expected 2")]
 #[case::outside(json!({"of": "velocity", "reference_position": [0.1, 0.1, 1.5, 0.2]}), "place 1, (1.5, 0.2) m, is outside the body")]
 #[case::just_outside(json!({"of": "velocity", "reference_position": [1.00001, 0.2]}), "place 0, (1.00001, 0.2) m, is outside the body")]
@@ -393,7 +393,7 @@ fn a_wrong_request_fails_the_case(#[case] request: Value, #[case] reason: &str) 
 }
 
 #[rstest]
-#[case::a_word("NaN", "answered with NaN, which is not a number")]
+#[case::a_word("NaN", "answered with NaN, which is not a finite number")]
 #[case::an_infinite_time("1e999", "sent an invalid message")]
 fn a_request_with_no_number_fails_the_case(#[case] number: &str, #[case] reason: &str) {
     let request = json!({"type": "values", "of": "velocity", "reference_position": [0.5, 77]});
@@ -403,7 +403,7 @@ fn a_request_with_no_number_fails_the_case(#[case] number: &str, #[case] reason:
 #[rstest]
 #[case::outside("[2, 0.2]", "[1]", "sent invalid points: place 0, (2, 0.2) m, is outside the body")]
 #[case::too_few("[0.5]", "[1]", "sent 1 numbers in the column `reference_position`, expected 2")]
-#[case::none("[]", "[]", "has no points")]
+#[case::none("[]", "[]", "sent an empty list of points")]
 fn wrong_points_fail_the_case(#[case] places: &str, #[case] weight: &str, #[case] reason: &str) {
     let points = format!(
         r#"{{"type":"ready","points":{{"reference_position":{places},"weight":{weight}}}}}"#

@@ -169,5 +169,5 @@ fn a_study_that_the_protocol_does_not_hand_over_is_lacking(
 ) {
     let suite = suite(&MOVING_BAR.replace(from, to));
     let lacks = lacking(&suite, &WatchedSolver);
-    assert_eq!(lacks, [format!("{words}, which the protocol does not contain")]);
+    assert_eq!(lacks, [format!("{words}, which the protocol does not support")]);
 }

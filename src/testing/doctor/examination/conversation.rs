@@ -14,8 +14,8 @@ const STEPS: u64 = 6;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "conversation",
-    expected: "a problem is accepted, steps have the requested number and length, and a second run gives \
-               the same bits",
+    expected: "the solver accepts a problem, takes the requested number of steps of the requested \
+               length, and gives bit-identical results in a second run",
     after: &[],
     examine,
 };
@@ -68,22 +68,25 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     }
     let difference = difference(displacement, first, second);
     let seen = format!(
-        "displacements of two runs of one problem differ by a relative {}",
+        "the final displacements of two runs of the same problem differ by {} of the largest \
+         displacement",
         shown(difference)
     );
     Some(if difference <= patient.rounding() {
         SolverFinding::remark(
             "rounding-differs-each-time",
             seen,
-            "sums are computed in another order each time, for instance by several threads",
-            "atomic additions and parallel reductions; the last digits of reports will differ between runs",
+            "sums are computed in a different order in each run, for example by several threads",
+            "atomic additions and parallel reductions. The last digits of reports will differ \
+             between runs",
         )
     } else {
         SolverFinding::defect(
             "another-way-each-time",
             seen,
-            "data is left over from an earlier run, not initialised, or random",
-            "arrays that are not set to zero, random numbers in the seeding, races between threads",
+            "the run uses data of an earlier run, uninitialised memory or random numbers",
+            "arrays that are not set to zero; random numbers in the initial positions; data races \
+             between threads",
         )
     })
 }
@@ -158,8 +161,9 @@ fn grouped(
     let distance = |course: &Course| size(course.mean(displacement, course.last()));
     let steps = STEPS as f64 * distance(at_once) / distance(stepwise);
     let seen = format!(
-        "{motion}, {STEPS} steps in one `advance` differ from {STEPS} messages of one step by {} of the \
-         displacement, {} of the velocity and {} of stress or F; the distance is that of {} steps",
+        "{motion}, {STEPS} steps in one `advance` and {STEPS} messages of one step give different \
+         results: the final states differ by {} of the displacement, {} of the velocity and {} of \
+         stress or F. With one message, the body moves as far as in {} single steps",
         shown(off),
         shown(speed),
         shown(columns),
@@ -168,10 +172,12 @@ fn grouped(
     Some(SolverFinding::defect(
         "steps-depend-on-messages",
         seen,
-        "something happens once for each message: a restart of the scheme (half a step back, affine \
-         matrices or F reset, time counted from zero), or `advance` takes another number of steps",
-        "the loop over `steps` of `advance`, and everything before and after it: the start of a run is \
-         done once, when the problem arrives; times count from `from`",
+        "an operation is done once per message instead of once per step or run (initial half step \
+         back, reset of affine matrices or F, time restarted at zero), or `advance` takes a wrong \
+         number of steps",
+        "the loop over `steps` of `advance`, and the code before and after this loop. A run must \
+         be initialised only once, when the problem arrives, and the time must continue from \
+         `from`",
     ))
 }
 
@@ -188,8 +194,11 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
     }
     Some(SolverFinding::defect(
         "own-step",
-        format!("half the `dt` gives {} of the distance, where 0.5 was expected", shown(ratio)),
-        "the solver uses a step length of its own",
-        "the `dt` of `advance`, which equals that of `problem`",
+        format!(
+            "with half the `dt`, the body moves {} of the original distance, expected 0.5",
+            shown(ratio)
+        ),
+        "the solver uses a time step of its own",
+        "the time step: use the `dt` of `advance`, which equals the `dt` of the problem",
     ))
 }

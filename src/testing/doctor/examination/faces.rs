@@ -10,7 +10,8 @@ use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
-    expected: "the same where particles lie on faces of cells, again and again",
+    expected: "a body without stress keeps its velocity, also in steps in which its particles lie \
+               exactly on cell faces",
     after: &["conversation", "rest", "translation"],
     examine,
 };
@@ -38,8 +39,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let finding = SolverFinding::defect(
             "particles-on-faces",
             format!("{} ({})", finding.seen, finding.name),
-            "a particle that lies on the face of a cell has weights that do not sum to one",
-            "`floor` against `ceil` or a cast to an integer, `<` against `<=` where a cell ends",
+            "the weights of a particle that lies exactly on a cell face do not sum to one",
+            "the cell index of a particle on a cell face: `floor`, `ceil` or a cast to an integer; \
+             `<` or `<=` at the ends of a cell",
         );
         return Ok(Examined::new(found.measured, vec![finding]));
     }
@@ -53,11 +55,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let finding = stiff.findings.first().map(|_| {
         SolverFinding::remark(
             "rounding-grows-on-faces",
-            format!("{}, and without stiffness {}", stiff.measured, found.measured),
-            "a node beside a face has no mass, or one of the size of rounding, and linear functions have \
-             a gradient there all the same: its velocity strains the particle",
-            "functions with continuous gradients (quadratic B-splines, GIMP); until then, no lattice \
-             whose particles lie on faces of cells",
+            format!("with stiffness: {}; without stiffness: {}", stiff.measured, found.measured),
+            "a node next to the face has no mass, or a mass of the size of rounding errors, but \
+             linear functions have a gradient at this node. The velocity of the node then strains \
+             the particle",
+            "basis functions with continuous gradients (quadratic B-splines, GIMP) avoid this \
+             error. With linear functions, avoid initial positions on cell faces",
         )
     });
     Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
@@ -86,12 +89,12 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
         SolverFinding::defect(
             "light-nodes-left-out",
             format!(
-                "particles that reach {SLIVER:.0e} cells beyond a face have a strain of {}, although the \
-                 body is rigid",
+                "the outermost particles are {SLIVER:.0e} cells beyond a cell face, and the strain \
+                 reaches {} although the body moves as a rigid body",
                 shown(most)
             ),
-            "a node with little mass is left out and has no velocity, so that linear functions have a \
-             gradient beside it",
+            "nodes with little mass are skipped and have no velocity, which causes a velocity \
+             gradient at the particles next to them",
             MASS_THRESHOLD,
         )
     }))

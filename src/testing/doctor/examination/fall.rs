@@ -11,7 +11,8 @@ use crate::testing::doctor::scene::{ANY, BoxScene};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
-    expected: "a body without stress falls with v = g t, as any scheme has it, and x = g t^2/2",
+    expected: "a body without stress falls with the velocity v = g t, exact in any scheme, and the \
+               displacement u = g t^2/2",
     after: &["conversation", "rest", "translation"],
     examine,
 };
@@ -38,7 +39,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let end = course.times[last];
     let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
     let measured = format!(
-        "after {last} steps v = {} m/s and u = {} m, where {} and {} were expected",
+        "after {last} steps, v = {} m/s and u = {} m; expected v = {} m/s and u = {} m",
         shown_vector(v, d),
         shown_vector(u, d),
         shown_vector(times(end, g), d),
@@ -74,10 +75,13 @@ fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     if spread > NEAR && spread > NEAR * most {
         return Some(SolverFinding::defect(
             "force-uneven",
-            format!("velocities differ by {} of g t from point to point", shown(spread)),
-            "the body force of a node is not spread with the weights of its mass",
-            "mass and force at nodes must be sums with the same weights; a surface or a wall that \
-             takes part",
+            format!(
+                "the velocities of points differ from their mean by up to {} of g t",
+                shown(spread)
+            ),
+            "nodal body forces are not computed with the weights of the nodal masses",
+            "the sums for nodal mass and nodal body force, which must use the same weights; walls \
+             or contact that are not in the problem",
         ));
     }
     let axis = d - 1;
@@ -88,41 +92,46 @@ fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     if across > NEAR * GRAVITY * end {
         return Some(SolverFinding::defect(
             "gravity-along-another-axis",
-            format!("the body falls along {}", shown_vector(times(1.0 / size(v), v), d)),
-            "gravity acts along another axis than the problem says",
+            format!("the body falls in the direction {}", shown_vector(times(1.0 / size(v), v), d)),
+            "gravity acts along a different axis than in the problem",
             "the order of axes: `body_force_value` has its components in the order x, y, z",
         ));
     }
     if (factor - 1.0).abs() > 1e-3 {
-        let seen = format!("the acceleration is {} of that of the problem", shown(factor));
+        let seen =
+            format!("the acceleration is {} times the gravity of the problem", shown(factor));
         let (name, cause) = factor_cause(factor, course);
         return Some(SolverFinding::defect(
             name,
             seen,
             &cause,
-            "where body forces enter: mass times acceleration once, with the sign of the problem, \
-             whose `body_force_value` is in m/s2",
+            "the code that adds body forces: add mass times `body_force_value` (m/s2) to the nodal \
+             force, once and with the sign of the problem",
         ));
     }
     let steps = start / (g[axis] * course.problem.dt);
-    let seen =
-        format!("v = g (t {}{} dt)", if steps < 0.0 { "- " } else { "+ " }, shown(steps.abs()));
+    let seen = format!(
+        "the measured velocity is v = g (t {}{} dt), expected v = g t",
+        if steps < 0.0 { "- " } else { "+ " },
+        shown(steps.abs())
+    );
     Some(if (steps + 0.5).abs() <= NEAR {
         SolverFinding::remark(
             "velocity-half-a-step-behind",
             seen,
-            "velocities are those of a leapfrog, half a step before the positions that come with them",
-            "suites that judge velocities will show order 1 in dt; the mean of two velocities that \
-             follow each other is that of the positions",
+            "the scheme is a leapfrog: the reported velocities belong to a time half a step before \
+             the reported positions",
+            "the velocities in `state`. Suites that judge velocities will show order 1 in dt. The \
+             mean of two successive velocities belongs to the time of the positions",
         )
     } else {
         SolverFinding::defect(
             "velocity-of-another-time",
             seen,
-            "velocities do not belong to the time after the step, and the start is not that of a \
-             leapfrog either",
-            "what is done before the first step: v(-dt/2) = v0 - a dt/2, not plus; the number of \
-             steps; where velocities are taken from for the answer",
+            "the reported velocities belong neither to the time after the step, nor to half a step \
+             before this time as in a leapfrog",
+            "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the number \
+             of steps; the variable from which the answer takes velocities",
         )
     })
 }
@@ -132,28 +141,39 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     let mass = course.problem.particles.mass.first().copied().unwrap_or(f64::NAN);
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if factor.abs() <= 1e-3 {
-        return ("gravity-missing", "the load `gravity` has no effect".to_owned());
+        return ("gravity-missing", "gravity or the body force has no effect".to_owned());
     }
     if is(-1.0) {
-        return ("gravity-upwards", "gravity has the other sign".to_owned());
+        return ("gravity-upwards", "gravity or the body force has the wrong sign".to_owned());
     }
     let h = course.problem.grid.h;
     let candidates = [
-        (h, "it is multiplied by the cell size"),
-        (1.0 / h, "it is divided by the cell size"),
-        (2.0, "it acts twice: as gravity and as a body force, or in both halves of a step"),
-        (0.5, "it acts in one half of each step only"),
+        (h, "the acceleration is multiplied by the cell size"),
+        (1.0 / h, "the acceleration is divided by the cell size"),
+        (
+            2.0,
+            "the acceleration is added twice (as gravity and as a body force, or in both halves of \
+             a step)",
+        ),
+        (0.5, "the acceleration is added in one half of each step only"),
         (density, "the force per mass is multiplied by the density"),
         (1.0 / density, "the acceleration is divided by the density"),
-        (mass, "the force per mass is multiplied by the mass of a particle once more"),
+        (mass, "the force per mass is multiplied by the particle mass twice"),
         (1.0 / mass, "the acceleration is divided by the mass of a particle"),
-        (9.81 / GRAVITY, "the solver's own 9.81 m/s2 acts in place of the problem's gravity"),
-        (1.0 + 9.81 / GRAVITY, "the solver's own 9.81 m/s2 acts besides that of the problem"),
-        (1e3, "a unit is mm"),
-        (1e-3, "a unit is mm"),
+        (
+            9.81 / GRAVITY,
+            "the solver uses its own gravity of 9.81 m/s2 instead of the gravity of the problem",
+        ),
+        (
+            1.0 + 9.81 / GRAVITY,
+            "the solver adds its own gravity of 9.81 m/s2 to the gravity of the problem",
+        ),
+        (1e3, "a length is in mm instead of m"),
+        (1e-3, "a length is in mm instead of m"),
     ];
     let known = candidates.into_iter().find(|(wanted, _)| is(*wanted));
-    let cause = known.map_or("it is multiplied by something", |(_, cause)| cause);
+    let cause =
+        known.map_or("the acceleration is multiplied by an unknown factor", |(_, cause)| cause);
     ("gravity-scaled", cause.to_owned())
 }
 
@@ -167,7 +187,7 @@ fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<So
         return None;
     }
     let seen = format!(
-        "u = g t^2/2 {} {} g t dt/2",
+        "the measured displacement is u = g t^2/2 {} {} g t dt/2, expected u = g t^2/2",
         if steps < 0.0 { "-" } else { "+" },
         shown(steps.abs())
     );
@@ -176,25 +196,26 @@ fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<So
         SolverFinding::remark(
             "start-half-a-step-off",
             seen,
-            "each step takes the velocity first and the position after it, and the velocity of t = 0 \
-             stands for that of -dt/2: a push of a dt/2 too much, which costs an order in time",
-            "before the first step, take dt/2 times the first acceleration off the velocity; suites \
-             then show the order in time that the scheme has",
+            "each step updates velocities first and then positions, but the run starts with the \
+             velocity at t = 0 instead of -dt/2. The velocities that move particles are then too \
+             large by a dt/2 (a: acceleration), which lowers the order in time by one",
+            "the start of the run: subtract dt/2 times the initial acceleration from the velocity \
+             before the first step. Suites then show the order in time of the scheme",
         )
     } else if (steps + 1.0).abs() <= near {
         SolverFinding::defect(
             "positions-before-velocities",
             seen,
-            "positions move with the velocities of before the step (forward Euler): order 1 in time, \
-             and energy grows where stresses act",
-            "the order of the updates: velocities first, then positions with the new ones",
+            "positions are updated with the velocities before the step (forward Euler). This has \
+             order 1 in time, and stresses make the energy grow",
+            "the order of the updates: first velocities, then positions with the new velocities",
         )
     } else {
         SolverFinding::defect(
             "way-not-of-velocities",
             seen,
-            "positions do not follow the velocities that are reported",
-            "the velocity that moves particles, and gravity that acts on it twice or not at all",
+            "the reported positions do not follow from the reported velocities",
+            "the velocity that moves particles, which must include gravity exactly once",
         )
     })
 }

@@ -13,8 +13,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "force",
-    expected: "a body force is asked for at reference positions and at the time of each step, and acts \
-               on the points that it was asked for",
+    expected: "the solver requests the body force at reference positions and at the time of each \
+               step, and applies each value to the point for which it was requested",
     after: &["conversation", "rest", "translation", "fall"],
     examine,
 };
@@ -74,7 +74,10 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
-            return Ok(Examined::new("the run ends early".to_owned(), vec![finding]));
+            return Ok(Examined::new(
+                "nothing, because the run ended early".to_owned(),
+                vec![finding],
+            ));
         }
         (Err(other), _) => return Err(other),
         (Ok(course), None) => course,
@@ -92,7 +95,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     }
     let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
     let measured = format!(
-        "{count} values were asked for in {} steps; the speed gained is {} m/s, {} by the integral",
+        "{count} values were requested in {} steps; the speed increases by {} m/s, expected {} m/s",
         course.last(),
         shown(course.mean(velocity, course.last())[0] - VELOCITY[0]),
         shown(integral(course.times[course.last()]))
@@ -145,12 +148,14 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
         SolverFinding::defect(
             "force-of-another-time",
             format!(
-                "times {} to {} s are requested in a run from 0 to {end} s",
+                "the requested times are {} to {} s, but the run is from 0 to {end} s",
                 shown(first),
                 shown(last)
             ),
-            "the force is requested at wrong times, such as the number of the step",
-            "the time of a request, in s: `from` of `advance`, and steps of `dt` from there on",
+            "the force is requested at wrong times, for example at the step number instead of the \
+             time",
+            "the time `t` of requests (s), which starts at `from` of `advance` and increases by \
+             `dt` in each step",
         )
     })
 }
@@ -161,9 +166,10 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     if asked.is_empty() {
         return Some(SolverFinding::defect(
             "force-not-asked",
-            "no value was asked for".to_owned(),
-            "the solver says `manufactured` and does not ask",
-            "`body_force` of the problem, which is \"asked\" here",
+            "the solver requested no value of the body force".to_owned(),
+            "the solver states the capability `manufactured`, but does not request values",
+            "the key `body_force` of the problem: if it is \"asked\", as here, the solver must \
+             request values",
         ));
     }
     let (low, high) = (scene.body.0[0], scene.body.1[0]);
@@ -174,14 +180,16 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
         SolverFinding::defect(
             "force-at-present-positions",
             format!(
-                "{outside} of the places asked for after {} s are outside of the body as it was at the \
-                 start, which has moved on by {} m",
+                "{outside} of the positions requested after {} s are outside the initial body; the \
+                 body has moved by {} m",
                 shown(late),
                 shown(VELOCITY[0] * last)
             ),
-            "the force is asked for at the places where particles are now",
-            "the `reference_position` of the question: X of each particle, which does not change; \
-             without that key the harness takes those of the particles",
+            "the force is requested at the current positions of particles instead of their \
+             reference positions",
+            "`reference_position` in requests: the reference position X of each particle, which \
+             does not change. If a request omits this key, the reference positions of the \
+             particles are used",
         )
     })
 }
@@ -204,7 +212,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     at.sort_by(f64::total_cmp);
     at.dedup();
     let seen = format!(
-        "the body gains {} m/s of {}; times asked for are {} to {} s, {} of them in {last} steps",
+        "the speed of the body increases by {} m/s, expected {} m/s. The requested times are {} to \
+         {} s: {} different times in {last} steps",
         shown(gained(last)),
         shown(wanted),
         shown(at[0]),
@@ -217,16 +226,18 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         return Some(SolverFinding::remark(
             "force-of-the-end-of-the-step",
             seen,
-            "each step takes the force of its end",
-            "an explicit step takes that of its start: the other one costs an order in time",
+            "each step uses the body force at its end",
+            "the time `t` of requests: an explicit step uses the force at its start. The force at \
+             its end lowers the order in time by one",
         ));
     }
     if (gained(last) - FORCE * end).abs() <= 0.02 * wanted {
         return Some(SolverFinding::defect(
             "force-of-one-time",
             seen,
-            "the force of the start acts all the time",
-            "ask in each step, with the time of that step: `from` of `advance` and steps of `dt` on",
+            "all steps use the force at the start of the run",
+            "the time `t` of requests (s), which starts at `from` of `advance` and increases by \
+             `dt` in each step. The force must be requested in each step",
         ));
     }
     let (_, slope, _) = line(
@@ -237,9 +248,9 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     Some(SolverFinding::defect(
         "force-scaled",
         seen,
-        &format!("the force acts with a factor of about {}: {cause}", shown(slope)),
-        "where body forces enter: mass times the values of the answer, which are in m/s2; the times of \
-         the questions",
+        &format!("the force is multiplied by about {}: {cause}", shown(slope)),
+        "the code that adds body forces: add mass times the received values (m/s2) to the nodal \
+         force; the times of the requests",
     ))
 }
 
@@ -263,15 +274,17 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     Some(SolverFinding::defect(
         "force-of-other-points",
         format!(
-            "velocities after a step grow along X by {} of the force times dt, and have up to {} m/s \
-             across it",
+            "the body force increases linearly with X. After one step, the increase of the \
+             velocities with X is {} of the expected one, and velocity components normal to X are \
+             up to {} m/s",
             shown(share),
             shown(across)
         ),
-        "values of an answer are given to other particles than those they were requested for, or the \
-         columns of a state are in another order than the particles or `points`",
-        "the order of particles (sorted by cells?): that of the problem, or of `points`, in all columns \
-         and answers; with points of its own, a solver requests the force at explicit \
-         `reference_position`s; components are given point after point",
+        "received values are assigned to the wrong particles, or the columns of a state are in a \
+         different order than the particles or `points`",
+        "the order of particles, for example if the solver sorts them by cell: all columns and \
+         values must have the order of the problem, or of `points`. A solver that needs the force \
+         at other points must send their `reference_position`. Columns are stored point after \
+         point",
     ))
 }

@@ -16,8 +16,8 @@ use nalgebra::Matrix3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "laws",
-    expected: "at finite strain and rotation the columns `stress` and `deformation_gradient` are those of \
-               the motion and the law",
+    expected: "at finite strain and rotation, the column `deformation_gradient` agrees with the \
+               motion and the column `stress` with the law",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
     examine,
 };
@@ -67,9 +67,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let off = column.as_ref().map(|f| error(f, &motion));
         let stress_column = inside(course, scene, &state.stress);
         let stress_off = stress_column.as_ref().map(|column| error(column, &stress));
-        let texts = [(off, "F"), (stress_off, "stress")]
-            .into_iter()
-            .filter_map(|(off, column)| off.map(|off| format!("{column} off by {}", shown(off))));
+        let texts = [(off, "F"), (stress_off, "stress")].into_iter().filter_map(|(off, column)| {
+            off.map(|off| format!("relative error of {column} {}", shown(off)))
+        });
         measured.push(format!("{name}: {}", texts.collect::<Vec<_>>().join(", ")));
         // The examination `start` reports initial deformations that are ignored.
         if !scene.displacement.is_zero() && !starts_deformed(course, scene) {
@@ -93,8 +93,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     if findings.is_empty() {
         let (ratio, finding) = volumes(patient, (first.dimension, first.law))?;
         measured.push(format!(
-            "the force of a body that is stretched to 1.5 of its length is {} of the expected one, and sound from \
-             0.85 to 1.15",
+            "in a body that is stretched to 1.5 times its length, the force is {} of the expected \
+             force (accepted: 0.85 to 1.15)",
             shown(ratio)
         ));
         findings.extend(finding);
@@ -138,10 +138,15 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
     let finding = (!((ratio - 1.0).abs() <= 0.15)).then(|| {
         SolverFinding::defect(
             "volume-at-finite-strain",
-            format!("{}: the force has {} of the expected impulse", scene.law, shown(ratio)),
-            "the volumes of particles do not follow J = det F: they stay those of the start, change twice, or \
-             change the other way",
-            "V = J V0 in inner forces, with Cauchy's stress; or V0 with Kirchhoff's stress",
+            format!(
+                "{}: the impulse of the internal force is {} of the expected impulse",
+                scene.law,
+                shown(ratio)
+            ),
+            "the particle volumes do not follow J = det F: they are not updated, updated twice, or \
+             divided by J",
+            "the volume in internal forces: V = J V0 with the Cauchy stress, or V0 with the \
+             Kirchhoff stress",
         )
     });
     Ok((ratio, finding))
@@ -216,22 +221,23 @@ fn transposed(tensor: &[f64], d: usize) -> Vec<f64> {
 
 fn of_gradient(name: &str, mean: &[f64], f: &[f64], scene: &BoxScene) -> SolverFinding {
     let d = scene.dimension;
-    let seen = format!("{name}: F is {} in the middle, expected {}", list(mean), list(f));
-    let look_at = "F = dx/dX, row after row: F_ij = dx_i/dX_j; F <- (I + dt L) F with the new L, not \
-                   F (I + dt L)";
+    let seen =
+        format!("{name}: in the middle of the body, F is {}, expected {}", list(mean), list(f));
+    let look_at = "the column, which is F = dx/dX row after row: F_ij = dx_i/dX_j; the update F <- \
+                   (I + dt L) F with the new velocity gradient L, not F (I + dt L)";
     if error(mean, &transposed(f, d)) <= NEAR {
         return SolverFinding::defect(
             "deformation-gradient-transposed",
             seen,
-            "the column has the transpose of F",
+            "the column contains the transpose of F",
             look_at,
         );
     }
     SolverFinding::defect(
         "deformation-gradient-update",
         seen,
-        "F is not updated with the motion at finite strain and rotation: factors in another order, only \
-         the symmetric part of L, or det F forced to another value",
+        "the update of F is wrong at finite strain and rotation: factors in the wrong order, only \
+         the symmetric part of L, or det F set to another value",
         look_at,
     )
 }
@@ -245,7 +251,7 @@ fn of_stress(
 ) -> Result<SolverFinding, Hindrance> {
     let d = scene.dimension;
     let seen = format!(
-        "{name}: over E, the stress is {} in the middle, expected {}",
+        "{name}: in the middle of the body, the stress divided by E is {}, expected {}",
         list(&mean.iter().map(|s| s / scene.young).collect::<Vec<_>>()),
         list(&stress.iter().map(|s| s / scene.young).collect::<Vec<_>>())
     );
@@ -258,10 +264,10 @@ fn of_stress(
         return Ok(SolverFinding::remark(
             "objective-rate",
             seen,
-            "the stress is that of the Jaumann rate. The law `linear_elastic` has the plain rate, sigma' = C : D, \
-             without the terms of the spin",
-            "suites with large rotations and this law will differ; a solver can offer it without these terms, \
-             or leave it out of its `laws`",
+            "the stress is integrated with the Jaumann rate. The law `linear_elastic` has the \
+             plain rate, sigma' = C : D, without spin terms",
+            "the spin terms of the stress rate. Results will differ in suites with large rotations \
+             and this law. Omit the spin terms, or remove the law from `laws`",
         ));
     }
     // If F^T F is used in place of F F^T, isotropic laws give the stress for F^T.
@@ -272,24 +278,29 @@ fn of_stress(
     let (finding, cause) = if d > 1 && error(mean, &of_transpose) <= NEAR {
         (
             "stress-not-objective",
-            "the stress is that of F^T F, in the reference axes, and does not turn with the body: F F^T \
-             belongs in Cauchy's stress",
+            "the stress is computed from F^T F, in the reference axes, and does not rotate with \
+             the body. The Cauchy stress requires F F^T",
         )
     } else if (factor / j - 1.0).abs() <= NEAR && error(mean, &scaled) <= NEAR {
-        ("stress-not-cauchy", "the column has Kirchhoff's stress J sigma, not Cauchy's")
+        (
+            "stress-not-cauchy",
+            "the column contains the Kirchhoff stress J sigma instead of the Cauchy stress sigma",
+        )
     } else {
         (
             "stress-at-finite-strain",
-            "the law differs at finite strain: another measure of strain or of stress (Kirchhoff, Piola), \
-             a rate that is objective where the law asks for the plain one or the reverse, J missing",
+            "the law differs at finite strain: another strain or stress measure (Kirchhoff, \
+             Piola), an objective stress rate instead of the plain rate or the reverse, or a \
+             missing factor J",
         )
     };
     Ok(SolverFinding::defect(
         finding,
         seen,
         cause,
-        "the equation of the law (`mpm-verify explain SUITE` prints it; that of `linear_elastic` is \
-         sigma' = C : D); Cauchy's stress, row after row; left and right Cauchy-Green tensors",
+        "the equation of the law, which `mpm-verify explain SUITE` prints (`linear_elastic`: \
+         sigma' = C : D); the column, which is the Cauchy stress row after row; left and right \
+         Cauchy-Green tensors",
     ))
 }
 

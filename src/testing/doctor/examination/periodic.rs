@@ -9,14 +9,15 @@ use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",
-    expected: "a body that fills a periodic axis moves along it, and displacements are not wrapped",
+    expected: "a body that fills a periodic axis moves along this axis at constant velocity, and \
+               its displacements are not wrapped",
     after: &["conversation", "rest", "translation", "stress"],
     examine,
 };
 
 pub(super) const ENDS: Examination = Examination {
     name: "periodic-ends",
-    expected: "two ends of a periodic axis that move towards each other stop each other",
+    expected: "if the two ends of a periodic axis move towards each other, they stop each other",
     after: &[
         "conversation",
         "rest",
@@ -66,9 +67,12 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut all = Examined::default();
     for axis in 0..first.dimension {
         let lost = lost_at_ends(patient, (first.dimension, first.law), axis)?;
-        all.measured = format!("the ends exchange {} of the momentum of a half", shown(lost));
+        all.measured = format!(
+            "one half of the body transfers {} of its momentum across the periodic ends",
+            shown(lost)
+        );
         if !(lost >= 0.4) {
-            let seen = format!("{}, where about 0.9 was expected", all.measured);
+            let seen = format!("{}, expected about 0.9", all.measured);
             all.findings.push(not_closed(axis, &seen));
             break;
         }
@@ -114,10 +118,13 @@ fn one_axis(patient: &Patient<'_>, scene: &BoxScene, axis: usize) -> Result<Exam
         SolverFinding::defect(
             "displacements-wrapped",
             format!(
-                "along {name} some displacements differ by periods of {period} m from {distance} m"
+                "along {name}, some displacements differ from the distance of {distance} m by \
+                 multiples of the period of {period} m"
             ),
-            "positions are put back into the period, and displacements are computed from those",
-            "the answer to `advance`: displacements keep growing; store them separately, or count periods",
+            "positions are wrapped into the period, and displacements are computed from wrapped \
+             positions",
+            "the displacements in the answer to `advance`, which must keep growing: store \
+             displacements separately, or count periods",
         )
     } else {
         not_closed(axis, &first.seen)
@@ -129,8 +136,8 @@ fn not_closed(axis: usize, seen: &str) -> SolverFinding {
     SolverFinding::defect(
         "periodic-axis",
         format!("along {}: {seen}", ["x", "y", "z"][axis]),
-        "the two ends of a periodic axis are not treated as one place",
-        "node indices modulo the number of cells (not of nodes); node N is node 0, in every sum and \
-         for every function that reaches across the end",
+        "the two ends of a periodic axis are not treated as the same position",
+        "node indices, which are taken modulo the number of cells N (not of nodes): node N is node \
+         0 in every sum, and for every basis function that reaches across the end",
     )
 }

@@ -11,7 +11,7 @@ use crate::testing::doctor::scene::{ANY, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",
-    expected: "a body at rest, without stress and loads, stays where it is",
+    expected: "a body at rest, without stress and loads, does not move",
     after: &["conversation"],
     examine,
 };
@@ -30,7 +30,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let way = course.farthest(displacement, last, [0.0; 3]) / H;
     let speed = course.farthest(velocity, last, [0.0; 3]) / scene.wave_speed();
     let measured = format!(
-        "after {last} steps points are {} cells away and have {} of the wave speed",
+        "after {last} steps, the largest displacement is {} cells and the largest speed is {} of \
+         the wave speed",
         shown(way),
         shown(speed)
     );
@@ -57,9 +58,12 @@ fn cause(course: &Course) -> SolverFinding {
     if are_positions {
         return SolverFinding::defect(
             "positions-for-displacements",
-            format!("the column `displacement` has {} at a body at rest", shown_vector(u, d)),
-            "it has the positions of the particles",
-            "the answer to `advance`: displacement is position less `reference_position`",
+            format!(
+                "the mean of the column `displacement` is {} for a body at rest",
+                shown_vector(u, d)
+            ),
+            "the column contains positions instead of displacements",
+            "the displacements in the answer to `advance`: position minus `reference_position`",
         );
     }
     let as_one = spread(displacement, u) <= AS_ONE * reach(displacement)
@@ -73,7 +77,7 @@ fn cause(course: &Course) -> SolverFinding {
     if size(v) > 0.0 && off <= AS_ONE * size(v) && slope * course.times[last] >= 0.5 * size(v) {
         let g = times(slope / size(v), v);
         let seen = format!(
-            "the whole body has the velocity {} m/s after {} s: an acceleration of {} m/s2",
+            "the whole body has the velocity {} m/s after {} s, an acceleration of {} m/s2",
             shown_vector(v, d),
             shown(course.times[last]),
             shown_vector(g, d)
@@ -81,26 +85,31 @@ fn cause(course: &Course) -> SolverFinding {
         return SolverFinding::defect(
             "gravity-left-on",
             seen,
-            "gravity or another uniform acceleration acts that the problem does not have",
-            "the solver's own default for gravity: `loads` of the problem is empty, and \
-             `body_force` is \"none\"",
+            "the solver applies gravity or another uniform acceleration that is not in the problem",
+            "the default gravity of the solver: in this problem `loads` is empty and `body_force` \
+             is \"none\", so the acceleration must be zero",
         );
     }
     if size(v) * course.times[last] >= 0.5 * size(u) {
-        let seen = format!("the whole body has the velocity {} m/s", shown_vector(v, d));
+        let seen =
+            format!("the whole body has the velocity {} m/s, expected zero", shown_vector(v, d));
         return SolverFinding::defect(
             "velocity-of-its-own",
             seen,
-            "the body starts with a velocity that it was not given",
-            "the initial velocity: `particles.velocity` of the problem is zero here",
+            "the body starts with a velocity that is not in the problem",
+            "the initial velocity: `particles.velocity` of this problem is zero",
         );
     }
     SolverFinding::defect(
         "displaced-from-the-start",
-        format!("the whole body is {} m from its place, and stays there", shown_vector(u, d)),
-        "displacements are counted from another place than `reference_position`, or particles are \
-         moved when the solver is set up",
-        "the origin of the grid, a shift of the solver's own box, the seeding of particles",
+        format!(
+            "from the start on, the whole body is displaced by {} m and does not move",
+            shown_vector(u, d)
+        ),
+        "displacements are not measured from `reference_position`, or particles are moved during \
+         initialisation",
+        "the origin of the grid; an offset between the coordinates of the solver and those of the \
+         problem; the initial positions of particles",
     )
 }
 
@@ -115,7 +124,8 @@ fn apart(course: &Course) -> SolverFinding {
         course.points(velocity, last).map(|(label, v)| dot(v, minus(label, centre))).sum();
     let speed = course.farthest(velocity, last, [0.0; 3]);
     let seen = format!(
-        "points have up to {} m/s, {} on the whole, and {} m/s in the mean",
+        "points move with up to {} m/s, mostly {} relative to the centre of the body, and with {} \
+         m/s on average",
         shown(speed),
         if outward > 0.0 { "outwards" } else { "inwards" },
         shown_vector(course.mean(velocity, last), d)
@@ -123,9 +133,10 @@ fn apart(course: &Course) -> SolverFinding {
     SolverFinding::defect(
         "stress-at-rest",
         seen,
-        "particles start with a stress or a deformation that they were not given, or surface \
-         tension, friction or a wall acts",
-        "the initial F (one), stress (zero) and volume; a reference volume of h^D over the particles \
-         per cell where the problem has its own; a pressure that is not zero where det F is one",
+        "particles start with a stress or deformation that is not in the problem, or surface \
+         tension, friction or a wall acts on the body",
+        "the initial F (identity), stress (zero) and volume; volumes that are computed as h^D \
+         divided by the particles per cell instead of read from the problem; a pressure that is \
+         not zero at det F = 1",
     )
 }

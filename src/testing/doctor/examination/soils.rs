@@ -16,8 +16,8 @@ use crate::testing::doctor::scene::{BoxScene, FRICTION, FRICTION_ANGLE, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "soils",
-    expected: "along paths of compression, extension, shear and rotation the column `stress` is that of the soil law, \
-               in one step and in many",
+    expected: "in compression, extension, shear and rotation, the column `stress` agrees with the \
+               soil law, for one large step and for many small steps",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
     examine,
 };
@@ -105,7 +105,8 @@ impl Leg {
             format!("({})", parts.join(", "))
         };
         format!(
-            "{} in {}-D, {path}: over E, the stress is {} in the middle, expected {}",
+            "{} in {}-D, {path}: in the middle of the body, the stress divided by E is {}, \
+             expected {}",
             self.scene.law,
             self.scene.dimension,
             over(&self.stress),
@@ -145,7 +146,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         });
         let texts: Vec<String> = texts.collect();
         measured.push(format!(
-            "{law} in {}-D: stress off by {}",
+            "{law} in {}-D: relative error of the stress in {}",
             first.dimension,
             texts.join(", ")
         ));
@@ -176,7 +177,7 @@ fn legs(patient: &Patient<'_>, kind: Kind) -> Result<Legs, Hindrance> {
     });
     let mut legs = legs.collect::<Result<Vec<Leg>, Hindrance>>()?.into_iter();
     let mut next = || legs.next();
-    let none = || Hindrance::Broke("a path has no stress".to_owned());
+    let none = || Hindrance::Broke("a path gives no stress".to_owned());
     Ok(Legs {
         compression: next().ok_or_else(none)?,
         one_step: next().ok_or_else(none)?,
@@ -240,10 +241,11 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
         return Ok(Some(SolverFinding::defect(
             "soil-depends-on-steps",
             leg.describe(&name),
-            "the stress depends on the number of steps, although the path is straight: the return ends before it \
-             reaches the yield surface, or the flow is that of the start of the step",
-            "the return mapping: solve for a stress on the yield surface at the end of the step, in one step of any \
-             size",
+            "the stress depends on the number of steps, although the strain path is straight. The \
+             return mapping stops before the stress reaches the yield surface, or uses the flow \
+             direction at the start of the step",
+            "the return mapping, which must give a stress on the yield surface at the end of a \
+             step of any size",
         )));
     }
     if let Some(leg) = [compression, one_step].into_iter().find(|leg| leg.is_wrong()) {
@@ -256,8 +258,10 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
         return Ok(Some(SolverFinding::defect(
             "soil-apex",
             extension.describe("extension beyond the apex"),
-            "in tension the return does not end at the apex of the yield surface, or the strength is wrong",
-            "return to the apex p = k/eta, or c cot(phi), if the return to the cone or to an edge would turn the deviator",
+            "in tension, the return mapping does not end at the apex of the yield surface, or the \
+             strength is wrong",
+            "the return to the apex, p = k/eta (Drucker-Prager) or p = c cot(phi) (Mohr-Coulomb), \
+             which is required if the return to the cone or to an edge would reverse the deviator",
         )));
     }
     let is_wrong = |leg: &&Leg| !(leg.relative_error() <= NEAR_WITH_ROTATION);
@@ -265,9 +269,10 @@ fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     Ok(Some(SolverFinding::defect(
         "soil-not-objective",
         rotation.describe("compression with a rotation by 0.4"),
-        "the stress is right without rotation and wrong with it: the elastic strain or the plastic state does not rotate with \
-         the body",
-        "b_e = F Cp^-1 F^T, with Cp^-1 in the reference axes; in rate form, an objective rate of the stress",
+        "the stress is correct without rotation, but wrong with rotation: the elastic strain or \
+         the plastic state does not rotate with the body",
+        "the elastic strain b_e = F Cp^-1 F^T, with Cp^-1 in the reference axes; for laws in rate \
+         form, an objective stress rate",
     )))
 }
 
@@ -282,15 +287,16 @@ fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hind
         return Ok(SolverFinding::defect(
             "soil-does-not-yield",
             leg.describe(path),
-            "the stress is elastic beyond yield",
-            "the yield function, and the units of its strength; p is positive in tension, and so are principal stresses",
+            "the stress stays elastic beyond the yield surface",
+            "the yield function; the units of the strength; the signs: the mean stress p and \
+             principal stresses are positive in tension",
         ));
     }
     for (share, flow) in
-        [(1.0, "associated: the dilation is the friction"), (0.0, "without dilation")]
+        [(1.0, "associated: the dilation equals the friction"), (0.0, "without dilation")]
     {
         if leg.is_that_of(&BoxScene { dilation: share, ..leg.scene.clone() })? {
-            return Ok(flow_direction(leg, path, &format!("the flow is {flow}")));
+            return Ok(flow_direction(leg, path, &format!("the plastic flow is {flow}")));
         }
     }
     if on_edge {
@@ -300,7 +306,7 @@ fn of_stress(leg: &Leg, path: &str, on_edge: bool) -> Result<SolverFinding, Hind
         Some(true) if path == "compression" => Ok(flow_direction(
             leg,
             path,
-            "the stress is on the yield surface, but at a wrong point",
+            "the stress is on the yield surface, but at the wrong point",
         )),
         _ => Ok(yield_surface(leg, path)),
     }
@@ -310,9 +316,10 @@ fn edge(leg: &Leg, path: &str) -> SolverFinding {
     SolverFinding::defect(
         "soil-edge",
         leg.describe(path),
-        "the return to a face is right, and the return to an edge, where two principal stresses are equal, is not",
-        "return to both planes of the edge with two multipliers; the choice of the edge; afterwards no yield function \
-         may be positive",
+        "the return to a face of the yield surface is correct, but the return to an edge, where \
+         two principal stresses are equal, is wrong",
+        "the return to both planes of the edge, with two plastic multipliers; the choice of the \
+         edge; after the return, no yield function may be positive",
     )
 }
 
@@ -321,7 +328,8 @@ fn flow_direction(leg: &Leg, path: &str, cause: &str) -> SolverFinding {
         "soil-flow-direction",
         leg.describe(path),
         cause,
-        "the flow potential has the dilation in place of the friction; the volumetric part of the return, K times the dilation",
+        "the flow potential, which contains the dilation in place of the friction; the volumetric \
+         part of the return, which is K times the dilation",
     )
 }
 
@@ -329,9 +337,10 @@ fn yield_surface(leg: &Leg, path: &str) -> SolverFinding {
     SolverFinding::defect(
         "soil-yield-surface",
         leg.describe(path),
-        "the stress is not on the yield surface of the problem: wrong coefficient, wrong strength, sign of the mean \
-         stress, or angles in wrong units",
-        "sqrt(J2) + eta p = k with p positive in tension; (t1 - t3) + (t1 + t3) sin(phi) = 2 c cos(phi) with angles in degrees",
+        "the stress is not on the yield surface of the problem: wrong coefficient, wrong strength, \
+         wrong sign of the mean stress, or angles in wrong units",
+        "the yield function: sqrt(J2) + eta p = k with p positive in tension (Drucker-Prager); (t1 \
+         - t3) + (t1 + t3) sin(phi) = 2 c cos(phi) with angles in degrees (Mohr-Coulomb)",
     )
 }
 

@@ -15,8 +15,8 @@ use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",
-    expected: "a body that starts displaced, with F and stress, is where the problem has it, and its stress \
-               moves it from the first step on",
+    expected: "a body that starts with a displacement, F and stress is at the positions of the \
+               problem, and the stress accelerates the body from the first step on",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
     examine,
 };
@@ -52,8 +52,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             all.measured.push_str("; ");
         }
         all.measured.push_str(&format!(
-            "{}: the force of the initial stress is {} of the expected one, with a difference of {}, and \
-             begins {} steps after the start",
+            "{}: the force due to the initial stress is {} of the expected force (relative error \
+             of the force vector: {}) and begins {} steps after the start",
             scene.law,
             shown(forces.ratio),
             shown(forces.error),
@@ -155,10 +155,11 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         return Some(SolverFinding::defect(
             "initial-displacement-ignored",
             format!(
-                "{law}: after one step displacements are off by {} of those of the start",
+                "{law}: after one step, displacements differ from the initial displacements by {} \
+                 of the largest one",
                 shown(off)
             ),
-            "particles start at another place than `position`, or displacements do not count from \
+            "particles do not start at `position`, or displacements are not measured from \
              `reference_position`",
             "`particles.position` of the problem, which differs from `reference_position` here",
         ));
@@ -171,7 +172,8 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     let mean = inside(course, scene, &course.states[1].deformation_gradient);
     let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
     let force = format!(
-        "{law}: the force of the initial stress is {} of the expected one, and begins {} steps after the start",
+        "{law}: the force due to the initial stress is {} of the expected force and begins {} \
+         steps after the start",
         shown(forces.ratio),
         forces.shown_delay()
     );
@@ -179,9 +181,9 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     if mean.as_ref().is_some_and(|mean| f_is_lost && largest(mean, &turned) <= 0.2 * size_of_f) {
         return Some(SolverFinding::defect(
             "initial-deformation-transposed",
-            format!("{force}; after one step F is the transpose of that of the start"),
-            "the initial F is read as its transpose",
-            "`particles.deformation_gradient` of the problem: row after row",
+            format!("{force}; after one step, F is the transpose of the initial F"),
+            "the solver reads the transpose of the initial F",
+            "`particles.deformation_gradient` of the problem, which is stored row after row",
         ));
     }
     if f_is_lost {
@@ -189,27 +191,31 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
             mean.unwrap_or_default().iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", ");
         return Some(SolverFinding::defect(
             "initial-deformation-dropped",
-            format!("{force}; after one step F is ({mean})"),
-            "the initial F is not taken: it is reset to one",
-            "`particles.deformation_gradient` of the problem, and where F is initialised",
+            format!("{force}; after one step, F is ({mean})"),
+            "the solver ignores the initial F and starts with F = I",
+            "`particles.deformation_gradient` of the problem; the initialisation of F",
         ));
     }
     if forces.ratio.abs() <= NEAR {
         return Some(SolverFinding::defect(
             "initial-stress-dropped",
             force,
-            "the initial stress is not taken, or the initial F of which the law computes it",
-            "`particles.stress` and `particles.deformation_gradient` of the problem, and where the solver \
-             initialises its own",
+            "the solver ignores the initial stress, or the initial F from which the law computes \
+             the stress",
+            "`particles.stress` and `particles.deformation_gradient` of the problem; the \
+             initialisation of stress and F",
         ));
     }
     if !(forces.error <= NEAR) {
         return Some(SolverFinding::defect(
             "initial-stress-differs",
-            format!("{force}, and differs from it by {}", shown(forces.error)),
-            "the stress of a body that starts deformed is another one: the law differs at finite strain, \
-             the stress does not turn with the body (F^T F in place of F F^T), or volumes are not those of \
-             the problem",
+            format!(
+                "{force}; the force vector has an error of {} of the expected force",
+                shown(forces.error)
+            ),
+            "the stress of a body that starts deformed is wrong: the law differs at finite strain, \
+             the stress does not rotate with the body (F^T F instead of F F^T), or volumes are not \
+             those of the problem",
             "the law as a function of F; `particles.volume` of the problem, which may differ from \
              `reference_volume`",
         ));
@@ -219,9 +225,10 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         SolverFinding::defect(
             "initial-stress-dropped",
             force,
-            "the initial stress is not taken: the law computes it at the end of the first step only",
-            "`particles.stress` of the problem, which acts in the first step of a scheme that updates \
-             stress last",
+            "the solver ignores the initial stress: the law computes the stress only at the end of \
+             the first step",
+            "`particles.stress` of the problem, which acts in the first step of a scheme that \
+             updates the stress last",
         )
     })
 }

@@ -19,16 +19,16 @@ use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",
-    expected: "a body without stress that turns or stretches slowly keeps its moment of momentum, or loses \
-               the share that PIC loses",
+    expected: "a body without stress that rotates or stretches slowly conserves the first moment \
+               of its momentum about the centre, or loses as much as PIC",
     after: &["conversation", "rest", "initial-velocity", "translation", "force"],
     examine,
 };
 
 pub(super) const INITIAL_VELOCITY: Examination = Examination {
     name: "initial-velocity",
-    expected: "a body without stress that stretches slowly starts with the velocities of the problem, \
-               which do not grow",
+    expected: "a body without stress that stretches slowly starts with the velocities of the \
+               problem, which do not grow",
     after: &["conversation", "rest"],
     examine: examine_initial_velocity,
 };
@@ -78,20 +78,21 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
     // Velocities in another order lose the whole moment in the first step, and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
-        let seen = "after one step the velocities of a stretched body belong to other places";
+        let seen = "after one step, the velocities of a stretching body belong to other points";
         let finding = SolverFinding::defect(
             "columns-in-another-order",
             seen.to_owned(),
-            "the columns of a state are in another order than the particles or `points`",
-            "particles that are sorted by cells: columns have the order of the problem, or of `points`",
+            "the columns of a state are in a different order than the particles or `points`",
+            "particles that the solver sorts by cell: columns must keep the order of the problem, \
+             or of `points`",
         );
         return Ok(Examined::new(seen.to_owned(), vec![finding]));
     }
     let averaging = |basis: &&str| Ok(losses_of(&plain.averaged(basis)?, &plain));
     let averaging = BASES.iter().map(averaging).collect::<Result<Vec<Losses>, Hindrance>>()?;
     let measured = format!(
-        "in units of h2, the moment falls by {} in the first step and {} in later ones while the body \
-         stretches, and by {} and {} while it turns",
+        "in units of h^2 (h: cell size), the moment of momentum decreases by {} in the first step \
+         and {} in each later step of a stretch, and by {} and {} in a rotation",
         shown(stretch.first),
         shown(stretch.later),
         shown(rotation.first),
@@ -109,7 +110,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     let speed = |k: usize| course.farthest(velocity, k, [0.0; 3]);
     let (start, first, end) = (speed(0), speed(1), speed(course.last()));
     let measured = format!(
-        "speeds are up to {} m/s at the start, {} after one step and {} at the end",
+        "the largest speed is {} m/s at the start, {} after one step and {} at the end",
         shown(start),
         shown(first),
         shown(end)
@@ -121,10 +122,10 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     if !(end <= 10.0 * start) {
         return defect(
             "affine-matrix-scaled",
-            "velocity gradients grow from step to step without stress: the affine matrix C is too large, by \
-             a power of h, or x_i - x_p is not the distance of a node from its particle",
-            "the affine matrix C (B D^-1 in APIC; 4/h2 for quadratic and 3/h2 for cubic B-splines in \
-             MLS-MPM)",
+            "velocity gradients grow from step to step without stress: the affine matrix C is too \
+             large by a power of h, or x_i - x_p is not the vector from the particle to the node",
+            "the affine matrix C, which is B D^-1 in APIC, and has the factor 4/h^2 for quadratic \
+             and 3/h^2 for cubic B-splines in MLS-MPM",
         );
     }
     if let Some(failure) = &course.failure {
@@ -133,7 +134,8 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     if course.farthest(velocity, 1, course.mean(velocity, 1)) <= 1e-2 * start {
         return defect(
             "initial-velocity-dropped",
-            "the initial velocity is not taken, or one velocity is given to all particles",
+            "the solver ignores the initial velocities, or gives the same velocity to all \
+             particles",
             "`particles.velocity` of the problem, which has one vector for each particle",
         );
     }
@@ -150,8 +152,9 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     if sorted(before, d) != sorted(after, d) && sorted(before, 1) == sorted(after, 1) {
         return defect(
             "vectors-in-another-layout",
-            "columns of vectors are read or written component after component",
-            "vectors are given point after point: x0 y0 x1 y1, not x0 x1 y0 y1",
+            "columns of vectors are read or written component after component instead of point \
+             after point",
+            "the layout of vectors, which is point after point: x0 y0 x1 y1, not x0 x1 y0 y1",
         );
     }
     Ok(Examined::new(measured, Vec::new()))
@@ -199,9 +202,10 @@ fn cause(
     averaging: &[Losses],
 ) -> Option<SolverFinding> {
     let seen = format!(
-        "each step takes {} h2 of the moment of a stretch and {} h2 of that of a rotation, and {} h2 of a \
-         stretch if all lengths are an eighth; averaging takes {} h2 with linear and {} h2 with cubic \
-         functions, a correct affine transfer or FLIP nothing",
+        "each step reduces the moment of momentum by {} h^2 in a stretch, by {} h^2 in a rotation, \
+         and by {} h^2 in a stretch with all lengths divided by eight. PIC averaging takes {} h^2 \
+         with linear and {} h^2 with cubic functions. A correct affine transfer or FLIP takes \
+         nothing",
         shown(stretch.later),
         shown(rotation.later),
         shown(small.later),
@@ -212,8 +216,9 @@ fn cause(
     if losses.iter().all(|loss| loss.abs() <= KEPT) {
         return first_step(stretch, rotation);
     }
-    let look_at = "the affine matrix C (B D^-1 in APIC; 4/h2 for quadratic and 3/h2 for cubic B-splines in \
-                   MLS-MPM): C_ab = dv_a/dx_b, its factor, its indices, and the sign of x_i - x_p";
+    let look_at = "the affine matrix C_ab = dv_a/dx_b: its factor (B D^-1 in APIC; 4/h^2 for \
+                   quadratic and 3/h^2 for cubic B-splines in MLS-MPM), its indices, and the sign \
+                   of x_i - x_p";
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
@@ -225,20 +230,20 @@ fn cause(
         return if is_twice {
             defect(
                 "affine-matrix-transposed",
-                "the affine matrix C is transposed, or its skew part has the other sign",
+                "the affine matrix C is transposed, or its skew part has the wrong sign",
             )
         } else {
             defect(
                 "rotation-lost",
-                "the skew part of the affine matrix C is missing: rotations are averaged",
+                "the skew part of the affine matrix C is missing, so rotations are averaged",
             )
         };
     }
     if !is_alike(stretch.later, small.later) {
         return defect(
             "affine-matrix-scaled",
-            "the effect of the velocity gradient depends on the unit of length: the affine matrix C is \
-             wrong by a power of h",
+            "the effect of the velocity gradient depends on the unit of length: the affine matrix \
+             C is wrong by a power of h",
         );
     }
     // Partial averaging affects all motions and steps equally. An affine matrix that starts at zero
@@ -262,16 +267,17 @@ fn cause(
     if !(is_share && is_even && (is_averaging || is_blend)) {
         return defect(
             "affine-matrix-scaled",
-            "the affine matrix C is wrong by a factor or a sign, or a part of it is missing: it does not \
-             restore what averaging takes",
+            "the affine matrix C has a wrong factor or sign, or a part of C is missing: C does not \
+             restore the momentum that averaging removes",
         );
     }
     Some(SolverFinding::remark(
         "momentum-spreads",
         seen,
         "velocities are averaged over cells in each step (PIC, or a share of PIC)",
-        "the blend of PIC and FLIP; the smaller the step, the larger the viscosity: waves are damped, and \
-         orders of convergence fall. In an affine transfer (APIC, MLS-MPM), the factor of the affine matrix C",
+        "the blend of PIC and FLIP. Smaller time steps increase the averaging, which acts as a \
+         viscosity: waves are damped, and orders of convergence decrease. In an affine transfer \
+         (APIC, MLS-MPM), the factor of the affine matrix C",
     ))
 }
 
@@ -281,11 +287,15 @@ fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     (first > 10.0 * KEPT).then(|| {
         SolverFinding::remark(
             "first-step-spreads",
-            format!("the first step takes {} h2 of the moment, later steps nothing", shown(first)),
-            "particles start without the gradient of their velocity: the first step is one of PIC, which \
-             averages velocities over cells",
-            "affine matrices (APIC, MLS-MPM) at the start: grad v of the initial velocity, from a fit \
-             through neighbours or one transfer without motion",
+            format!(
+                "the first step reduces the moment of momentum by {} h^2, and later steps do not \
+                 change it",
+                shown(first)
+            ),
+            "particles start without the gradient of their velocity: the first step is a PIC step, \
+             which averages velocities over cells",
+            "the affine matrices at the start (APIC, MLS-MPM): use the gradient of the initial \
+             velocity, from a fit to neighbouring particles or from one transfer without motion",
         )
     })
 }

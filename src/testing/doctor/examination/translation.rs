@@ -7,7 +7,8 @@ use crate::testing::doctor::scene::{ANY, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
-    expected: "a body without stress moves on through four cells, with x = X + v t to rounding",
+    expected: "a body without stress moves at constant velocity through four cells, with x = X + v \
+               t to rounding",
     after: &["conversation", "rest", "initial-velocity"],
     examine,
 };

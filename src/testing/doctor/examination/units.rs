@@ -9,8 +9,8 @@ use crate::testing::doctor::scene::ELASTIC;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "units",
-    expected: "a thousandth of each length, of each time, and 1e-12 of each mass change nothing but the \
-               units of the answer",
+    expected: "multiplying all lengths or all times by a thousandth, or all masses by 1e-12, \
+               changes only the units of the answer",
     after: &["conversation", "rest", "translation", "faces", "force", "transfer", "stress"],
     examine,
 };
@@ -45,15 +45,17 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             spoiled.push(what);
         }
     }
-    let measured = format!("displacements change with small {}", measured.join(", "));
+    let measured =
+        format!("relative change of the displacements with small {}", measured.join(", "));
     let finding = (!spoiled.is_empty()).then(|| {
         let names = spoiled.join(" and ");
         SolverFinding::defect(
             "depends-on-units",
-            format!("with small {names} the same motion is another one"),
-            "a number with a unit is compiled in, such as a threshold on mass, length or time",
-            "comparisons with numbers like 1e-12 (nodes with little mass, cells, times), which belong \
-             over a mass, length or time of the problem; constants such as 9.81; output with few digits",
+            format!("with small {names}, the same problem gives a different motion"),
+            "the code contains a constant with a unit, such as a threshold on mass, length or time",
+            "comparisons with constants like 1e-12 (nodes with little mass, cells, times), which \
+             must be relative to a mass, length or time of the problem; constants such as 9.81; \
+             output with few digits",
         )
     });
     Ok(Examined::new(measured, finding.into_iter().collect()))

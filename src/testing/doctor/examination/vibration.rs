@@ -13,7 +13,7 @@ use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "vibration",
-    expected: "the kinetic energy of a free body that vibrates is at most 1.3 of that of the start",
+    expected: "the kinetic energy of a free vibrating body is at most 1.3 times its initial value",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
     examine,
 };
@@ -39,7 +39,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let most = (1..=course.last()).map(|k| kinetic_energy(&course, k) / start);
     let most = most.fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { f64::max(a, b) });
     let measured = format!(
-        "in {} of {} steps, the kinetic energy is at most {} of that of the start",
+        "in {} of {} steps, the kinetic energy is at most {} times its initial value",
         course.last(),
         scene.steps,
         shown(most)
@@ -49,10 +49,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         SolverFinding::defect(
             "vibration-grows",
             measured.clone(),
-            "vibrations gain energy in each step, as in forward Euler: strains are updated with the velocity \
-             before the forces act on it, and forces with the stress before that update",
-            "the velocity of the strain update: after the forces in USL and MUSL; in USF before them, and \
-             then the forces have the new stress",
+            "vibrations gain energy in each step, as in forward Euler: strains are updated with \
+             the velocity before the forces act, and forces are computed from the stress before \
+             this update",
+            "the velocity in the strain update: USL and MUSL use the velocity after the forces \
+             act. USF uses the velocity before the forces act, and then computes the forces from \
+             the new stress",
         )
     });
     Ok(Examined::new(measured, finding.into_iter().collect()))

@@ -30,13 +30,15 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
         return Ok(SolverFinding::defect(
             "gradients-do-not-sum-to-zero",
             format!(
-                "velocities are off by {} of the speed, and by {} without stiffness",
+                "the largest velocity error is {} of the speed, and {} in a run without stiffness",
                 shown(stiff),
                 shown(speed)
             ),
-            "a uniform velocity has a gradient at particles: it strains the body, and stress parts it",
-            "the sum of all gradients of a particle, which must be zero: are all nodes visited at \
-             which its functions do not vanish, and are slopes those of the weights, divided by h",
+            "the gradients at a particle do not sum to zero. A uniform velocity then has a \
+             gradient at particles, which strains the body and causes stress",
+            "the sum of all gradients at a particle, which must be zero; the nodes that are \
+             visited, which must include every node whose function is not zero at the particle; \
+             the gradients, which must be the derivatives of the weights, with the factor 1/h",
         ));
     }
     let slowed = uneven_drag(&again)?;
@@ -66,15 +68,17 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
     Ok(Some(SolverFinding::defect(
         "drag",
         format!(
-            "points lose {} to {} of their speed per second, by their places, and {} to {} with half \
-             the step",
+            "points lose {} to {} of their speed per second, depending on their positions, and {} \
+             to {} with half the time step",
             rate(once.0),
             rate(once.1),
             rate(twice.0),
             rate(twice.1)
         ),
-        "drag or damping acts that the problem does not have, more on some nodes than on others",
-        "the solver's own defaults: air drag, a viscous medium, damping of nodes whatever their mass",
+        "the solver applies drag or damping that is not in the problem, with different strengths \
+         at different nodes",
+        "the default settings of the solver: air drag, a viscous medium, damping of nodes that \
+         does not depend on their mass",
     )))
 }
 
@@ -100,8 +104,10 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
     SolverFinding::defect(
         "weights-do-not-sum-to-one",
         format!(
-            "in the first step points go {} to {} of v dt, by their places in the cells; at the end x \
-             is off by {} of the way and v by {} of the speed, and without stiffness by {} and {}",
+            "in the first step, points move by {} to {} of v dt, depending on their positions in \
+             the cells. In the whole run, displacement errors are up to {} of the distance \
+             travelled, and velocity errors up to {} of the speed; without stiffness they are {} \
+             and {}",
             shown(low),
             shown(high),
             shown(way),
@@ -109,9 +115,11 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
             shown(soft.0),
             shown(soft.1)
         ),
-        "the weights of a particle do not sum to one, or not by the same sums to the grid and back",
-        "the sum of all weights of a particle at some places in a cell: which nodes are visited, the \
-         formula of the functions, and whether momentum and mass at a node have the same weights",
+        "the weights of a particle do not sum to one, or the transfers to the grid and back use \
+         different weights",
+        "the sum of all weights of a particle, at several positions in a cell; the nodes that are \
+         visited; the formula of the basis functions; the weights in nodal momentum and nodal \
+         mass, which must be the same",
     )
 }
 
@@ -134,10 +142,10 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
         let (axis, place) = (["x", "y", "z"][i], shown(now * v[i].signum()));
         Some(SolverFinding::defect(
             "position-limited",
-            format!("the body moves up to {axis} = {place} m, and no point gets beyond"),
-            "positions are held within a box of the solver's own",
-            "clamps on positions or cells, walls of a unit cube; the grid of the problem begins at \
-             `grid.origin` and has room for the motion",
+            format!("the body moves up to {axis} = {place} m, and no point passes this coordinate"),
+            "the solver keeps positions inside a box that is not in the problem",
+            "clamps on positions or cell indices; walls of a unit cube. The grid of the problem \
+             begins at `grid.origin`, and the motion stays inside this grid",
         ))
     })
 }
@@ -168,13 +176,13 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     Some(SolverFinding::defect(
         "wrong-after-a-cell-crossing",
         format!(
-            "x is right up to step {} and off by {} of the way at the end; in step {first} the first \
-             particle changes its cell",
+            "displacements are correct up to step {}, and their error at the end is {} of the \
+             distance travelled. In step {first} the first particle moves to another cell",
             first - 1,
             shown(at)
         ),
-        "a particle that has changed its cell is still seen from its old one, or in part",
-        "cells, nodes and weights of a particle that are kept from the start or an earlier step",
+        "when a particle has moved to another cell, the solver still uses data of the old cell",
+        "cell indices, nodes and weights of particles, which must be recomputed in every step",
     ))
 }
 
@@ -205,13 +213,14 @@ fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     Some(SolverFinding::defect(
         "light-nodes-left-out",
         format!(
-            "in step {first} points at the rim are off by {} of v dt, and none further than {RIM} \
-             cells inside; the mean velocity ends at {} m/s of {}",
+            "in step {first}, points near the surface have displacement errors of up to {} of v \
+             dt, and points more than {RIM} cells below the surface have none. The mean velocity \
+             at the end is {} m/s, expected {} m/s",
             shown(rim),
             shown_vector(course.mean(velocity, course.last()), d),
             shown_vector(v, d)
         ),
-        "nodes with little mass are left out, and their momentum is lost",
+        "nodes with little mass are skipped, and their momentum is lost",
         MASS_THRESHOLD,
     ))
 }

@@ -39,10 +39,10 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<So
     let (seen, wanted) = (shown_vector(seen, d), shown_vector(wanted, d));
     Some(SolverFinding::defect(
         "axes-exchanged",
-        format!("`{column}` goes along {seen} where {wanted} was expected"),
-        "axes are exchanged, or have another sign",
-        "the order of components in columns (point after point: x y, x y) and of axes in the solver; \
-         which axis it calls upward",
+        format!("the mean of `{column}` has the direction {seen}, expected {wanted}"),
+        "axes are swapped, or have the wrong sign",
+        "the order of components in columns (point after point: x y, x y); the order of axes in \
+         the solver; the vertical axis of the solver",
     ))
 }
 
@@ -57,9 +57,12 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if spread <= NEAR * error {
         return Ok(Some(SolverFinding::defect(
             "velocity-scaled",
-            format!("velocities are {} of what was given, from the first step on", shown(last)),
+            format!(
+                "from the first step on, velocities are {} times the velocities of the problem",
+                shown(last)
+            ),
             units(last),
-            "units at the border of the solver: lengths in m, times in s",
+            "the units of exchanged data: lengths in m, times in s",
         )));
     }
     if shares.iter().any(|a| !(*a > 0.0)) {
@@ -83,24 +86,29 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     Ok(Some(if (halved / rate - 1.0).abs() <= 0.25 {
         SolverFinding::defect(
             "drag",
-            format!("speed is {verb} at a rate of {} per second, at any time step", shown(-rate)),
-            "drag or damping in proportion to the velocity acts that the problem does not have",
-            "the solver's own defaults: air drag, damping of mass (Rayleigh's alpha), a viscous medium",
+            format!(
+                "speed is {verb} at a rate of {} per second, independent of the time step",
+                shown(-rate)
+            ),
+            "the solver applies drag or damping, proportional to the velocity, that is not in the \
+             problem",
+            "the default settings of the solver: air drag, mass-proportional damping (Rayleigh's \
+             alpha), a viscous medium",
         )
     } else {
         SolverFinding::defect(
             "speed-lost-each-step",
             format!(
-                "a share of {} of the speed is {verb} in each step, whatever its length ({} and {} \
-                 per second with half of it)",
+                "a share of {} of the speed is {verb} in each step, independent of the step length \
+                 ({} per second, and {} per second with half the step)",
                 shown(per_step.abs()),
                 shown(-rate),
                 shown(-halved)
             ),
-            "weights sum to the same number at every place, which is not one; or velocities are \
-             multiplied in each step",
-            "the sum of all weights of a particle, which must be 1 to rounding; a damping factor for \
-             grid velocities",
+            "the weights of a particle sum to the same number at every position, but this number \
+             is not one; or velocities are multiplied by a factor in each step",
+            "the sum of all weights of a particle, which must be 1 to rounding; a damping factor \
+             for grid velocities",
         )
     }))
 }
@@ -138,28 +146,31 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
         let side = if steps > 0.0 { "ahead" } else { "behind" };
         return Some(SolverFinding::defect(
             name,
-            format!("x is v times {} s {side} at all times: {amount}", shown(ahead.abs())),
-            "positions belong to another time than t = 0 and those after each step",
-            "whether positions are moved before the first step or reported half a step on; the number \
-             of steps that `advance` takes",
+            format!(
+                "in all states, positions are shifted in time by {} s ({side}): {amount}",
+                shown(ahead.abs())
+            ),
+            "the reported positions do not belong to the times after each step",
+            "positions that are moved before the first step, or reported for the middle of a step; \
+             the number of steps that `advance` takes",
         ));
     }
     if (0.9..1.1).contains(&slope) {
         return Some(SolverFinding::defect(
             "weights-do-not-sum-to-one",
-            format!("displacements are {} of velocity times time, everywhere", shown(slope)),
-            "velocities come from the grid with weights that sum to that number, or positions are moved by \
-             that share of dt times the velocity",
-            "the sum of all weights of a particle, which must be 1 to rounding; the update of positions, \
-             x <- x + dt v",
+            format!("at all points, displacements are {} times velocity times time", shown(slope)),
+            "the weights that interpolate grid velocities sum to this number, or the position \
+             update multiplies dt times the velocity by this number",
+            "the sum of all weights of a particle, which must be 1 to rounding; the update of \
+             positions, x <- x + dt v",
         ));
     }
     Some(SolverFinding::defect(
         "displacement-scaled",
-        format!("displacements are {} of velocity times time", shown(slope)),
+        format!("displacements are {} times velocity times time", shown(slope)),
         units(slope),
-        "the units in which positions are returned; the update of positions, x <- x + dt v; the sum of all \
-         weights of a particle, which must be 1",
+        "the units of the returned displacements; the update of positions, x <- x + dt v; the sum \
+         of all weights of a particle, which must be 1",
     ))
 }
 
@@ -167,9 +178,10 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
     if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {
-        "a unit is another one: the factor is a power of ten"
+        "a unit is wrong: the factor is a power of ten"
     } else {
-        "one of them is multiplied by a number: a length or a time unit of the solver's own"
+        "the solver multiplies this quantity by a factor, for example for its own unit of length \
+         or time"
     }
 }
 
@@ -179,14 +191,14 @@ pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     SolverFinding::defect(
         "motion-not-kept",
         format!(
-            "the body as a whole has the velocity {} m/s at the end and went {} m, where {} m/s and \
-             {} m were expected",
+            "at the end, the whole body has the velocity {} m/s and the displacement {} m, \
+             expected {} m/s and {} m",
             shown_vector(course.mean(velocity, last), d),
             shown_vector(course.mean(displacement, last), d),
             shown_vector(motion.velocity, d),
             shown_vector(times(course.times[last], motion.velocity), d)
         ),
-        "a force acts that the problem does not have, or the motion meets a limit",
-        "loads and walls that the solver adds by itself",
+        "the solver applies a force that is not in the problem, or limits the motion",
+        "loads, walls and limits that the solver adds by default",
     )
 }

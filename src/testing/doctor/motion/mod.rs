@@ -26,7 +26,8 @@ pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examine
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };
     let (way, speed) = motion.off();
     let measured = format!(
-        "in {} steps x is off by {} of the way, v by {} of the speed",
+        "in {} steps, displacement errors are up to {} of the distance travelled, and velocity \
+         errors up to {} of the speed",
         motion.course.last(),
         shown(way),
         shown(speed)
@@ -60,12 +61,13 @@ pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",
         format!(
-            "noise of {} of the way and {} of the speed, where doubles leave 1e-13",
+            "the errors are typical of single precision: {} of the distance travelled and {} of \
+             the speed, where double precision gives about 1e-13",
             shown(way),
             shown(speed)
         ),
-        "numbers pass through single precision somewhere, and `precision` says double",
-        "`float` or `f32` in the arrays or the adapter, a file or message with seven digits; a solver \
-         that computes in single precision says `\"precision\": \"single\"`",
+        "numbers pass through single precision, but the solver states double precision",
+        "`float` or `f32` in arrays or in the adapter; files or messages with seven digits. A \
+         solver that computes in single precision must state `\"precision\": \"single\"`",
     )
 }

@@ -50,7 +50,10 @@ fn a_program_is_told_of_the_gravity_that_it_has() {
     for words in ["solver: odd", "gravity-left-on", "an acceleration of (9.810) m/s2"] {
         assert!(out.contains(words), "no `{words}` in\n{out}");
     }
-    assert!(out.contains("verdict: gravity-left-on; 15 left out until that is mended"), "{out}");
+    assert!(
+        out.contains("verdict: gravity-left-on; 15 skipped until all defects are corrected"),
+        "{out}"
+    );
     assert!(errors.contains("examining: rest"), "{errors}");
 }
 
@@ -85,8 +88,8 @@ fn a_program_without_abilities_cannot_be_examined() {
     let poor = HELLO.replace(r#""dimensions":[1]"#, r#""dimensions":[]"#);
     let (code, out, _) = call(&MOVER.replace("HELLO", &poor).replace('G', "0"), &[]);
     assert_eq!(code, BAD_INPUT, "{out}");
-    let words = "cannot be examined: not applicable to it is a body that is free on all sides, the \
-                 plainest there is: dimensions: 2";
+    let words = "cannot be examined: the solver does not support the simplest problem, a body \
+                 whose faces are all free: dimensions: 2";
     assert!(out.replace('\n', " ").contains(words), "{out}");
 }
 

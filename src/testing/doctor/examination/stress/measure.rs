@@ -245,21 +245,26 @@ fn of_stress(seen: &[f64], wanted: &[f64]) -> Option<SolverFinding> {
     }
     let factor = seen[0] / wanted[0];
     let cause = if is(seen, wanted, -1.0) {
-        "compression is positive in the column".to_owned()
+        "the column is positive in compression".to_owned()
     } else if is(seen, wanted, factor) {
-        format!("the column is {} of it: another unit, or a stress times the volume", shown(factor))
+        format!(
+            "the column is {} times the expected stress: another unit, or stress times volume",
+            shown(factor)
+        )
     } else {
-        "the column is another tensor, or in another order".to_owned()
+        "the column contains a different tensor, or its components are in a different order"
+            .to_owned()
     };
     Some(SolverFinding::defect(
         "stress-column",
         format!(
-            "`stress` has {} Pa in the middle, where the motion shows {}",
+            "in the middle of the body, the column `stress` is {} Pa; the motion gives {} Pa",
             all(seen),
             all(wanted)
         ),
         &cause,
-        "Cauchy's stress in Pa, tension positive, row after row, d x d numbers a point",
+        "the column, which is the Cauchy stress in Pa: positive in tension, row after row, d x d \
+         numbers per point",
     ))
 }
 
@@ -275,13 +280,18 @@ fn of_gradient(seen: &[f64], wanted: &[f64], d: usize) -> Option<SolverFinding> 
     };
     Some(SolverFinding::defect(
         name,
-        format!("F - I is {} in the middle, where the motion shows {}", all(seen), all(wanted)),
+        format!(
+            "in the middle of the body, the column gives F - I = {}; the motion gives {}",
+            all(seen),
+            all(wanted)
+        ),
         if name.ends_with("transposed") {
-            "the column has F's transpose"
+            "the column contains the transpose of F"
         } else {
-            "the column is another tensor, or F is not updated as the motion goes"
+            "the column contains a different tensor, or F is not updated with the motion"
         },
-        "F = dx/dX, row after row: F_ij = dx_i/dX_j; a store that goes by columns; F <- (I + dt L) F",
+        "the column, which is F = dx/dX row after row: F_ij = dx_i/dX_j; arrays that are stored by \
+         columns; the update F <- (I + dt L) F",
     ))
 }
 

@@ -28,8 +28,8 @@ use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "stress",
-    expected: "a body that stretches and shears has the stress of its law, which moves momentum and \
-               conserves its sum",
+    expected: "in a body that stretches and shears, momentum is transferred by the stress of the \
+               law, and the total momentum is conserved",
     after: &["conversation", "rest", "translation", "force", "transfer"],
     examine,
 };
@@ -72,9 +72,9 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
         SolverFinding::defect(
             "tension-differs",
             format!("in tension: {}", finding.seen),
-            "a body that is stretched has another stress than one that is compressed: no tension, damage, or \
-             a limit",
-            "the law of the problem, which is the same in tension and compression where strains are small",
+            "the stress in tension differs from the stress in compression, for example because of \
+             a no-tension law, damage or a stress limit",
+            "the law of the problem, which is the same in tension and compression at small strains",
         )
     }))
 }
@@ -135,9 +135,13 @@ const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
     SolverFinding::defect(
         "viscosity",
-        format!("stress has a part of {} m2/s times the rate of strain", shown(measured.viscosity)),
-        "a viscosity acts that the problem does not have, and that vanishes with the stiffness",
-        "artificial viscosity, damping in proportion to the stiffness (Rayleigh's beta)",
+        format!(
+            "the stress contains a viscous part with the kinematic viscosity {} m2/s",
+            shown(measured.viscosity)
+        ),
+        "the solver applies a viscosity that is not in the problem. The viscosity is zero for a \
+         body without stiffness",
+        "artificial viscosity; stiffness-proportional damping (Rayleigh's beta)",
     )
 }
 
@@ -146,12 +150,14 @@ fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
     let whole = shown(lambda + 2.0 * mu);
     let along = shown(measured.along);
     if scene.dimension == 1 {
-        return format!("in 1-D, the modulus by momentum is {along} Pa, expected {whole} Pa");
+        return format!(
+            "in 1-D, the modulus from the momentum flux is {along} Pa, expected {whole} Pa"
+        );
     }
     let [across, one, other] = [measured.across, measured.shear[0], measured.shear[1]].map(shown);
     format!(
-        "in {}-D, moduli by momentum are {along} Pa along a stretch, {across} Pa across it, and {one} and \
-         {other} Pa in shear, expected {whole}, {} and {} Pa",
+        "in {}-D, the moduli from the momentum flux are {along} Pa along the stretch, {across} Pa \
+         across the stretch, and {one} and {other} Pa in shear; expected {whole}, {} and {} Pa",
         scene.dimension,
         shown(lambda),
         shown(mu)
@@ -177,12 +183,14 @@ fn lost_momentum(
         SolverFinding::defect(
             "momentum-lost",
             format!(
-                "the total momentum changes; the mean velocity by {} of the speed that the faces gain",
+                "the total momentum is not constant: the mean velocity changes by {} of the speed \
+                 that the free faces gain",
                 shown(share)
             ),
-            "inner forces do not sum to zero, or the momentum of nodes is not returned completely",
-            "gradients of a particle, whose sum must be zero; nodes that are left out for their small \
-             mass; walls and limits of velocity that the problem does not have",
+            "internal forces do not sum to zero, or the momentum of nodes is not transferred back \
+             completely",
+            "the gradients at a particle, whose sum must be zero; nodes that are skipped because \
+             of their small mass; walls and velocity limits that are not in the problem",
         )
     })
 }

@@ -31,7 +31,8 @@ pub(super) fn cause(
     };
     let ratios = (0..count).map(|k| shown(moduli[k] / [whole, lambda, mu][k]));
     let seen = format!(
-        "in {}-D, moduli are {} of those of the law",
+        "in {}-D, the measured moduli divided by those of the law are {} (along the stretch; in \
+         2-D and 3-D also across the stretch and in shear)",
         scene.dimension,
         ratios.collect::<Vec<_>>().join(", ")
     );
@@ -41,9 +42,9 @@ pub(super) fn cause(
     if count == 3 && !((measured.shear[0] - measured.shear[1]).abs() <= near * whole) {
         return report(
             "stress-not-symmetric",
-            "shear forces along the two axes differ",
-            "the strain rate is the symmetric part of the velocity gradient, half of it and its \
-             transpose; the order of indices in sigma times the gradient of a weight",
+            "the shear forces along the two axes differ, so the stress is not symmetric",
+            "the strain rate, which is the symmetric part of the velocity gradient, (L + L^T)/2; \
+             the order of indices in sigma times the gradient of a weight",
         );
     }
     if are([whole, lambda, mu], whole) {
@@ -58,7 +59,8 @@ pub(super) fn cause(
         return report(
             "stress-missing",
             "stresses have no effect on the motion",
-            "inner forces -V sigma grad N at nodes; the update of stress; the law and its parameters",
+            "the internal forces at nodes, -V sigma grad N; the update of stress; the law and its \
+             parameters",
         );
     }
     let mistakes = mistakes(scene, lambda, mu);
@@ -70,82 +72,85 @@ pub(super) fn cause(
     }
     report(
         "moduli-differ",
-        "the law is another one, or its parameters are computed differently",
+        "the law is different, or its parameters are computed differently",
         "lambda = E nu/((1 + nu)(1 - 2 nu)) and mu = E/(2 (1 + nu)); two dimensions mean plane \
-         strain, one means uniaxial strain",
+         strain, and one dimension means uniaxial strain",
     )
 }
 
 fn mistakes(scene: &BoxScene, lambda: f64, mu: f64) -> Vec<Mistake> {
     let (young, poisson) = (scene.young, scene.poisson);
-    let parameters = "the Lame parameters: lambda = E nu/((1 + nu)(1 - 2 nu)), mu = E/(2 (1 + nu)), and \
-                      where each of them stands in the law";
+    let parameters = "the Lame parameters, lambda = E nu/((1 + nu)(1 - 2 nu)) and mu = E/(2 (1 + \
+                      nu)), and the place of each parameter in the law";
     let plane = young / (1.0 - poisson * poisson);
     let bulk = lambda + 2.0 * mu / 3.0;
     let mut all = vec![
         (
             "plane-stress",
             [plane, poisson * plane, mu],
-            "the law is that of plane stress",
-            "two dimensions mean plane strain: no strain along the third axis, and stress there",
+            "the solver uses the law of plane stress",
+            "the plane state: two dimensions mean plane strain. The strain along the third axis is \
+             zero, but the stress is not",
         ),
         (
             "poisson-ratio-ignored",
             [young, 0.0, mu],
-            "Poisson's ratio has no effect: E times strain",
-            "one dimension means uniaxial strain: the modulus is lambda + 2 mu and not E",
+            "Poisson's ratio has no effect: the stress is E times the strain",
+            "the modulus in one dimension, which means uniaxial strain: lambda + 2 mu, not E",
         ),
         (
             "poisson-ratio-ignored",
             [young, 0.0, 0.5 * young],
-            "Poisson's ratio is taken as zero",
+            "the solver uses zero for Poisson's ratio",
             parameters,
         ),
         (
             "shear-missing",
             [lambda + 2.0 * mu, lambda, 0.0],
             "shear strains cause no stress",
-            "the components of the strain rate off the diagonal",
+            "the off-diagonal components of the strain rate",
         ),
         (
             "lame-parameters-exchanged",
             [mu + 2.0 * lambda, mu, lambda],
-            "lambda and mu are exchanged",
+            "lambda and mu are swapped",
             parameters,
         ),
         (
             "bulk-modulus-for-lambda",
             [bulk + 2.0 * mu, bulk, mu],
-            "the bulk modulus stands where lambda should",
+            "the bulk modulus is used in place of lambda",
             parameters,
         ),
         ("volume-term-missing", [2.0 * mu, 0.0, mu], "the term with lambda is missing", parameters),
         (
             "shear-doubled",
             [lambda + 2.0 * mu, lambda, 2.0 * mu],
-            "shear stress is twice what it should be: 2 mu times the engineering strain",
-            "the shear strain is half the sum of the two gradients",
+            "the shear stress is twice the expected one: 2 mu times the engineering shear strain",
+            "the shear strain, which is half the sum of the two gradients",
         ),
         (
             "shear-halved",
             [lambda + 2.0 * mu, lambda, 0.5 * mu],
-            "shear stress is half what it should be: mu times the tensor's strain",
-            "sigma_xy = 2 mu eps_xy = mu (dv_x/dy + dv_y/dx) dt",
+            "the shear stress is half the expected one: mu times the tensor shear strain",
+            "the shear stress: sigma_xy = 2 mu eps_xy = mu (dv_x/dy + dv_y/dx) dt",
         ),
         (
             "mu-doubled",
             [lambda + 4.0 * mu, lambda, 2.0 * mu],
-            "mu is twice what it should be: E/(1 + nu) stands for it",
+            "mu is twice the expected one: the solver uses E/(1 + nu)",
             parameters,
         ),
-        ("mu-halved", [lambda + mu, lambda, 0.5 * mu], "mu stands where 2 mu should", parameters),
+        ("mu-halved", [lambda + mu, lambda, 0.5 * mu], "mu is used in place of 2 mu", parameters),
     ];
     if scene.dimension == 2 {
         all.push((
             "plane-deviator",
             [bulk + mu, bulk - mu, mu],
-            "the deviator is that of two dimensions, and the bulk modulus that of three",
-            "the trace of the strain: a third of it in the deviator, also in plane strain",
+            "the deviator is computed in two dimensions, but the bulk modulus is the \
+             three-dimensional one",
+            "the deviator, which subtracts a third of the trace of the strain, also in plane \
+             strain",
         ));
     }
     all
@@ -159,8 +164,8 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         return SolverFinding::defect(
             "stress-sign",
             seen,
-            "inner forces have the other sign: a body that is stretched flies apart",
-            "f = -V sigma grad N; a sign convention in which compression is positive",
+            "the internal forces have the wrong sign: a stretched body flies apart",
+            "the internal force f = -V sigma grad N; a sign convention with positive compression",
         );
     }
     let cause = factors(scene).into_iter().find(|(wanted, _)| is(*wanted));
@@ -177,49 +182,51 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         (
             "velocity-gradient-scaled",
             format!(
-                "F - I has the factor {} too, and the stress follows: velocity gradients are wrong by \
-                 this factor",
+                "F - I and the stress are {} times the expected values: velocity gradients are \
+                 wrong by this factor",
                 shown(factor)
             ),
-            "the factor 1/h of the gradients of basis functions; in MLS-MPM the factor of the affine matrix \
-             C, which is 4/h2 for quadratic and 3/h2 for cubic B-splines; the time step in F <- (I + dt L) F",
+            "the factor 1/h in the gradients of basis functions; in MLS-MPM, the factor of the \
+             affine matrix C, which is 4/h^2 for quadratic and 3/h^2 for cubic B-splines; the time \
+             step in F <- (I + dt L) F",
         )
     } else if is_right {
         (
             "mass-or-volume-scaled",
             format!(
-                "stresses are right and accelerations are {} of those expected: masses are wrong by a \
-                 factor of {}, or volumes by {}",
+                "the column `stress` is correct, but accelerations are {} times the expected ones: \
+                 masses are wrong by a factor of {}, or volumes by a factor of {}",
                 shown(factor),
                 shown(1.0 / factor),
                 shown(factor)
             ),
-            "mass and volume of particles (those of the problem, not computed from h or from the number of \
-             particles along an edge), the factor 1/h of gradients in forces",
+            "the masses and volumes of particles, which must be those of the problem, not computed \
+             from h or from the number of particles along an edge; the factor 1/h of gradients in \
+             forces",
         )
     } else if is_alike {
         (
             "stress-scaled",
             format!(
-                "the stress itself has the factor {}, and accelerations with it",
+                "the column `stress` and the accelerations are {} times the expected ones",
                 shown(factor)
             ),
-            "Young's modulus and its unit (Pa), the strain, the factor 1/h of velocity gradients; if \
-             `transfer` remarks `momentum-spreads`, the factor of the affine matrix C",
+            "Young's modulus and its unit (Pa); the strain; the factor 1/h of velocity gradients; \
+             if `transfer` reports `momentum-spreads`, the factor of the affine matrix C",
         )
     } else {
         (
             "stress-scaled",
             format!(
-                "accelerations by stress are {} of those expected: the modulus or the volumes have this \
-                 factor, or masses its inverse",
+                "accelerations due to stress are {} times the expected ones: the modulus or the \
+                 volumes are wrong by this factor, or the masses by its inverse",
                 shown(factor)
             ),
-            "volumes and masses of particles (those of the problem), the factor 1/h of gradients, the unit \
-             of Young's modulus (Pa)",
+            "the volumes and masses of particles, which must be those of the problem; the factor \
+             1/h of gradients; the unit of Young's modulus (Pa)",
         )
     };
-    let cause = if cause.is_empty() { what } else { format!("{what}; {cause}") };
+    let cause = if cause.is_empty() { what } else { format!("{what}. Possible mistake: {cause}") };
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
@@ -229,35 +236,36 @@ fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);
     let cell = (0..d).fold(1.0, |volume, _| volume * h);
     let mut factors = vec![
-        (scene.density, "the density is missing in the mass, or taken as one"),
+        (scene.density, "the density is missing in the mass, or set to one"),
         (1.0 / scene.density, "forces are divided by the density a second time"),
         (
             particles,
-            "each particle has the volume of a whole cell, or the mass of a cell is shared",
+            "each particle has the volume of a whole cell, or its mass is divided by the number of \
+             particles per cell",
         ),
         (1.0 / particles, "each particle has the mass of a whole cell"),
         (1.0 / h, "gradients are divided by h twice"),
         (h, "gradients are not divided by h"),
-        (2.0, "forces count twice, or the strain rate is not halved"),
-        (0.5, "forces count half"),
-        (10.0, "a factor of ten in mass or modulus"),
-        (0.1, "a factor of ten in mass or modulus"),
-        (1e3, "a unit is kPa, or g"),
-        (1e-3, "a unit is kPa, or g"),
-        (1e6, "a unit is MPa, or mm with t"),
-        (1e-6, "a unit is MPa, or mm with t"),
+        (2.0, "forces are added twice, or the strain rate is not halved"),
+        (0.5, "forces are halved"),
+        (10.0, "mass or modulus is wrong by a factor of ten"),
+        (0.1, "mass or modulus is wrong by a factor of ten"),
+        (1e3, "a stress is in kPa, or a mass in g"),
+        (1e-3, "a stress is in kPa, or a mass in g"),
+        (1e6, "a stress is in MPa, or lengths are in mm and masses in t"),
+        (1e-6, "a stress is in MPa, or lengths are in mm and masses in t"),
     ];
     if d == 2 {
         factors.push((
             cell,
-            "volumes are multiplied by that of a cell, or gradients are divided by h neither in strains nor \
-             in forces",
+            "volumes are multiplied by the volume of a cell, or gradients in strains and in forces \
+             are not divided by h",
         ));
     } else {
-        factors.push((h * h, "gradients are divided by h neither in strains nor in forces"));
+        factors.push((h * h, "gradients in strains and in forces are not divided by h"));
     }
     if d == 3 {
-        factors.push((cell, "volumes are multiplied by that of a cell"));
+        factors.push((cell, "volumes are multiplied by the volume of a cell"));
     }
     if d > 1 {
         factors.push((1.0 / cell, "masses are multiplied by the volume of a cell"));

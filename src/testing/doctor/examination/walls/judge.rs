@@ -100,21 +100,24 @@ fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let of = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
     Some(SolverFinding::defect(
         "wall-force",
-        format!("forces over the expected ones are, at {}; at {}", of(b), of(a)),
-        "two walls act with different forces on the same motion",
-        "nodes on the face of the body, on low and high ends; particles that are held in place of nodes",
+        format!("forces divided by the expected forces: {}; {}", of(b), of(a)),
+        "two equivalent walls exert different forces on the same motion",
+        "the nodes on the face of the body at low and high ends; conditions that are applied to \
+         particles instead of nodes",
     ))
 }
 
 /// Returns a finding if the wall moves particles or exerts no force.
 fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
-    let seen = format!("forces over the expected ones are {}", wall.describe());
+    let seen = format!("forces divided by the expected forces: {}", wall.describe());
     if let Some(jump) = wall.jump.filter(|jump| !(jump.abs() <= 3.0)) {
         return Some(SolverFinding::defect(
             "position-limited",
-            format!("in the first step particles move by up to {} of v dt", shown(jump)),
-            "particles next to a wall are moved away from it, to a limit of the solver's own",
-            "clamps on positions, margins at the ends of the grid: a wall is where the grid ends",
+            format!("in the first step, particles move by up to {} of v dt", shown(jump)),
+            "the solver keeps particles away from walls: particles next to a wall are moved to a \
+             limit that is not in the problem",
+            "clamps on positions; margins at the ends of the grid: a wall is at the end of the \
+             grid",
         ));
     }
     if [wall.pushed, wall.pulled].into_iter().flatten().all(|force| force.abs() <= ABSENT) {
@@ -122,28 +125,30 @@ fn of_absent_wall(wall: &Wall) -> Option<SolverFinding> {
             return Some(SolverFinding::defect(
                 "wall-holds-velocity-only",
                 seen,
-                "the velocity of the nodes at the wall is held and their acceleration is not: particles \
-                 get no force from the wall",
-                "accelerations of held nodes, or changes of their velocity, from which particles are \
-                 updated (FLIP): zero at the wall, or the change from the mapped velocity to zero",
+                "at nodes on the wall the velocity is set to zero, but the acceleration is not: \
+                 particles get no force from the wall",
+                "the accelerations of nodes on the wall, or their velocity changes, from which \
+                 FLIP updates particles: set them to zero, or to the change from the mapped \
+                 velocity to zero",
             ));
         }
         if wall.falling.is_some_and(|falling| falling > 0.5) {
             return Some(SolverFinding::defect(
                 "wall-holds-acceleration-only",
                 seen,
-                "the acceleration of the nodes at the wall is held and their velocity is not: they keep the \
-                 velocity that is mapped to them",
-                "velocities of held nodes: zero after the mapping from particles, before they move \
-                 particles and strain them",
+                "at nodes on the wall the acceleration is set to zero, but the velocity is not: \
+                 these nodes keep the velocity that is mapped from particles",
+                "the velocities of nodes on the wall: set them to zero after the mapping from \
+                 particles, before they move and strain particles",
             ));
         }
         return Some(SolverFinding::defect(
             "wall-missing",
             seen,
-            "no force acts at the wall",
-            "`faces` of the problem: `axis` and `high` give the side (every axis, low and high ends), `at` \
-             the place; nodes beyond the wall, if the solver has some there",
+            "the wall exerts no force on the body",
+            "`faces` of the problem: `axis` and `high` give the side (every axis, low and high \
+             ends), and `at` gives the coordinate; nodes beyond the wall, if the solver has such \
+             nodes",
         ));
     }
     None
@@ -156,15 +161,16 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
     let is_near = |force: f64| THROWN.contains(&force);
     let is_none = |force: f64| force.abs() <= NONE;
     let (pushed, pulled) = (wall.pushed, wall.pulled);
-    let seen = format!("forces over the expected ones are {}", wall.describe());
+    let seen = format!("forces divided by the expected forces: {}", wall.describe());
     let thrown = || [pushed, pulled].into_iter().flatten();
     if pushed.is_some_and(is_near) && pulled.is_some_and(is_none) {
         return Some(SolverFinding::defect(
             "wall-lets-go",
             seen,
-            "the wall holds a body that is pushed against it, and not one that is pulled from it",
-            "walls act in both directions here: a solver whose walls separate does not claim `fixed` or \
-             `roller`",
+            "the wall stops a body that is pushed against the wall, but not a body that is pulled \
+             away",
+            "the condition on the normal velocity: `fixed` and `roller` act in both directions. A \
+             solver whose walls allow separation must not list `fixed` or `roller`",
         ));
     }
     let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
@@ -175,31 +181,32 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         return Some(SolverFinding::defect(
             "wall-force",
             seen,
-            "the wall acts with another strength, or at another place",
-            "nodes on the face of the body: their normal velocity is zero, also in the velocities that move \
-             particles and strain them; functions at the wall",
+            "the wall exerts a wrong force, or acts at a wrong position",
+            "the nodes on the face of the body, whose normal velocity must be zero, also in the \
+             velocities that move and strain particles; the basis functions at the wall",
         ));
     }
     if wall.along.is_some_and(|along| along.abs() <= NONE) {
         return Some(SolverFinding::defect(
             "fixed-lets-slide",
             seen,
-            "a fixed wall holds the normal component of the velocity only",
-            "at `fixed`, every component of the velocity of a node is zero; `roller` holds the one along \
-             `axis` of the face only",
+            "a fixed wall sets only the normal component of the velocity to zero",
+            "the condition at nodes: `fixed` sets every component of the velocity to zero, and \
+             `roller` only the component along `axis` of the face",
         ));
     }
     if let Some(through) = wall.through.filter(|through| !(through.abs() <= THROUGH)) {
         return Some(SolverFinding::defect(
             "particles-cross-wall",
             format!(
-                "the force is right, but at the end the body is beyond the wall by {} times the free motion \
-                 in the time of a wave through a cell",
+                "the force is correct, but at the end the body has passed the wall by {} times the \
+                 distance that a free body moves while a wave crosses one cell",
                 shown(through)
             ),
-            "particles do not move with the velocity of the grid at their place, which is zero at a wall",
-            "the velocity that moves particles: the sum of the weights times the new velocities of nodes, \
-             not the particle's own velocity or a mean with it",
+            "particles do not move with the grid velocity at their positions, which is zero at a \
+             wall",
+            "the velocity that moves particles: the sum of the weights times the new velocities of \
+             nodes, not the velocity of the particle or a mean with this velocity",
         ));
     }
     of_sinking(wall, &seen).or_else(|| of_column(wall))
@@ -217,13 +224,16 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
         return Some(SolverFinding::defect(
             "wall-moves-under-gravity",
             format!(
-                "{seen}; under gravity the body sinks at the wall by {} of g t times the time of a wave \
-                 through a cell, and by {} with half the step",
+                "{seen}; under gravity, the body sinks at the wall by {} (with half the time step \
+                 by {}), in units of g t tau, where tau is the time in which a wave crosses one \
+                 cell",
                 shown(sinking),
                 shown(halved)
             ),
-            "gravity or another load is added to nodes after those at the wall were set to zero",
-            "the order of a step on the grid: forces, all loads, new velocities, and walls last",
+            "gravity or another load is added to nodes after the velocities at the wall were set \
+             to zero",
+            "the order of operations on the grid: forces, all loads, new velocities, and walls \
+             last",
         ));
     }
     None
@@ -236,11 +246,13 @@ fn of_column(wall: &Wall) -> Option<SolverFinding> {
     Some(SolverFinding::defect(
         "stress-column",
         format!(
-            "the force of the wall is right, and next to it `stress` is {} of the stress of that force",
+            "the force of the wall is correct, but the column `stress` next to the wall is {} of \
+             the stress that this force causes",
             shown(column)
         ),
-        "the column `stress` has another order than the particles or `points`",
-        "particles that are sorted by cells: columns have the order of the problem, or of `points`",
+        "the column `stress` is in a different order than the particles or `points`",
+        "particles that the solver sorts by cell: columns must keep the order of the problem, or \
+         of `points`",
     ))
 }
 
@@ -250,14 +262,15 @@ fn of_stretch(wall: &Wall) -> Option<SolverFinding> {
     Some(SolverFinding::remark(
         "wall-breaks-linear-fields",
         format!(
-            "in a bar that is stretched evenly from the wall, displacements next to it differ from the exact ones by \
-             up to {} of the displacement at a distance of one cell",
+            "in a bar that is stretched uniformly from the wall, displacements next to the wall \
+             differ from the exact ones by up to {} of the displacement at a distance of one cell",
             shown(error)
         ),
-        "a linear velocity that is zero at the wall is not reproduced next to it, so that errors there are of first \
-         order in the cell size",
-        "nodes beyond the wall: each has the negative of the normal velocity of its mirror image, to which its mass \
-         and, with the other sign, its momentum are added; or functions that are modified at the wall. Averaging \
-         of velocities (PIC) has the same effect",
+        "a linear velocity that is zero at the wall is not reproduced next to the wall. Errors \
+         there are of first order in the cell size",
+        "the nodes beyond the wall: add their mass, and their normal momentum with the opposite \
+         sign, to their mirror images, and give them the negative normal velocity of the mirror \
+         images. Alternatively, modify the basis functions at the wall. Averaging of velocities \
+         (PIC) causes errors of the same kind",
     ))
 }

@@ -27,8 +27,9 @@ use measure::{Wall, bar, walls_across};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "walls",
-    expected: "every wall holds a body that is pushed against it and one that is pulled from it with the \
-               force rho c v of an elastic bar, also under gravity, and a roller lets it slide",
+    expected: "on a body that is pushed against a wall or pulled from the wall, also under \
+               gravity, every wall exerts the force rho c v per area (rho: density, c: wave \
+               speed, v: speed), and a body slides along a roller without force",
     after: &[
         "conversation",
         "rest",
@@ -68,12 +69,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let name = |wall: &Wall| format!("{} {}: {}", wall.condition, wall.face, wall.describe());
     let forces = walls.iter().map(name).collect::<Vec<_>>().join("; ");
     let mut measured = vec![format!(
-        "forces over the expected ones (sound walls: 1 for a body that is pushed, is pulled, or falls; 1 for one \
-         that slides along a fixed wall, and 0 along a roller; 0 in the first step of a fall; 0 as the error of \
-         displacements in an even stretch): {forces}"
+        "forces divided by the expected forces: {forces}. A correct wall has 1 for a body that is \
+         pushed, is pulled, or falls; 1 for a body that slides along a fixed wall, and 0 along a \
+         roller; 0 in the first step of a fall; 0 for the error of displacements in a uniform \
+         stretch"
     )];
     if !sliding.measured.is_empty() {
-        measured.push(format!("sliding: {}", sliding.measured));
+        measured.push(format!("sliding along a roller: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
     // A wall that moves or is missing also causes non-uniform sliding.
@@ -100,9 +102,13 @@ fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hin
     let findings = examined.findings.into_iter().map(|finding| {
         SolverFinding::defect(
             "roller-holds-tangent",
-            format!("between {} and {}: {}", FACES[axis][0], FACES[axis][1], finding.seen),
-            "a roller slows a body that moves along it",
-            "at a roller only the velocity along `axis` of the face is zero",
+            format!(
+                "between the faces {} and {}: {}",
+                FACES[axis][0], FACES[axis][1], finding.seen
+            ),
+            "a roller slows a body that slides along the roller",
+            "the condition at nodes: a roller sets only the velocity along `axis` of the face to \
+             zero",
         )
     });
     Ok(Examined { findings: findings.collect(), ..examined })
