@@ -220,7 +220,7 @@ impl Bar {
         }
     }
 
-    /// Counts one visit for each pair of a node and a quadrature point of an element.
+    /// Increments `transfers` by the number of pairs of a node and a quadrature point.
     fn count_visits(&mut self) {
         self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
     }
@@ -233,7 +233,7 @@ impl Subject for Bar {
         let (kick, lag) = match self.setup.start {
             Start::AtZero => (dt, 0.0),
             // The velocity advances from the middle of the previous step to the middle of this
-            // step; in the first step, from t = 0.
+            // step. In the first step the advance begins at t = 0.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
         let motion = self.displacement.iter_mut().zip(&mut self.velocity);
@@ -320,7 +320,7 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Samples the current state as `sampling` specifies, in place of the sampling of the set-up.
+    /// Samples the current state as `sampling` specifies. [`BarSetup::sampling`] is ignored.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;
@@ -332,7 +332,6 @@ impl Bar {
         samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
-    /// The weight of each point is a quarter of the element length.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {
@@ -345,7 +344,6 @@ impl Bar {
         }
     }
 
-    /// Samples at the nodes. The weight of a node is its lumped length.
     fn sample_nodes(&self, samples: &mut Samples) {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());

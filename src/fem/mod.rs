@@ -1,6 +1,6 @@
 //! A finite element method in 1-D, with which MPM solvers are compared.
 //!
-//! The method is total-Lagrangian and explicit, on `[from, to]`:
+//! The method is total-Lagrangian and explicit. On the interval `[from, to]`, the method solves
 //!
 //! ```text
 //! rho0 u_tt = dP(F)/dX + rho0 b(X, t),    F = 1 + u_X

@@ -281,8 +281,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Columns may have few or many entries, because the sort uses another algorithm for short
-        /// lists.
+        /// Tests columns with few and with many entries, because the sort uses a different
+        /// algorithm for short lists.
         #[test]
         fn the_bits_are_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),

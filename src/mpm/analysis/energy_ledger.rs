@@ -40,8 +40,7 @@ use crate::subject::{
     Subject, Totals,
 };
 
-/// Second moment of weights along an axis (squared cell sizes) up to which the moment counts as
-/// zero.
+/// Largest second moment of weights along an axis (squared cell sizes) that counts as zero.
 const SMALLEST_MOMENT: f64 = 1e-13;
 
 /// Energy changes of one body, summed over its steps.
@@ -227,8 +226,8 @@ impl<const D: usize> Recorder<D> {
         }
     }
 
-    /// Returns the entries of the step, with zero for the stored energy. `moved_kinetic` is the
-    /// kinetic energy at the end of the step (J).
+    /// Returns the entries of the step, except that the entry for the stored energy is zero.
+    /// `moved_kinetic` is the kinetic energy at the end of the step (J).
     fn entries(&self, masses: &[f64], moved_kinetic: f64) -> [f64; LedgerStage::ALL.len()] {
         let before = self.before.as_deref().unwrap_or_default();
         let nodes = || before.iter().zip(&self.after).zip(masses);

@@ -184,7 +184,7 @@ mod tests {
         particles
     }
 
-    /// Returns weight and gradient of every node, summed over its visits.
+    /// Returns weight and gradient of every node, summed over the corners of the particle domain.
     fn seen<B: Basis, const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -238,8 +238,8 @@ mod tests {
         averages::<3>(periodic);
     }
 
-    /// The corners are at 0.8 and 1.4 cells. The slopes of the middle hat function at the corners
-    /// cancel. The derivative of its weight is therefore zero, but its gradient is not.
+    /// At the corners, 0.8 and 1.4 cells, the slopes of the middle hat function cancel. The weight
+    /// of the middle node therefore has the derivative zero, but `grad N` of this node is not zero.
     #[test]
     fn the_gradient_is_not_that_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));

@@ -62,7 +62,7 @@ fn patches<const D: usize>(
     }
 }
 
-/// Computes the patches of four particles. Returns the mask of particles with one group of
+/// Computes the patches of four particles. Returns the mask of particles with at most [`AT_ONCE`]
 /// functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(

@@ -141,8 +141,8 @@ mod tests {
 
     const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
 
-    /// Advances one node of the wall with velocity `v` and acceleration `a`. Returns both after the
-    /// advance, and the wall.
+    /// Advances one node of the wall with velocity `v` and acceleration `a`. Returns the velocity
+    /// and the acceleration after the advance, and the wall.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
         let grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);

@@ -120,8 +120,8 @@ pub(in crate::mpm) fn strain<const D: usize>(
         effect.before_stress(body.particles());
     }
     material.update(&mut body);
-    // The hooks are nested: the effect that is first before the update is last after it. Thermal
-    // expansion thus restores the volume before artificial viscosity computes the density.
+    // After the update, the effects run in reverse order. Thermal expansion thus restores the
+    // volume before artificial viscosity computes the density.
     for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
         effect.after_stress(body.particles());
     }

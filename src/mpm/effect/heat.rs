@@ -35,8 +35,8 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 /// pass.
 ///
 /// With a sink s = -r c T, linear functions and equally spaced particles, forward Euler is stable
-/// for dt < 2/(4 k/(rho c h^2) + r). This stable time step is not predicted, so the suite must
-/// state the step.
+/// for dt < 2/(4 k/(rho c h^2) + r). The crate does not predict this limit, so a suite with a sink
+/// must specify the time step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Heat conduction in the body.

@@ -25,8 +25,8 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the family of effects. The lines of [`each_effect`](crate::members) that name an effect
-/// declare a member.
+/// Declares the family of effects. Each line of [`each_effect`](crate::members) that names an
+/// effect adds this effect to the family.
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

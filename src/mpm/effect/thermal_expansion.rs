@@ -6,8 +6,8 @@
 //! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
 //! (Duhamel & Neumann). In 2-D this is plane strain, in 1-D uniaxial strain.
 //!
-//! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the other axes
-//! have no effect. The heat absorbed by the expansion is neglected.
+//! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the axes outside
+//! the scene have no effect. The heat absorbed by the expansion is neglected.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Matrix;

@@ -1,4 +1,5 @@
-//! Macros that register the members of a family. One line defines a member and its name.
+//! Macros that register the members of a family, such as the basis functions. One line defines a
+//! member and its name.
 
 /// Declares a family of types that suites choose by name.
 ///

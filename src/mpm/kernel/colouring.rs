@@ -18,7 +18,8 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Number of chunks in the smallest block. Blocks consist of whole chunks of particles.
+/// Number of chunks in the smallest block. A chunk is a group of consecutive particles, and a block
+/// consists of whole chunks.
 const CHUNKS: usize = 8;
 
 /// Number of minima and maxima that one loop over positions computes in parallel.
@@ -71,8 +72,8 @@ impl Span {
     ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            // In a single minimum, each comparison would wait for the previous one. Several run in
-            // parallel.
+            // With a single minimum, each comparison would wait for the previous one. Several
+            // minima are therefore computed in parallel.
             let (many, rest) = x.as_chunks::<TOGETHER>();
             let mut spans = [span; TOGETHER];
             for several in many {
@@ -103,8 +104,8 @@ impl Span {
         let (cells, all) = (grid.cells[axis] as f64, layers(grid).end);
         let local = |x: f64| (x - grid.origin[axis]) * grid.inverse_h();
         let (low, high) = (local(self.low), local(self.high));
-        // A domain uses all nodes of the cells that it overlaps, and its ends are known only up to
-        // rounding.
+        // A domain uses all nodes of the cells that it overlaps, and the ends of the domain are
+        // known only up to rounding.
         let (below, above) = match B::DOMAIN {
             Domain::Point => (0.0, f64::from(B::DEGREE)),
             Domain::Fixed | Domain::Follows => (1.0, MARGIN as f64 + 1.0),

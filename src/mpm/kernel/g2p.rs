@@ -1,4 +1,4 @@
-//! G2P: velocity, first moment and gradient from one visit to the nodes of a particle.
+//! G2P: velocity, first moment and gradient, computed in one loop over the nodes of a particle.
 
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;

@@ -1,4 +1,4 @@
-//! P2G: mass, momentum and internal force from one visit to the nodes of a particle.
+//! P2G: mass, momentum and internal force, computed in one loop over the nodes of a particle.
 
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
@@ -73,8 +73,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that the request does not need are never unpacked, so any vectors are valid. Every
-        // body has positions; a body at rest has no velocities.
+        // Lanes that the request does not need are never unpacked, so their values are arbitrary.
+        // Positions are used in place of velocities, because a body at rest has no velocities.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

@@ -48,7 +48,7 @@ struct Clay {
     consolidation: f64,
 }
 
-/// Writes only the preconsolidation pressure.
+/// Reports contain only the preconsolidation pressure of the state.
 impl Entry for Clay {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.consolidation);
@@ -63,7 +63,7 @@ impl Memory for Clay {
     }
 }
 
-/// Input of a return: the stress before the step, and the strain increment of the step.
+/// Input of the return mapping: the stress before the step, and the strain increment of the step.
 struct ClayTrial {
     /// Mean stress before the step (Pa), positive in compression.
     pressure: f64,
@@ -76,7 +76,7 @@ struct ClayTrial {
     shear: Matrix<3>,
 }
 
-/// Maximum number of iterations of a return; about ten suffice.
+/// Maximum number of iterations of the return mapping; about ten suffice.
 const MAX_ITERATIONS: usize = 100;
 
 impl CamClay {
@@ -186,7 +186,8 @@ fn equivalent(deviator: &Matrix<3>) -> f64 {
 }
 
 /// Finds the root of a function that is negative at `low` and positive at `high`, by the Illinois
-/// variant of false position (Dowell & Jarratt 1971). If an end has another sign, returns this end.
+/// variant of false position (Dowell & Jarratt 1971). Returns `low` if `f(low)` is not negative,
+/// and `high` if `f(high)` is not positive.
 fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     if !(at_low < 0.0) {

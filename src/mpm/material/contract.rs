@@ -6,8 +6,8 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form. Always
-/// fails, because such a law reads the velocity gradient.
+/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form. Returns an
+/// error, because such a law reads the velocity gradient.
 pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
     Err("a law in rate form does not compute its stress from F or J")
 }
@@ -103,8 +103,8 @@ pub struct Contradiction {
     pub explanation: &'static str,
 }
 
-/// Closed forms of stress and energy, for tests of all materials. For laws with flow or heat during
-/// a step, the values apply to one infinitely long step from a state of rest.
+/// Closed forms of stress and energy, for tests of all materials. The values apply to one
+/// infinitely slow step from rest, in which viscous stresses vanish.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
@@ -191,8 +191,8 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation
-    /// gradient `f`. Both belong to a step that starts from the stored state of the law, which does
-    /// not change. `None` if the law has no tangent.
+    /// gradient `f`. Both are computed for a step from the stored state of the law, without
+    /// changing this state. `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }

@@ -57,8 +57,8 @@ impl GreenNaghdi {
         Self { elasticity: LinearElastic::new(young, poisson), states: Vec::new() }
     }
 
-    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). The right stretch has
-    /// these `squares` along `axes`.
+    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). `squares` are the
+    /// squared principal right stretches along `axes`.
     fn after<const D: usize>(
         &self,
         before: &Unrotated,

@@ -1,5 +1,5 @@
 //! The family of materials. A new material requires one file and one line in `src/members.rs`. A
-//! parameter that no other material has also requires one line at the end of this file.
+//! new parameter requires one more line at the end of this file.
 
 mod axisymmetric;
 #[cfg(test)]

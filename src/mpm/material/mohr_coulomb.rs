@@ -1,7 +1,7 @@
 //! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
 //!
 //! The material yields if `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal
-//! Kirchhoff stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi
+//! Kirchhoff stresses `t1 >= t2 >= t3`, tension positive. The flow rule uses the dilation angle psi
 //! instead of phi. The return goes to a plane, to one of the two edges of this plane, or to the
 //! apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0 this is
 //! Tresca's law, which has no apex. [`plastic_flow`](super::plastic_flow) integrates the law.
@@ -27,7 +27,7 @@ pub struct Pyramid {
     strength: f64,
 }
 
-/// Relative size of a negative flow on an edge that counts as a rounding error.
+/// Maximum relative size of a negative flow on an edge that counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// A plane of the pyramid: the indices of the largest and the smallest principal stress.
@@ -86,8 +86,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. Also
-    /// converts derivatives of these reductions to derivatives of the flows.
+    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. From
+    /// derivatives of `f_a` and `f_b`, the function returns derivatives of the flows.
     fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,

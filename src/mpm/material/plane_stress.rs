@@ -61,8 +61,9 @@ pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }
 
-/// Returns the first Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`. It multiplies
-/// the in-plane strains only (Timoshenko & Goodier 1970, section 16).
+/// Returns the first Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`. In plane
+/// stress, this parameter multiplies the in-plane strains only (Timoshenko & Goodier 1970, section
+/// 16).
 pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
     2.0 * mu * thinning(lambda, mu)
 }
