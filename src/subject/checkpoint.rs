@@ -288,7 +288,7 @@ mod tests {
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// A visit ends for any bytes, and reports bytes that do not fit.
+        /// A visit terminates for any bytes, and reports bytes that do not fit.
         #[test]
         fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);

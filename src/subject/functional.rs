@@ -1,10 +1,10 @@
-//! Functionals of the final state of a run, and the problem parameters for their derivatives.
+//! Functionals of the final state of a run, and the parameters of their derivatives.
 
 use crate::named::named;
 use serde::Serialize;
 
 named! {
-    /// Parameters of a problem for which a functional has derivatives.
+    /// Parameters of a problem with respect to which functionals are differentiated.
     pub enum GradientParameter {
         /// Young's modulus (Pa).
         Young = "young",

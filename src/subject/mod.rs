@@ -53,8 +53,8 @@ pub trait Subject {
         None
     }
 
-    /// Returns the reaction of all fixed walls, or of one face. The face is given by the axis of
-    /// its normal, and `true` if it is at the high end. `None` by default, and before the first
+    /// Returns the reaction of all fixed walls, or of one face. A face is given by the axis of its
+    /// normal, and by `true` for the high end of this axis. `None` by default, and before the first
     /// step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None

@@ -12,7 +12,7 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
     /// Returns the name in suites, if the coupling is an effect.
     fn name(&self) -> Option<&'static str>;
 
-    /// Returns the columns with entries for nodes.
+    /// Returns the columns that the coupling stores per node.
     fn columns(&self) -> Vec<Column<'_>>;
 
     /// Visits the state that persists between steps, to store or restore it.

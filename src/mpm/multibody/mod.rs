@@ -77,7 +77,8 @@ impl<const D: usize> Bodies<D> {
         joint_profile(self.solvers.iter().map(Solver::profile), coupling)
     }
 
-    /// Returns the number of visits by all bodies, see [`Solver::take_visits`].
+    /// Returns the numbers of visited particles, summed over all bodies, see
+    /// [`Solver::take_visits`].
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         let tallies = self.solvers.iter().map(|solver| solver.setup.kernel.tally());
         Tally::take(&tallies.collect::<Vec<_>>())

@@ -64,7 +64,8 @@ impl Quadrilateral {
     }
 
     /// Returns the number of particles along each axis of the map, at least two. The number per
-    /// cell of size `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
+    /// cell size `h` (m) along the mean of two opposite sides is as close to `per_axis` as
+    /// possible.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());

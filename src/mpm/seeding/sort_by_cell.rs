@@ -1,7 +1,7 @@
 //! Sorts particles by cell, so that neighbours in space are neighbours in memory.
 //!
 //! Seeded bodies are nearly sorted. In a large scene, unsorted particles cost several times as much
-//! as sorted ones, because each particle visits other nodes than the previous one. Particles are
+//! as sorted ones, because consecutive particles then contribute to distant nodes. Particles are
 //! therefore sorted once, before the solver is set up.
 
 use crate::mpm::foundation::algebra::Vector;

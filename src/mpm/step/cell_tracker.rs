@@ -31,7 +31,7 @@ impl<const D: usize> CellTracker<D> {
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 
-    /// Adds the numbers of particles, crossings and departures to `counters`.
+    /// Returns `counters` with the numbers of particles, crossings and departures of this tracker.
     pub(in crate::mpm) fn counters(&self, counters: RunCounters) -> RunCounters {
         RunCounters {
             particles: Some(self.cells.len() as u64),

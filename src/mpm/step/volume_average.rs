@@ -203,7 +203,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
         self.material.checkpoint(checkpoint);
     }
 
-    /// Reads the volumes of the particles, which have already been computed from F.
+    /// Uses the particle volumes, which have already been computed from F.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.average.own_volume.copy_from_slice(&particles.vol);
         self.with_average(particles, |material, particles| material.start_deformed(particles))

@@ -40,7 +40,7 @@ impl TransferParameter {
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
 /// loop over particles return the number of passes for the work counter. Each quantity of a request
-/// counts as a pass, even if one visit to the nodes computes several quantities.
+/// counts as a pass, even if one loop over the nodes computes several quantities.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {
