@@ -33,7 +33,7 @@ pub struct Bar {
     velocity: Vec<f64>,
     /// Nodal accelerations; before the solve with the mass matrix, the nodal forces.
     acceleration: Vec<f64>,
-    /// F at the quadrature points, element after element.
+    /// Deformation gradient F at the quadrature points, element after element.
     def_grad: Vec<f64>,
     /// Reference positions of the quadrature points (m). `displaced` holds the displacements there
     /// (m), and `load` the body force there (m/s2). All three are empty if there is no body force.
@@ -112,8 +112,8 @@ impl Bar {
     /// the nearest end.
     ///
     /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
-    /// advances them to the current time with the last acceleration, which is accurate to second
-    /// order.
+    /// advances them to the current time with the last acceleration. The result is accurate to
+    /// second order.
     pub fn velocity_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.velocity_in(cell, place)
@@ -158,7 +158,7 @@ impl Bar {
         Ok(())
     }
 
-    /// Computes the nodal forces per unit area (Pa) in `acceleration`.
+    /// Computes the nodal forces per unit area (Pa), and stores them in `acceleration`.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
         with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
@@ -313,8 +313,8 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 /// None of these positions is superconvergent. To leading order, the interpolation error of an
 /// element is the same polynomial in every element: `(1 - xi^2) u''` if linear,
 /// `xi (1 - xi^2) u'''` if quadratic. At the zeros of this polynomial (the nodes, including the
-/// midside node) only the error of the nodal values remains, which may be of a higher order. At
-/// `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
+/// midside node) only the error of the nodal values remains. This error may be of a higher order.
+/// At `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
 /// quadratic one 0.23 and 0.33 (maximum 0.38). The positions also differ from the points
 /// `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];

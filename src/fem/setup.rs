@@ -50,7 +50,7 @@ pub struct BarSetup {
     pub from: f64,
     /// Reference position of the right end (m).
     pub to: f64,
-    /// Number of elements, which have equal lengths.
+    /// Number of elements. All elements have equal lengths.
     pub cells: usize,
     /// Kind of element, which determines the shape functions.
     pub element: Element,

@@ -6,7 +6,7 @@
 //! parameters, because only the basis is used inside loops over particles and nodes. The
 //! object-safe [`Kernel`] hides both parameters. [`Transfer`], [`MassMatrix`] and [`Effect`] use
 //! the passes of the kernel. These three and [`Material`] are trait objects that are called between
-//! stages. A solver contains only the effects that the scene lists.
+//! stages. A solver contains only the effects that its set-up lists.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x

@@ -47,11 +47,11 @@ pub enum Functional {
 }
 
 impl Functional {
-    /// Names of the functionals in suites and messages.
+    /// Names of the functionals in suite files and messages.
     pub const NAMES: [&'static str; 4] =
         ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
 
-    /// Returns the name of the functional in suites and messages.
+    /// Returns the name of the functional in suite files and messages.
     pub fn name(self) -> &'static str {
         let index = match self {
             Self::MeanDisplacement { .. } => 0,

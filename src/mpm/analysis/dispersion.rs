@@ -1,8 +1,9 @@
 //! Dispersion and damping of one MPM step in closed form.
 //!
-//! The setting is a periodic row of cells with a linear elastic law and fixed particles. On the
-//! grid, two numbers describe each Fourier mode: the nodal velocity `w` before the update and the
-//! acceleration `f`. With the symbols of [`WaveSymbols`], a FLIP step with a lumped mass matrix is
+//! The analysis assumes a periodic row of cells, a linear elastic law and particles at fixed
+//! positions. On the grid, two numbers describe each Fourier mode: the nodal velocity `w` before
+//! the update and the acceleration `f`. With the symbols s of the mass and kappa of the stiffness
+//! ([`WaveSymbols`]), a FLIP step with a lumped mass matrix is
 //!
 //! ```text
 //! w_new = w + s dt f
@@ -53,8 +54,8 @@ pub enum WaveTransfer {
     Apic,
     /// MLS-MPM: APIC with velocity gradients from the fitted affine field.
     Mls,
-    /// TPIC: PIC with the gradient of the basis as affine field. The particles must be symmetric in
-    /// their cell; otherwise the coefficients of the step are complex.
+    /// TPIC: PIC with the gradient of the basis as affine field. The particles must be placed
+    /// symmetrically in each cell; otherwise the coefficients of the step are complex.
     Tpic,
     /// A blend of FLIP and PIC with this fraction of FLIP, from 0 to 1.
     Blend(f64),
@@ -220,7 +221,7 @@ fn neumann(s: f64, terms: u32) -> f64 {
     (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
 }
 
-/// A method on regularly spaced particles, for which [`WaveStep`] describes waves of any length.
+/// A method with regularly spaced particles. [`WaveStep`] describes each wave of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveMethod {
     /// Basis functions.
@@ -250,8 +251,8 @@ impl WaveMethod {
 
     /// Returns the number of cells per wavelength above which the phase error stays below
     /// `tolerance`. Waves without a phase ([`WaveStep::complex_range`]) count as exceeding the
-    /// tolerance. `None` if the error is not below the tolerance at 1e4 cells, or if it is below
-    /// the tolerance for all waves of two cells or more.
+    /// tolerance. `None` if the error exceeds the tolerance at 1e4 cells, or if no wave of two
+    /// cells or more exceeds the tolerance.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);

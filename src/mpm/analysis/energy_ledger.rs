@@ -25,9 +25,9 @@
 //!
 //! The sum of the entries for internal forces and stored energy is the error of the stress work.
 //! Velocities are half a step behind stresses. The stored energy at the time of the velocities is
-//! therefore the mean of its values before and after the step; without this mean the ledger would
-//! have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill 1992 (J.
-//! Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+//! therefore the mean of the stored energies before and after the step. Without this mean, the
+//! ledger would have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill
+//! 1992 (J. Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -322,8 +322,8 @@ fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
 }
 
-/// A [`Solver`] with an [`EnergyLedger`]. Its steps are bit-identical to those of the solver.
-/// Checkpoints are not supported.
+/// A [`Solver`] with an [`EnergyLedger`]. The steps are bit-identical to those of the solver
+/// without a ledger. Checkpoints are not supported.
 pub struct LedgerSolver<const D: usize> {
     solver: Solver<D>,
     ledger: EnergyLedger,

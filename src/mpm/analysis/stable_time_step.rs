@@ -43,8 +43,8 @@ const REPEATS: u32 = 12;
 const AGAIN: u32 = 4;
 
 /// Shift of all eigenvalues, as a fraction of the largest estimate so far. The shift almost doubles
-/// the rate at which the other modes decay. It must be less than 1/2: otherwise the smallest
-/// eigenvalue becomes the largest in magnitude.
+/// the rate at which the other modes decay. The shift must be less than 1/2, because otherwise the
+/// smallest eigenvalue becomes the largest in magnitude.
 const SHIFT: f64 = 0.45;
 
 /// Relative decrease of the time step below which the step counts as converged.
@@ -52,10 +52,10 @@ const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
     /// Computes the maximum stable step (s) in the current state of the body, at most `longest`.
-    /// The step takes into account the stiffness of loads, the damping of the law and artificial
-    /// viscosity, but not the loads themselves, other damping and wall friction. Each of the
-    /// `rounds` of the power iteration costs as much as a step. The result is an upper bound, a few
-    /// percent too large after about twenty rounds.
+    /// The step takes into account the stiffness of loads, the viscosity of the material and
+    /// artificial viscosity, but not the loads themselves, other damping and wall friction. Each of
+    /// the `rounds` of the power iteration costs as much as a step. The result is an upper bound, a
+    /// few percent too large after about twenty rounds.
     ///
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
@@ -173,19 +173,20 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Whether velocities are mapped to particles and back before they strain the particles. Transfers
-/// with affine fields or series also map velocities, but their loss in this mapping is neglected.
+/// Whether the velocities that strain the particles were first mapped to particles and back.
+/// Transfers with affine fields or series also map velocities, but their loss in this mapping is
+/// neglected.
 fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// Returns the simplest scheme and transfer with a bit-identical stable time step. Methods with the
-/// same pair need only one computation.
+/// Returns the simplest scheme and transfer whose stable time step is bit-identical to that of the
+/// given pair. Methods with the same result need only one computation.
 ///
 /// All transfers except [`TransferKind::Fit`] compute forces and velocity gradients from the basis.
 /// All except [`TransferKind::Series`] and [`TransferKind::Cells`] compute accelerations from the
-/// basis. The map of velocities affects the step only if velocities are mapped to particles and
-/// back before they strain the particles.
+/// basis. The map of velocities affects the step only if the velocities that strain the particles
+/// were first mapped to particles and back.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,

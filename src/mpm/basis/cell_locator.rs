@@ -106,8 +106,8 @@ fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
 }
 
 /// Returns cells, positions in the cells, and the mask of particles inside the grid, for positions
-/// `s` (in cells) along an axis. This slow path handles `s` at the end of the axis, outside it, or
-/// NaN.
+/// `s` (in cells) along an axis. This slow path handles values of `s` that are NaN, at the end of
+/// the axis or outside the axis.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

@@ -20,8 +20,8 @@
 //! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! A domain that extends through a wall is compressed along the axis until it ends at the wall,
-//! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, which
-//! does not change the sign of det R. Moving single corners to the wall could change this sign.
+//! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, so the
+//! sign of det R does not change. Moving single corners to the wall could change this sign.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
@@ -199,7 +199,7 @@ mod tests {
 
     /// Compares weights and gradients with averages of the interpolated hat functions and their
     /// slopes along the domain vectors, `dN/dxi_a = r_a . grad N`. The averages use two Gauss
-    /// points per axis, which is exact for functions multilinear in xi.
+    /// points per axis. This quadrature is exact for functions multilinear in xi.
     fn averages<const D: usize>(periodic: bool) {
         let grid = grid::<D>(periodic);
         let x = Vector::from_fn(|axis, _| 1.4 + 0.07 * axis as f64);

@@ -1,5 +1,5 @@
 //! Products of one-dimensional functions, the patch type of most bases, for one particle and for a
-//! batch. Also contains the P2G and G2P loops over the nodes of a batch.
+//! batch. The module also contains the P2G and G2P loops over the nodes of a batch.
 //!
 //! G2P sums are computed axis by axis, so the work per node does not depend on the number of axes.
 

@@ -8,7 +8,7 @@ use crate::subject::{Checkpoint, Column, Failure};
 
 /// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
-    /// Returns the name of the effect in suites.
+    /// Returns the name of the effect in suite files.
     fn name(&self) -> &'static str;
 
     /// Returns the columns that the effect stores per particle or node.

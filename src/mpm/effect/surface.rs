@@ -6,7 +6,7 @@
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
 //!   of the forces is exact, but their moment is not. The moment arm of forces along the face is
-//!   s/2 too short, which causes a bending error of order h in the whole body;
+//!   s/2 too short. This causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
 //!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact

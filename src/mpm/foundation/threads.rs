@@ -4,8 +4,8 @@
 /// Maximum number of particles or nodes that one thread processes without a split.
 pub(in crate::mpm) const FEW: usize = 1 << 14;
 
-/// Runs both closures, in parallel if there are several threads. With one thread, rayon is not
-/// used, because it would wake another thread.
+/// Runs both closures, in parallel if there are several threads. With one thread, the closures are
+/// called directly, because rayon would wake another thread.
 pub(in crate::mpm) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();

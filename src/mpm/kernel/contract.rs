@@ -314,11 +314,11 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub struct LoopSettings {
     /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
-    /// Minimum number of particles for a division into blocks. Smaller scenes fit the cache. The
-    /// division changes the order of sums, and therefore their rounding.
+    /// Minimum number of particles for a division into blocks. Smaller bodies fit into the cache.
+    /// The division changes the order of sums, and therefore their rounding.
     pub min_particles: usize,
-    /// Minimum number of particles per block, such that a block shares only a small part of its
-    /// nodes with its neighbours.
+    /// Minimum number of particles per block. A large block shares only a small part of its nodes
+    /// with neighbouring blocks.
     pub min_block: usize,
 }
 

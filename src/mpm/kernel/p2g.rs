@@ -44,8 +44,8 @@ fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) ->
     if !particles.current_position.is_empty() {
         return columns(simd, &-particles.flux(p), force_lane(D));
     }
-    // The columns are scaled one by one. A product matrix in memory would be slow, because its
-    // store is not forwarded to the loads of its columns.
+    // The columns are scaled separately. A product matrix in memory would be slow, because
+    // store-to-load forwarding fails when its columns are loaded.
     let stress = columns(simd, &particles.sigma[p], force_lane(D));
     array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }

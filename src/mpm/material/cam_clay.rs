@@ -8,7 +8,7 @@
 //! energy.
 //!
 //! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by
-//! `I + grad v dt`, which is `v R` in polar decomposition: R rotates the stress, and `ln v` is the
+//! `I + grad v dt`, with the polar decomposition `v R`: R rotates the stress, and `ln v` is the
 //! strain increment. This integration is exact under any rotation, and equals the Jaumann rate to
 //! second order in the step. Along fixed axes, logarithmic strains add up without error. The return
 //! mapping is implicit: exact at a constant stress ratio, and of first order in the step otherwise.
@@ -143,7 +143,7 @@ impl CamClay {
     /// Returns the mean stress, the deviator and the preconsolidation pressure (Pa) on the yield
     /// surface, for a trial state outside.
     ///
-    /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, which gives the plastic
+    /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, and pc gives the plastic
     /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`,
     /// with the plastic compaction x. The root lies between the critical state, m = 1, and the
     /// surface before the step.
@@ -341,7 +341,7 @@ fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, Ma
 
 #[cfg(test)]
 impl super::contract::ClosedForms for CamClay {
-    /// The response is elastic, with principal stretches exp(e) and exp(-e).
+    /// Returns the elastic stress for the principal stretches exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let pressure = self.initial_pressure();

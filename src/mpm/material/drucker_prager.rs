@@ -5,8 +5,8 @@
 //! `eta`. The return goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen
 //! 2008, section 8.3). [`plastic_flow`](super::plastic_flow) integrates the law.
 //!
-//! Without dilation, plastic flow does not change the mean stress. If the mean stress is above the
-//! apex, the return to the apex is then a tension cut-off, which is not part of the flow rule.
+//! Without dilation, plastic flow does not change the mean stress. A return from a mean stress
+//! above the apex is then a tension cut-off that is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{
@@ -72,8 +72,8 @@ impl YieldSurface for Cone {
         Some((after, trial.distance(&after)))
     }
 
-    /// A trial strain increment deps causes `dp = K (tr deps - etab dg)` and
-    /// `d sqrt(J2) = mu (sqrt(2) n : deps - dg)`, with the flow
+    /// Returns the consistent tangent. A trial strain increment deps causes
+    /// `dp = K (tr deps - etab dg)` and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)`, with the flow
     /// `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)` and the direction n of the deviator (de Souza
     /// Neto et al. 2008, section 8.3).
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
@@ -93,8 +93,8 @@ impl YieldSurface for Cone {
         Some(modulus_of_invariants(trial, &mean_slope, (length, &length_slope)))
     }
 
-    /// After yield, `p` and `sqrt(J2)` are linear in the strain (de Souza Neto et al. 2008, eq.
-    /// 8.113).
+    /// Returns stresses whose invariants `p` and `sqrt(J2)` are linear in the strain (de Souza Neto
+    /// et al. 2008, eq. 8.113).
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =

@@ -32,9 +32,9 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F. Its stress is then objective under any rotation in one step. A law that
-/// reads only the velocity gradient is objective only in the rate: a rotation during a step causes
-/// an error of second order in the angle.
+/// Whether the law reads F. The stress of such a law is objective under any rotation in one step. A
+/// law that reads only the velocity gradient is objective only in the rate: a rotation during a
+/// step causes an error of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }

@@ -130,8 +130,8 @@ mod tests {
         plates
     }
 
-    /// If the 3-D law has the out-of-plane stretch of the plate, its in-plane stress equals that of
-    /// the plate and its out-of-plane stress is zero.
+    /// A 3-D body with the out-of-plane stretch of a plate has the in-plane stress of the plate,
+    /// and no out-of-plane stress.
     #[test]
     fn a_plate_is_a_body_that_is_free_across() {
         for (mut plate, mut space) in plates() {

@@ -9,7 +9,7 @@ use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at their interface nodes.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {
-    /// Returns the name in suites, if the coupling is an effect.
+    /// Returns the name in suite files, if the coupling is an effect.
     fn name(&self) -> Option<&'static str>;
 
     /// Returns the columns that the coupling stores per node.

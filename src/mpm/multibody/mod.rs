@@ -4,9 +4,9 @@
 //! grid with the same geometry. All bodies run each pass. They are then coupled at the nodes to
 //! which more than one body contributes mass:
 //!
-//! - [`SharedVelocity`]: the bodies have a common velocity and acceleration there and are bonded
-//!   permanently, as in the original MPM, which does not distinguish bodies (Sulsky, Chen &
-//!   Schreyer 1994);
+//! - [`SharedVelocity`]: the bodies have a common velocity and acceleration at these nodes, and are
+//!   bonded permanently. The original MPM does not distinguish bodies and has the same effect
+//!   (Sulsky, Chen & Schreyer 1994);
 //! - [`Contact`]: each body has its own velocity, and approaching bodies exchange impulses.
 //!
 //! A single body has no coupling.

@@ -206,7 +206,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// Returns the reaction. Its time is the sum of the lengths of the load steps.
+    /// Returns the reaction. [`Reaction::time`] is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };

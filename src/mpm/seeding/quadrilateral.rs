@@ -27,9 +27,9 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible. This
-    /// is required by GIMP, which replaces domains by boxes whose half-lengths are the diagonal
-    /// entries of the domain matrix.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
+    /// requires this orientation, because GIMP replaces domains by boxes whose half-lengths are the
+    /// diagonal entries of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });

@@ -30,7 +30,7 @@ pub struct Setup<const D: usize> {
     pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
-    /// Effects of the scene.
+    /// Effects that act on the body.
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Boundary conditions on faces of the grid. Where faces meet, the last condition applies.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
@@ -77,7 +77,8 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-/// Creates the step profile of a body with these effects and columns, without passes and visits.
+/// Creates the step profile of a body with these effects and columns. The lists of passes and of
+/// visited particles are empty.
 pub(in crate::mpm) fn profile<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,

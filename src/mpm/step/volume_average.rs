@@ -1,5 +1,5 @@
-//! F-bar with an averaged volume ratio, which prevents volumetric locking (Zhao, Jiang & Choo 2023,
-//! IJNME 124).
+//! F-bar: an averaged volume ratio prevents volumetric locking (Zhao, Jiang & Choo 2023, IJNME
+//! 124).
 //!
 //! When a law computes the stress of a particle, the law reads a deformation gradient with an
 //! averaged volume ratio:

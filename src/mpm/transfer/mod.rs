@@ -1,5 +1,5 @@
-//! The family of transfers of velocity between particles and grid. A new transfer requires one file
-//! and one line below. A transfer with a parameter requires a second line.
+//! Registry of the transfers of velocity between particles and grid. A new transfer requires one
+//! file and one line below. A transfer with a parameter requires a second line.
 
 /// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]

@@ -30,8 +30,8 @@ use std::sync::LazyLock;
 /// A loop that can be compiled for several kinds of registers. All functions called by the loop
 /// must be `#[inline(always)]`. Other functions are compiled for the baseline processor.
 pub trait SimdPass: Sized {
-    /// Whether the loop is faster with AVX-512, which has 32 registers instead of 16, twice as
-    /// wide.
+    /// Whether the loop is faster with AVX-512. AVX-512 has 32 registers instead of 16, and they
+    /// are twice as wide as those of AVX2.
     const NEEDS_AVX512: bool;
 
     /// Runs the loop.
