@@ -25,7 +25,7 @@ pub struct ThermalExpansion<const D: usize> {
     law: ExpansionLaw<D>,
 }
 
-/// Form of the expansion, which depends on the kind of law.
+/// Form of the expansion for each kind of law.
 enum ExpansionLaw<const D: usize> {
     /// While stresses are computed, `elastic` contains Fe and is used in place of F.
     OfDeformation { elastic: Vec<Matrix<D>> },

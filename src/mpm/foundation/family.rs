@@ -3,7 +3,7 @@
 
 /// Declares a family of types that suite files select by name.
 ///
-/// `family! { /// docs pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
+/// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
 /// names and a macro `with_basis!(name, B => expr)`. The macro contains the only `match` from a
 /// name to a type. `"linear" => linear::Linear` also exports the type from its file.
 macro_rules! family {

@@ -14,8 +14,8 @@ pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
 
 /// Properties of a law that determine which problems can use the law.
 pub trait MaterialProperties {
-    /// Returns the stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest
-    /// wave, in a body with the reference density `density` (kg/m3).
+    /// Returns the modulus for uniaxial strain at rest (Pa): `rho0 c^2` of the fastest wave, in a
+    /// body with the reference density `density` (kg/m3).
     fn wave_modulus(&self, density: f64) -> f64;
 
     /// Returns the speed (m/s) of the fastest wave at rest, in a body with the reference density
@@ -24,8 +24,8 @@ pub trait MaterialProperties {
         (self.wave_modulus(density) / density).sqrt()
     }
 
-    /// Checks that stress is a function of F alone. Only then can a body start in the state of a
-    /// prescribed motion, or a body force be manufactured.
+    /// Checks that stress is a function of F alone. Only such laws support bodies that start in a
+    /// prescribed motion, and manufactured body forces.
     ///
     /// # Errors
     /// The reason why stress depends on other quantities.
@@ -152,7 +152,7 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Whether an undeformed body at rest has a stress; [`start_deformed`](Self::start_deformed)
-    /// sets it.
+    /// computes this stress.
     fn is_stressed_at_rest(&self) -> bool {
         false
     }

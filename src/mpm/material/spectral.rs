@@ -7,7 +7,8 @@
 //! eigenvalue.
 //!
 //! The batch version applies the operations of [`spectral`] to all particles of a batch at once,
-//! without branches, so the compiler vectorises the loops. A test checks that the bits are equal.
+//! without branches, so the compiler vectorises the loops. A test checks that both versions give
+//! identical bits.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
