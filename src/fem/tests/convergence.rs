@@ -23,8 +23,9 @@ const DT: f64 = 2e-5;
 
 /// For elements of degree k, the order is k + 1 inside the elements and 2k at the nodes. Lumping
 /// does not reduce the order of the quadratic element. Lumping is equivalent to quadrature at the
-/// Lobatto points, which integrates the mass to degree 2k - 1. This degree is sufficient for the
-/// order 2k of the frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11, 1975).
+/// Lobatto points, and this quadrature is exact for the mass up to degree 2k - 1. This degree is
+/// sufficient for the order 2k of the frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11,
+/// 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -46,7 +47,8 @@ fn the_vibrating_bar_shows_the_formal_order(
     };
     let observed = orders(&[4, 8, 16, 32, 64].map(error));
     println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
-    // At the nodes of lumped quadratic elements the first pair of meshes is not asymptotic.
+    // At the nodes of lumped quadratic elements, the first pair of meshes is not yet in the
+    // asymptotic range.
     for order in &observed[1..] {
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
@@ -98,8 +100,8 @@ fn a_change_of_step_keeps_the_second_order() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
 }
 
-/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. A step evaluates the load at the
-/// start of the step, like the displacements; only the velocities are half a step behind.
+/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. Each step evaluates the load at
+/// the time of the displacements, the start of the step.
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {

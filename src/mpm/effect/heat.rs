@@ -15,7 +15,7 @@
 //! weighted mean of the temperatures of nearby particles. At a wall this mean differs from the wall
 //! value. With linear functions the slope at the wall is a third too small, and the error at a face
 //! with heat flux is not of second order. With `g_p`, the slope of the previous step (as in TPIC),
-//! the map reproduces a linear field up to the wall.
+//! the map reproduces a linear field, also at the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
 //! flow into the body, to round-off. The method neglects heat from plastic work, viscosity and

@@ -166,8 +166,8 @@ impl Surface {
     }
 }
 
-/// Adds `force` at particle `p` and the moment by which the force acts at the end of `arm`. The arm
-/// is the vector from the particle to the surface in the reference configuration (m).
+/// Adds `force` at particle `p`, and a moment that shifts the point of action to the end of `arm`.
+/// The arm is the vector from the particle to the surface in the reference configuration (m).
 pub(super) fn put_at_surface<const D: usize>(
     particles: &Particles<D>,
     kernel: &dyn Kernel<D>,

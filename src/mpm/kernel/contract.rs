@@ -323,7 +323,7 @@ pub struct LoopSettings {
 }
 
 impl Default for LoopSettings {
-    /// Returns the best level of this processor, and default block sizes.
+    /// Returns the fastest instruction set of this processor, and default block sizes.
     fn default() -> Self {
         Self { level: Level::new(), min_particles: 1 << 17, min_block: 1 << 13 }
     }

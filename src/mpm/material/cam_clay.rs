@@ -131,8 +131,8 @@ impl CamClay {
     }
 
     /// Returns the mean stress (Pa) and the stress deviator (Pa) after the elastic volume strain
-    /// `compaction`, if all shear is elastic. Both strains grow in proportion, so the result is the
-    /// exact integral of the rate form.
+    /// `compaction`, if all shear is elastic. Volume strain and shear strain grow in proportion, so
+    /// the result is the exact integral of the rate form.
     fn swollen(&self, trial: &ClayTrial, compaction: f64) -> (f64, Matrix<3>) {
         let t = compaction / self.swelling;
         let pressure = trial.pressure * libm::exp(t);
@@ -146,7 +146,7 @@ impl CamClay {
     /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, and pc gives the plastic
     /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`,
     /// with the plastic compaction x. The root lies between the critical state, m = 1, and the
-    /// surface before the step.
+    /// yield surface before the step.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.
@@ -411,7 +411,7 @@ mod tests {
                 let flow = 0.08 * libm::log(pc / law.start.consolidation);
                 assert_abs_diff_eq!(elastic + flow, compaction, epsilon = 1e-12);
                 // The plastic shear divided by the gradient of q^2/M^2, and the plastic compaction
-                // divided by the gradient of p (p - pc), are the same multiplier.
+                // divided by the gradient of p (p - pc), both equal the plastic multiplier.
                 let modulus = 0.6 * (p - 100.0) / elastic;
                 let plastic = Matrix::from_diagonal(&shear) - deviator / (2.0 * modulus);
                 let flowed = plastic.dot(&deviator) / deviator.norm_squared();

@@ -3,7 +3,7 @@
 //! `d eps = sym(grad v) dt`, `sigma += lambda tr(d eps) I + 2 mu d eps`, `V *= det(I + grad v dt)`
 //! (Wobbes & Tielen 2015, step 5; in 1-D `V *= 1 + d eps`). In the limit dt -> 0 the 1-D form
 //! integrates to `sigma = E ln F`. This stress agrees with small-strain elasticity only to first
-//! order in the strain. Reports separate the difference from the discretisation error.
+//! order in the strain. Reports list this difference separately from the discretisation error.
 //!
 //! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
 //! step, a spin adds no stress, but the law does not rotate the current stress either. In more than

@@ -15,7 +15,7 @@
 //!
 //! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
 //! complete impulses. Velocities that strain the bodies before or after the impulses are corrected
-//! in the same way, but only for the strain update.
+//! by the same rule, but only for the strain update.
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
@@ -165,8 +165,8 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// Visits the contact states of the last impulses. The next step applies them to velocities
-    /// that strain the bodies.
+    /// Visits the contact states of the last impulses. The next step applies these states to
+    /// velocities that strain the bodies.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.states[..]);
     }

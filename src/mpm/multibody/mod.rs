@@ -1,8 +1,8 @@
 //! Several bodies on one grid.
 //!
 //! Each body is a [`Solver`] with its own particles, material, effects and fields, on a separate
-//! grid with the same geometry. All bodies run each pass. They are then coupled at the nodes to
-//! which more than one body contributes mass:
+//! grid with the same geometry. All bodies run each pass. The bodies are then coupled at the nodes
+//! to which more than one body contributes mass:
 //!
 //! - [`SharedVelocity`]: the bodies have a common velocity and acceleration at these nodes, and are
 //!   bonded permanently. The original MPM does not distinguish bodies and has the same effect

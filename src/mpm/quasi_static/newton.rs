@@ -25,8 +25,8 @@ const PATIENCE: usize = 4;
 
 const MOST_HALVINGS: u32 = 12;
 
-/// Fraction of the reduction predicted by a linear model that the line search requires (Armijo
-/// 1966).
+/// Reduction that the line search requires, as a fraction of the reduction predicted by a linear
+/// model (Armijo 1966).
 const SUFFICIENT: f64 = 1e-4;
 
 pub(super) struct Solution<const D: usize> {

@@ -63,9 +63,8 @@ impl Quadrilateral {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// Returns the number of particles along each axis of the map, at least two. The number per
-    /// cell size `h` (m) along the mean of two opposite sides is as close to `per_axis` as
-    /// possible.
+    /// Returns the number of particles along each axis of the map, at least two. The number is the
+    /// mean length of two opposite sides divided by `h` (m), times `per_axis`, rounded.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());

@@ -8,7 +8,8 @@ use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest, P
 use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
-/// Kind of a transfer, which determines the methods with which it can be combined.
+/// Kind of a transfer. The kind determines with which bases, mass matrices and frames the transfer
+/// can be combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferKind {
     /// Particles have only a velocity.

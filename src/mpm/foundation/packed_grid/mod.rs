@@ -151,7 +151,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     pub(in crate::mpm) before: usize,
 }
 
-/// Returns the range of all node layers across the last axis of a packed field.
+/// Returns the indices of all node layers of a packed field, counted along the last axis.
 pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
     0..grid.counts[D - 1] + MARGIN
 }
@@ -168,7 +168,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, before: *before }
     }
 
-    /// Splits the columns into the nodes before `layer` of the grid and the nodes from `layer`.
+    /// Splits the columns at the first node of grid layer `layer`.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
