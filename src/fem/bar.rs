@@ -33,7 +33,7 @@ pub struct Bar {
     velocity: Vec<f64>,
     /// Nodal accelerations; before the solve with the mass matrix, the nodal forces.
     acceleration: Vec<f64>,
-    /// F at the quadrature points, element after element.
+    /// Deformation gradient F at the quadrature points, element after element.
     def_grad: Vec<f64>,
     /// Reference positions of the quadrature points (m). `displaced` holds the displacements there
     /// (m), and `load` the body force there (m/s2). All three are empty if there is no body force.
@@ -112,8 +112,8 @@ impl Bar {
     /// the nearest end.
     ///
     /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
-    /// advances them to the current time with the last acceleration, which is accurate to second
-    /// order.
+    /// advances them to the current time with the last acceleration. The result is accurate to
+    /// second order.
     pub fn velocity_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.velocity_in(cell, place)
@@ -158,7 +158,7 @@ impl Bar {
         Ok(())
     }
 
-    /// Computes the nodal forces per unit area (Pa) in `acceleration`.
+    /// Computes the nodal forces per unit area (Pa), and stores them in `acceleration`.
     fn force(&mut self) -> Result<(), Failure> {
         self.acceleration.fill(0.0);
         with_nodes!(self.mesh.element(), N => self.add_stress::<N>());
@@ -220,7 +220,7 @@ impl Bar {
         }
     }
 
-    /// Counts one visit for each pair of a node and a quadrature point of an element.
+    /// Increments `transfers` by the number of pairs of a node and a quadrature point.
     fn count_visits(&mut self) {
         self.transfers += (self.def_grad.len() * self.mesh.element().nodes()) as u64;
     }
@@ -233,7 +233,7 @@ impl Subject for Bar {
         let (kick, lag) = match self.setup.start {
             Start::AtZero => (dt, 0.0),
             // The velocity advances from the middle of the previous step to the middle of this
-            // step; in the first step, from t = 0.
+            // step. In the first step the advance begins at t = 0.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
         let motion = self.displacement.iter_mut().zip(&mut self.velocity);
@@ -313,14 +313,14 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 /// None of these positions is superconvergent. To leading order, the interpolation error of an
 /// element is the same polynomial in every element: `(1 - xi^2) u''` if linear,
 /// `xi (1 - xi^2) u'''` if quadratic. At the zeros of this polynomial (the nodes, including the
-/// midside node) only the error of the nodal values remains, which may be of a higher order. At
-/// `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
+/// midside node) only the error of the nodal values remains. This error may be of a higher order.
+/// At `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
 /// quadratic one 0.23 and 0.33 (maximum 0.38). The positions also differ from the points
 /// `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {
-    /// Samples the current state as `sampling` specifies, in place of the sampling of the set-up.
+    /// Samples the current state as `sampling` specifies. [`BarSetup::sampling`] is ignored.
     pub fn sample_as(&self, sampling: Sampling, samples: &mut Samples) {
         samples.clear();
         samples.dimension = 1;
@@ -332,7 +332,6 @@ impl Bar {
         samples.mass.extend(samples.weight.iter().map(|weight| density * weight));
     }
 
-    /// The weight of each point is a quarter of the element length.
     fn sample_inside(&self, samples: &mut Samples) {
         let weight = self.mesh.cell_length() / PLACES.len() as f64;
         for cell in 0..self.mesh.cells() {
@@ -345,7 +344,6 @@ impl Bar {
         }
     }
 
-    /// Samples at the nodes. The weight of a node is its lumped length.
     fn sample_nodes(&self, samples: &mut Samples) {
         samples.label.extend(self.nodes());
         samples.displacement.extend(self.nodal_displacements());

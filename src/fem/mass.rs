@@ -83,7 +83,7 @@ pub(super) fn consistent(mesh: &Mesh, density: f64) -> CooMatrix<f64> {
     matrix
 }
 
-/// Integrates `int N_a N_b dX` over one element (m).
+/// Integrates `N_a N_b` over one element (m).
 fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
     mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
 }

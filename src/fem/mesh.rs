@@ -195,10 +195,10 @@ impl Element {
     }
 
     /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly.
-    /// This includes the mass matrix (degree 2k) and the internal force of a linear law (degree
-    /// `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above the order `k + 1` of
-    /// the element. Ciarlet (*The Finite Element Method for Elliptic Problems*, 1978, section 4.1)
-    /// requires only degree `2k - 2`.
+    /// They are therefore exact for the mass matrix (degree 2k) and for the internal force of a
+    /// linear law (degree `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above
+    /// the order `k + 1` of the element. Ciarlet (*The Finite Element Method for Elliptic
+    /// Problems*, 1978, section 4.1) requires exactness only up to degree `2k - 2`.
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,
@@ -206,9 +206,9 @@ impl Element {
         }
     }
 
-    /// Returns `int N_a dxi / 2`, the fraction of the element length for each node. For the
-    /// quadratic element these fractions are also the weights of the three-point Gauss-Lobatto rule
-    /// (Simpson's rule). Row sums of the mass matrix and lumping by nodal quadrature therefore
+    /// Returns `int N_a dxi / 2`, the fraction of the element length assigned to each node a. For
+    /// the quadratic element these fractions are also the weights of the three-point Gauss-Lobatto
+    /// rule (Simpson's rule). Row sums of the mass matrix and lumping by nodal quadrature therefore
     /// agree (Hughes 2000, section 7.3.2).
     pub(super) fn shares(self) -> PerNode {
         match self {

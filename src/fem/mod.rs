@@ -1,6 +1,6 @@
-//! A finite element method in 1-D, with which MPM solvers are compared.
+//! A finite element method in 1-D, for comparison with MPM solvers.
 //!
-//! The method is total-Lagrangian and explicit, on `[from, to]`:
+//! The method is total-Lagrangian and explicit. On the interval `[from, to]`, the method solves
 //!
 //! ```text
 //! rho0 u_tt = dP(F)/dX + rho0 b(X, t),    F = 1 + u_X
@@ -26,8 +26,8 @@
 //! | linear    | 1           | 1 / sqrt(3)  |
 //! | quadratic | 1 / sqrt(6) | 1 / sqrt(15) |
 //!
-//! These limits are `dt = 2 / omega` with the highest frequency omega of a single element (Hughes
-//! 2000, section 9.1 for the limit, section 7.3.2 for the matrices).
+//! These limits follow from `dt = 2 / omega` with the highest frequency omega of a single element
+//! (Hughes 2000, section 9.1 for the limit, section 7.3.2 for the matrices).
 //!
 //! [`BarSetup`] describes the problem, and [`Bar`] solves it. Steps do not allocate: [`Bar::new`]
 //! creates all arrays and factorises the mass matrix, and the triangular solves are in place.

@@ -50,7 +50,7 @@ pub struct BarSetup {
     pub from: f64,
     /// Reference position of the right end (m).
     pub to: f64,
-    /// Number of elements, which have equal lengths.
+    /// Number of elements. All elements have equal lengths.
     pub cells: usize,
     /// Kind of element, which determines the shape functions.
     pub element: Element,
@@ -73,7 +73,7 @@ pub struct BarSetup {
     /// Velocity `v(X)` at t = 0 (m/s), interpolated at the nodes like the displacement.
     /// Interpolation is accurate to order k + 1, the order of the element.
     pub initial_velocity: ScalarFunction,
-    /// Time of the initial velocity.
+    /// Meaning of `initial_velocity` in the first step.
     pub start: Start,
     /// Points at which the state is sampled.
     pub sampling: Sampling,

@@ -1,4 +1,4 @@
-//! The family of mass matrices. A new matrix requires its type and one registration line below.
+//! Registry of the mass matrices. A new matrix requires its type and one registration line below.
 
 use super::boundary::Boundary;
 use super::foundation::algebra::Vector;
@@ -208,8 +208,7 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         for axis in 0..if same { 1 } else { D } {
             self.factors.push(Factor::after(last.next(), &along(axis), &self.entries)?);
         }
-        // Each particle visits every pair of nodes in its support, which counts as `support`
-        // passes.
+        // For each particle, every pair of its nodes is visited. This counts as `support` passes.
         Ok(1 + kernel.support())
     }
 
@@ -233,7 +232,7 @@ struct Assembly {
 
 impl Assembly {
     /// Prepares the assembly of a matrix with `size` rows and entries at `places` (row and column).
-    /// Entries without a place are ignored.
+    /// Entries whose place is `None` are ignored.
     ///
     /// The entries at one place are added in the order of an unstable but deterministic sort.
     /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the sums are bit-identical.
@@ -281,8 +280,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Columns may have few or many entries, because the sort uses another algorithm for short
-        /// lists.
+        /// Tests columns with few and with many entries, because the sort uses a different
+        /// algorithm for short lists.
         #[test]
         fn the_bits_are_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),

@@ -2,7 +2,7 @@
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
 //! Numbers are stored without names, as eight bytes in little-endian order on any machine. The
-//! bytes are therefore valid only for the same program and set-up, which the caller must ensure.
+//! bytes are therefore valid only for the same program and set-up. The caller must ensure this.
 
 use super::{Samples, Totals};
 
@@ -158,8 +158,8 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
     }
 }
 
-/// The length is stored, because vectors may grow during a run. Every entry must take at least one
-/// byte.
+/// The length is stored, because vectors may grow during a run. Every entry must contain at least
+/// one number: a wrong length then ends with an error when no bytes remain.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut len = self.len() as u64;
@@ -288,7 +288,7 @@ mod tests {
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// A visit ends for any bytes, and reports bytes that do not fit.
+        /// A visit terminates for any bytes, and reports bytes that do not fit.
         #[test]
         fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);

@@ -99,7 +99,7 @@ pub struct BodyFields {
     pub origin: Vec<f64>,
     /// Cell size (m).
     pub h: f64,
-    /// Nodes along each axis; the first axis varies fastest.
+    /// Number of nodes along each axis. In node indices, the first axis varies fastest.
     pub counts: Vec<usize>,
     /// Fields with an entry for each node.
     pub of_nodes: Vec<StateField>,

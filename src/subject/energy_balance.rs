@@ -1,4 +1,4 @@
-//! Energy balance of a run: the changes of the energy by stages of a step.
+//! Energy balance of a run: the energy changes that each stage of a step causes.
 
 use crate::named::named;
 use serde::{Deserialize, Serialize};

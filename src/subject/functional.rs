@@ -1,10 +1,10 @@
-//! Functionals of the final state of a run, and the problem parameters for their derivatives.
+//! Functionals of the final state of a run, and the parameters of their derivatives.
 
 use crate::named::named;
 use serde::Serialize;
 
 named! {
-    /// Parameters of a problem for which a functional has derivatives.
+    /// Parameters of a problem with respect to which functionals are differentiated.
     pub enum GradientParameter {
         /// Young's modulus (Pa).
         Young = "young",
@@ -47,11 +47,11 @@ pub enum Functional {
 }
 
 impl Functional {
-    /// Names of the functionals in suites and messages.
+    /// Names of the functionals in suite files and messages.
     pub const NAMES: [&'static str; 4] =
         ["mean_displacement", "mean_square_displacement", "kinetic_energy", "position_of"];
 
-    /// Returns the name of the functional in suites and messages.
+    /// Returns the name of the functional in suite files and messages.
     pub fn name(self) -> &'static str {
         let index = match self {
             Self::MeanDisplacement { .. } => 0,

@@ -1,8 +1,8 @@
-//! Interface between the judge and a solver.
+//! Interface between the verifier and a solver under test.
 //!
-//! A [`Subject`] is a solver at one refinement level, whose errors are measured: the MPM or FEM
-//! solver of this crate, or an external solver. The trait is object-safe and uses only slices of
-//! `f64`, no linear-algebra types. It can therefore wrap a solver in another language.
+//! A [`Subject`] is a solver under test at one refinement level: the MPM or FEM solver of this
+//! crate, or an external solver. The trait is object-safe and uses only slices of `f64`, no
+//! linear-algebra types. It can therefore wrap a solver in another language.
 //!
 //! The module also defines sums over a body, wall reactions, the rules for the name and the claimed
 //! order of a solver, and the out-of-plane state of a two-dimensional body.
@@ -53,8 +53,8 @@ pub trait Subject {
         None
     }
 
-    /// Returns the reaction of all fixed walls, or of one face. The face is given by the axis of
-    /// its normal, and `true` if it is at the high end. `None` by default, and before the first
+    /// Returns the reaction of all fixed walls, or of one face. A face is given by the axis of its
+    /// normal, and by `true` for the high end of this axis. `None` by default, and before the first
     /// step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
@@ -83,7 +83,7 @@ pub trait Subject {
 }
 
 /// A subject whose step can be run on a fixed configuration, for linear stability analysis. The
-/// step then maps a vector of numbers, the state, to another one.
+/// step then maps a state vector to a new state vector.
 pub trait Perturbable: Subject {
     /// Fixes the configuration (positions and domains) in all later steps. All other quantities
     /// continue to advance.
@@ -117,7 +117,7 @@ named! {
 
 /// State at reference labels: `n` labels in `dimension` dimensions, one label after another. If a
 /// subject does not have stress, F or temperature, the column is empty and the quantity cannot be
-/// judged.
+/// verified.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {

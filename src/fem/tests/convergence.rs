@@ -21,10 +21,11 @@ const UNTIL: f64 = 0.5;
 /// 3e-12 m at the nodes (64 quadratic elements) and 3e-9 m inside the elements.
 const DT: f64 = 2e-5;
 
-/// The order is k + 1 inside the elements and 2k at the nodes. Lumping does not reduce the order of
-/// the quadratic element. Lumping is equivalent to quadrature at the Lobatto points, which
-/// integrates the mass to degree 2k - 1. This degree is sufficient for the order 2k of the
-/// frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11, 1975).
+/// For elements of degree k, the order is k + 1 inside the elements and 2k at the nodes. Lumping
+/// does not reduce the order of the quadratic element. Lumping is equivalent to quadrature at the
+/// Lobatto points, and this quadrature is exact for the mass up to degree 2k - 1. This degree is
+/// sufficient for the order 2k of the frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11,
+/// 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -46,7 +47,8 @@ fn the_vibrating_bar_shows_the_formal_order(
     };
     let observed = orders(&[4, 8, 16, 32, 64].map(error));
     println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
-    // At the nodes of lumped quadratic elements the first pair of meshes is not asymptotic.
+    // At the nodes of lumped quadratic elements, the first pair of meshes is not yet in the
+    // asymptotic range.
     for order in &observed[1..] {
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
@@ -66,9 +68,9 @@ fn seen(start: Start, steps: u32) -> [f64; 2] {
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
 }
 
-/// The mesh is fixed, so a run with a much smaller step is an accurate reference. From rest and
-/// under a constant load, [`Start::AtZero`] computes the exact motion shifted by half a step. The
-/// displacement is therefore of first order; the velocity is of second order.
+/// All runs use the same mesh, so a run with a much smaller step is an accurate reference. From
+/// rest and under a constant load, [`Start::AtZero`] computes the exact motion shifted by half a
+/// step. The displacement is therefore of first order; the velocity is of second order.
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]
@@ -99,7 +101,7 @@ fn a_change_of_step_keeps_the_second_order() {
 }
 
 /// A free bar under the growing load `b = 6 t` moves by `u = t^3`. Each step evaluates the load at
-/// the start of the step, which is the time of the displacements.
+/// the time of the displacements, the start of the step.
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {
@@ -111,7 +113,8 @@ fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
 }
 
-/// The limits of `c dt / h` in the module documentation are tested slightly below and above.
+/// A bar survives `c dt / h` slightly below the limit in the documentation of [`crate::fem`], and
+/// fails slightly above the limit.
 #[rstest]
 #[case(Linear, Lumped, 1.0)]
 #[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]

@@ -13,7 +13,8 @@ fn neo_hookean(def_grad: f64) -> f64 {
     50.0 * (def_grad - 1.0 / def_grad)
 }
 
-/// Patch test: the discrete space contains a uniform strain, and its stress is in equilibrium.
+/// Patch test: the discrete space contains a uniform strain, and the stress of this strain is in
+/// equilibrium.
 #[rstest]
 fn a_uniform_stretch_stays(
     #[values(Element::Linear, Element::Quadratic)] element: Element,

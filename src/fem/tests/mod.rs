@@ -54,7 +54,7 @@ fn rms(bar: &Bar, sampling: Sampling, exact: impl Fn(f64) -> f64) -> f64 {
     libm::sqrt(square / samples.weight.iter().sum::<f64>())
 }
 
-/// Computes orders between neighbouring levels; each level halves h or dt.
+/// Computes the orders between consecutive errors. From each error to the next, h or dt is halved.
 fn orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|pair| libm::log2(pair[0] / pair[1])).collect()
 }

@@ -1,8 +1,9 @@
 //! Dispersion and damping of one MPM step in closed form.
 //!
-//! The setting is a periodic row of cells with a linear elastic law and fixed particles. On the
-//! grid, two numbers describe each Fourier mode: the nodal velocity `w` before the update and the
-//! acceleration `f`. With the symbols of [`WaveSymbols`], a FLIP step with a lumped mass matrix is
+//! The analysis assumes a periodic row of cells, a linear elastic law and particles at fixed
+//! positions. On the grid, two numbers describe each Fourier mode: the nodal velocity `w` before
+//! the update and the acceleration `f`. With the symbols s of the mass and kappa of the stiffness
+//! ([`WaveSymbols`]), a FLIP step with a lumped mass matrix is
 //!
 //! ```text
 //! w_new = w + s dt f
@@ -11,9 +12,9 @@
 //!
 //! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer,
 //! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h` and coefficients
-//! b, p and q ([`WaveStep`]). All other eigenvalues of the particle matrix are 1, 0, or the FLIP
-//! share of a blend, and do not affect the grid. While the eigenvalues are complex, each step
-//! multiplies the amplitude by `sqrt(det)`.
+//! b, p and q ([`WaveStep`]). The matrix of a step for the particle velocities and stresses has
+//! more eigenvalues: 1, 0, or the FLIP fraction of a blend. Their modes do not affect the grid.
+//! While the eigenvalues are complex, each step multiplies the amplitude by `sqrt(det)`.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
@@ -31,10 +32,10 @@ const WAVES: u32 = 720;
 /// Number of iterations of a golden-section search or a bisection.
 const ROUNDS: u32 = 60;
 
-/// Maximum wavelength in a search for a phase error (cells).
+/// Maximum wavelength in the search of [`WaveMethod::cells_for_phase_error`] (cells).
 const LONGEST: f64 = 1e4;
 
-/// Ratio of neighbouring wavelengths in a search for a phase error.
+/// Ratio of consecutive wavelengths in the search of [`WaveMethod::cells_for_phase_error`].
 const RATIO: f64 = 1.002;
 
 /// Amount by which the amplitude factor of a step may exceed one because of rounding.
@@ -51,10 +52,10 @@ pub enum WaveTransfer {
     Pic,
     /// APIC.
     Apic,
-    /// MLS-MPM: APIC with gradients from the fit of its affine field.
+    /// MLS-MPM: APIC with velocity gradients from the fitted affine field.
     Mls,
-    /// TPIC: PIC with the gradient of the basis as affine field. The particles must be symmetric in
-    /// their cell; otherwise the coefficients of the step are complex.
+    /// TPIC: PIC with the gradient of the basis as affine field. The particles must be placed
+    /// symmetrically in each cell; otherwise the coefficients of the step are complex.
     Tpic,
     /// A blend of FLIP and PIC with this fraction of FLIP, from 0 to 1.
     Blend(f64),
@@ -182,8 +183,8 @@ impl WaveStep {
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
     }
 
-    /// Returns the relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`.
-    /// `None` if the eigenvalues are real.
+    /// Returns the relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`,
+    /// for an eigenvalue l and the Courant number C. `None` if the eigenvalues are real.
     pub fn phase_error(&self, courant: f64) -> Option<f64> {
         let discriminant = self.discriminant(courant);
         let angle = libm::atan2(discriminant.max(0.0).sqrt(), self.trace(courant));
@@ -205,8 +206,8 @@ impl WaveStep {
     }
 
     /// Returns the largest Courant number at which the wave does not grow. The conditions are
-    /// `det <= 1` and `1 + tr + det >= 0` (Jury; `1 - tr + det = (p - q) C^2` is never negative).
-    /// NaN if the symbols are NaN.
+    /// `det <= 1` and `1 + tr + det >= 0` (Jury's criterion; `1 - tr + det = (p - q) C^2` is never
+    /// negative). NaN if the symbols are NaN.
     pub fn limit(&self) -> f64 {
         if self.kept > 1.0 + ROUNDING {
             return 0.0;
@@ -220,7 +221,7 @@ fn neumann(s: f64, terms: u32) -> f64 {
     (0..terms).fold(0.0, |sum, _| 1.0 + (1.0 - s) * sum)
 }
 
-/// A method on regularly spaced particles, for which [`WaveStep`] describes waves of any length.
+/// A method with regularly spaced particles. [`WaveStep`] describes each wave of the method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveMethod {
     /// Basis functions.
@@ -249,9 +250,9 @@ impl WaveMethod {
     }
 
     /// Returns the number of cells per wavelength above which the phase error stays below
-    /// `tolerance`. The error of a wave without a phase counts as too large. `None` if the error is
-    /// not below the tolerance at 1e4 cells, or if it is below the tolerance for all waves of two
-    /// cells or more.
+    /// `tolerance`. Waves without a phase ([`WaveStep::complex_range`]) count as exceeding the
+    /// tolerance. `None` if the error exceeds the tolerance at 1e4 cells, or if no wave of two
+    /// cells or more exceeds the tolerance.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);

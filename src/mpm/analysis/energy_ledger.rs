@@ -25,9 +25,9 @@
 //!
 //! The sum of the entries for internal forces and stored energy is the error of the stress work.
 //! Velocities are half a step behind stresses. The stored energy at the time of the velocities is
-//! therefore the mean of its values before and after the step; without this mean the ledger would
-//! have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill 1992 (J.
-//! Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+//! therefore the mean of the stored energies before and after the step. Without this mean, the
+//! ledger would have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill
+//! 1992 (J. Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -40,8 +40,7 @@ use crate::subject::{
     Subject, Totals,
 };
 
-/// Second moment of weights along an axis (squared cell sizes) up to which the moment counts as
-/// zero.
+/// Largest second moment of weights along an axis (squared cell sizes) that counts as zero.
 const SMALLEST_MOMENT: f64 = 1e-13;
 
 /// Energy changes of one body, summed over its steps.
@@ -227,8 +226,8 @@ impl<const D: usize> Recorder<D> {
         }
     }
 
-    /// Returns the entries of the step, with zero for the stored energy. `moved_kinetic` is the
-    /// kinetic energy at the end of the step (J).
+    /// Returns the entries of the step, except that the entry for the stored energy is zero.
+    /// `moved_kinetic` is the kinetic energy at the end of the step (J).
     fn entries(&self, masses: &[f64], moved_kinetic: f64) -> [f64; LedgerStage::ALL.len()] {
         let before = self.before.as_deref().unwrap_or_default();
         let nodes = || before.iter().zip(&self.after).zip(masses);
@@ -323,8 +322,8 @@ fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
 }
 
-/// A [`Solver`] with an [`EnergyLedger`]. Its steps are bit-identical to those of the solver.
-/// Checkpoints are not supported.
+/// A [`Solver`] with an [`EnergyLedger`]. The steps are bit-identical to those of the solver
+/// without a ledger. Checkpoints are not supported.
 pub struct LedgerSolver<const D: usize> {
     solver: Solver<D>,
     ledger: EnergyLedger,

@@ -3,9 +3,9 @@
 //! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
 //! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against
 //! v0, which is in the null space of the map to the grid (Brackbill 1988; Gritton & Berzins 2017,
-//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. This
-//! matrix, the consistent mass matrix, may be singular; conjugate gradients converge nevertheless.
-//! The preconditioner is the lumped mass matrix. Each iteration maps to the grid and back once.
+//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. The
+//! consistent mass matrix `N^T M N` may be singular; conjugate gradients converge nevertheless. The
+//! preconditioner is the lumped mass matrix. Each iteration maps to the grid and back once.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;

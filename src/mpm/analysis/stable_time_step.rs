@@ -1,8 +1,8 @@
 //! Stable time step, computed by power iteration with the passes of the solver.
 //!
 //! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
-//! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step on a small
-//! velocity. Power iteration gives the largest eigenvalue of L, the square of the highest
+//! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step with small nodal
+//! velocities. Power iteration gives the largest eigenvalue of L, the square of the highest
 //! frequency. Below, L also denotes this eigenvalue.
 //!
 //! Under USL an explicit step is stable up to `dt^2 L = 4/(2 - a)`, where a, between 0 and 1, is
@@ -29,13 +29,13 @@ use crate::mpm::step::solver::Solver;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
 use crate::subject::{Checkpoint, Failure};
 
-/// Largest velocity in the iteration, divided by `h/longest`. The resulting strains are much larger
-/// than the rounding error, 1e-16, and much smaller than one. A quadratic viscosity is negligible
-/// at this velocity.
+/// Largest nodal velocity in the iteration, in units of `h/longest` ([`Solver::stable_time_step`]).
+/// The resulting strains are much larger than the rounding error, 1e-16, and much smaller than one.
+/// A quadratic viscosity is negligible at this velocity.
 const SPEED: f64 = 1e-7;
 
-/// Maximum number of repetitions. If stresses depend on rates, the frequency depends on the step,
-/// so each repetition uses the step that the previous one computed.
+/// Maximum number of repetitions of the power iteration. If stresses depend on strain rates, the
+/// frequency depends on the time step, so each repetition uses the step from the previous one.
 const REPEATS: u32 = 12;
 
 /// Number of iterations in each repetition after the first. A repetition starts from the mode of
@@ -43,19 +43,19 @@ const REPEATS: u32 = 12;
 const AGAIN: u32 = 4;
 
 /// Shift of all eigenvalues, as a fraction of the largest estimate so far. The shift almost doubles
-/// the rate at which the other modes decay. It must be less than 1/2: otherwise the smallest
-/// eigenvalue becomes the largest in magnitude.
+/// the rate at which the other modes decay. The shift must be less than 1/2, because otherwise the
+/// smallest eigenvalue becomes the largest in magnitude.
 const SHIFT: f64 = 0.45;
 
-/// Relative change at which the step counts as converged.
+/// Relative decrease of the time step below which the step counts as converged.
 const SETTLED: f64 = 1e-3;
 
 impl<const D: usize> Solver<D> {
     /// Computes the maximum stable step (s) in the current state of the body, at most `longest`.
-    /// The step takes into account the stiffness of loads, the damping of the law and artificial
-    /// viscosity, but not the loads themselves, other damping and wall friction. Each of the
-    /// `rounds` of the power iteration costs as much as a step. The result is an upper bound, a few
-    /// percent too large after about twenty rounds.
+    /// The step takes into account the stiffness of loads, the viscosity of the material and
+    /// artificial viscosity, but not the loads themselves, other damping and wall friction. Each of
+    /// the `rounds` of the power iteration costs as much as a step. The result is an upper bound, a
+    /// few percent too large after about twenty rounds.
     ///
     /// # Errors
     /// Failures of the passes; [`Failure::Solve`] if there is no highest frequency.
@@ -173,19 +173,20 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Whether velocities are mapped to particles and back before they strain the particles. For affine
-/// fields and series, the loss of velocity in this mapping is neglected.
+/// Whether the velocities that strain the particles were first mapped to particles and back.
+/// Transfers with affine fields or series also map velocities, but their loss in this mapping is
+/// neglected.
 fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
     scheme != SchemeName::Usl && kind == TransferKind::Velocity
 }
 
-/// Returns the simplest scheme and transfer with a bit-identical stable time step. Methods with the
-/// same pair need only one computation.
+/// Returns the simplest scheme and transfer whose stable time step is bit-identical to that of the
+/// given pair. Methods with the same result need only one computation.
 ///
 /// All transfers except [`TransferKind::Fit`] compute forces and velocity gradients from the basis.
 /// All except [`TransferKind::Series`] and [`TransferKind::Cells`] compute accelerations from the
-/// basis. The map of velocities affects the step only if velocities are mapped to particles and
-/// back before they strain the particles.
+/// basis. The map of velocities affects the step only if the velocities that strain the particles
+/// were first mapped to particles and back.
 pub fn simplest_with_same_response(
     scheme: SchemeName,
     transfer: TransferChoice,

@@ -12,7 +12,7 @@
 
 use crate::mpm::basis::BasisName;
 
-/// APIC inertia (squared cell sizes) up to which a particle has no affine part.
+/// Largest APIC inertia (squared cell sizes) that counts as zero: the particle has no affine part.
 const SMALLEST_INERTIA: f64 = 1e-12;
 
 /// Basis functions of one axis: uniform B-splines, or averages of linear functions over the domain

@@ -147,7 +147,7 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Recomputes the functions of each of four particles that is near a wall.
+/// Checks four particles and recomputes the functions of those near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

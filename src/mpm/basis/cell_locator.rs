@@ -92,13 +92,13 @@ impl<const D: usize> CellLocator<D> {
         for axis in 1..D {
             start += cell[axis] * self.layout.strides[axis] as f64;
         }
-        // Above 2^52, the last bits of a number are the integer by which it exceeds 2^52.
+        // For an `f64` x above 2^52, the last bits hold the integer x - 2^52.
         let whole: [f64; LANES] = (start + (WHOLE - self.layout.before as f64)).into();
         array(0, |lane| whole[lane].to_bits() as u32)
     }
 }
 
-/// Returns the positions of the last particles, which are fewer than four; NaN for missing ones.
+/// Returns the positions of the last one to three particles, padded with NaN.
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
@@ -106,8 +106,8 @@ fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
 }
 
 /// Returns cells, positions in the cells, and the mask of particles inside the grid, for positions
-/// `s` (in cells) along an axis. This slow path handles `s` at the end of the axis, outside it, or
-/// NaN.
+/// `s` (in cells) along an axis. This slow path handles values of `s` that are NaN, at the end of
+/// the axis or outside the axis.
 #[cold]
 #[inline(never)]
 fn at_ends<const D: usize>(

@@ -48,8 +48,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// Whether a single patch contains all nodes of a particle at any position.
     const ONE_PATCH: bool = true;
 
-    /// Nodes of a particle with the basis functions there, as products of one-dimensional functions
-    /// ([`Product`](super::Product)).
+    /// Nodes of a particle with the basis functions at these nodes, as products of one-dimensional
+    /// functions ([`Product`](super::Product)).
     type Patch<const D: usize>: Patch<D>;
 
     /// Returns the number of functions along an axis with `cells` cells.
@@ -61,7 +61,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
 
     /// Calls `visit` for every patch of particle `p`. If a node is in several patches, its weight
     /// and gradient are the sums over these patches. A particle outside the grid has no patch; the
-    /// solver reports such particles when it moves them. Implementations must be
+    /// solver reports such particles when particles are moved. Implementations must be
     /// `#[inline(always)]`, because this function is part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
@@ -71,9 +71,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
     );
 
     /// Stores the patches of the four particles of `lanes`. Returns a mask with bit k for particle
-    /// `lanes.particle + k`. A bit is set if the particle has a single patch, which is then stored.
-    /// For other particles, use [`Basis::patches`]. Both methods give bit-identical results. A
-    /// basis overrides this method to compute the weights of four particles at once.
+    /// `lanes.particle + k`. A bit is set if the particle has a single patch. Only such patches are
+    /// stored. For other particles, use [`Basis::patches`]. Both methods give bit-identical
+    /// results. A basis overrides this method to compute the weights of four particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,
@@ -108,9 +108,9 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. As a trait method, it puts the loops of each basis file into a
-    /// separate code-generation unit, so a change of one file does not recompile the loops of the
-    /// others.
+    /// Runs a loop over this basis. Because `run` is a trait method, the loops of each basis file
+    /// are in a separate code-generation unit. A change of one file therefore does not recompile
+    /// the loops of the other bases.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }
@@ -179,8 +179,8 @@ pub trait PatchBatch<const D: usize>: Debug {
     fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
 
     /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used. The
-    /// particle of the patch must then have no other patch.
+    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used. This
+    /// is valid only for particles with a single patch.
     fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,

@@ -20,8 +20,8 @@
 //! `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! A domain that extends through a wall is compressed along the axis until it ends at the wall,
-//! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, which
-//! does not change the sign of det R. Moving single corners to the wall could change this sign.
+//! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, so the
+//! sign of det R does not change. Moving single corners to the wall could change this sign.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
@@ -184,7 +184,7 @@ mod tests {
         particles
     }
 
-    /// Returns weight and gradient of every node, summed over its visits.
+    /// Returns weight and gradient of every node, summed over the corners of the particle domain.
     fn seen<B: Basis, const D: usize>(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -199,7 +199,7 @@ mod tests {
 
     /// Compares weights and gradients with averages of the interpolated hat functions and their
     /// slopes along the domain vectors, `dN/dxi_a = r_a . grad N`. The averages use two Gauss
-    /// points per axis, which is exact for functions multilinear in xi.
+    /// points per axis. This quadrature is exact for functions multilinear in xi.
     fn averages<const D: usize>(periodic: bool) {
         let grid = grid::<D>(periodic);
         let x = Vector::from_fn(|axis, _| 1.4 + 0.07 * axis as f64);
@@ -238,8 +238,8 @@ mod tests {
         averages::<3>(periodic);
     }
 
-    /// The corners are at 0.8 and 1.4 cells. The slopes of the middle hat function at the corners
-    /// cancel. The derivative of its weight is therefore zero, but its gradient is not.
+    /// At the corners, 0.8 and 1.4 cells, the slopes of the middle hat function cancel. The weight
+    /// of the middle node therefore has the derivative zero, but `grad N` of this node is not zero.
     #[test]
     fn the_gradient_is_not_that_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));

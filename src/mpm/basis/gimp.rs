@@ -62,7 +62,7 @@ fn patches<const D: usize>(
     }
 }
 
-/// Computes the patches of four particles. Returns the mask of particles with one group of
+/// Computes the patches of four particles. Returns the mask of particles with at most [`AT_ONCE`]
 /// functions along each axis.
 #[inline(always)]
 fn patches_x4<S: Simd, const D: usize>(
@@ -162,7 +162,7 @@ macro_rules! gimp {
                 patches_x4(simd, grid, locator, particles, lanes, follows, patches)
             }
 
-            /// The domain has three nodes along an axis if it is at most one cell long.
+            /// Counts three nodes along each axis, the number for domains of at most one cell.
             fn support(dimension: usize) -> u64 {
                 3_u64.pow(dimension as u32)
             }

@@ -25,7 +25,7 @@ fn grid<B: Basis, const D: usize>(periodic: bool) -> Grid<D> {
     Grid::new(Vector::from_element(-0.3), 0.25, [CELLS; D], [periodic; D], counts)
 }
 
-/// Half the extent of the particle domain along any axis (cells).
+/// Half the length of the bounding box of the particle domain along any axis (cells).
 const REACH: f64 = 0.3;
 
 /// Creates one particle at `x`, with a domain of half a cell, slightly stretched and rotated.

@@ -1,4 +1,4 @@
-//! The family of basis functions. A new basis requires one file, one registration line and one
+//! Registry of the basis functions. A new basis requires one file, one registration line and one
 //! `mod` line.
 
 mod bspline;

@@ -1,5 +1,5 @@
 //! Products of one-dimensional functions, the patch type of most bases, for one particle and for a
-//! batch. Also contains the P2G and G2P loops over the nodes of a batch.
+//! batch. The module also contains the P2G and G2P loops over the nodes of a batch.
 //!
 //! G2P sums are computed axis by axis, so the work per node does not depend on the number of axes.
 
@@ -12,7 +12,7 @@ use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, Node4
 use crate::mpm::foundation::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
 use std::ops::Range;
 
-/// All products of K functions along each axis, with K at most 4.
+/// Products of one-dimensional functions, with K functions along each axis; K is at most 4.
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
@@ -418,8 +418,9 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
         Self { simd, field, start: NONE, sums: [N::zero(simd); K] }
     }
 
-    /// Adds to row `j` in plane `k` of the box of nodes that starts at `start`, in D dimensions.
-    /// Call [`flush`](Self::flush) after the last addition.
+    /// Adds a term to every node of row `j` in plane `k` of the box of nodes that starts at
+    /// `start`: node i of the row becomes `with_term(i, node)`. Call [`flush`](Self::flush) after
+    /// the last addition.
     #[inline(always)]
     pub(in crate::mpm) fn add<const D: usize>(
         &mut self,

@@ -17,8 +17,8 @@ pub struct Weights1d<const K: usize> {
     pub slope: [f64; K],
     /// Positions of the functions relative to the particle (m).
     pub offset: [f64; K],
-    /// Variance, `sum weight offset^2` (m^2). The sum is taken about the mean if the particle has
-    /// no other functions along this axis.
+    /// Variance, `sum weight offset^2` (m^2). If these K functions are all functions of the
+    /// particle along this axis, offsets are measured from their mean.
     pub variance: f64,
 }
 
@@ -119,7 +119,7 @@ pub struct Weights1dBatch<const K: usize> {
     pub(in crate::mpm) weight: [F64Batch; K],
     pub(in crate::mpm) slope: [F64Batch; K],
     pub(in crate::mpm) offset: [F64Batch; K],
-    /// Variance, `sum weight offset^2` (m^2), about the mean if a particle has no other functions.
+    /// Variance (m^2), as in [`Weights1d`].
     pub(in crate::mpm) variance: F64Batch,
     /// Offset of each function from the mean (m).
     pub(in crate::mpm) offset_from_mean: [F64Batch; K],

@@ -16,7 +16,7 @@ pub struct Advance {
     pub from: f64,
     /// Time of the velocities after the advance (s).
     pub to: f64,
-    /// Factor of the accelerations in the advance (s).
+    /// Length dt of the time step in `v += dt a` (s).
     pub dt: f64,
 }
 

@@ -5,10 +5,10 @@
 //! would enter the wall, or if it already has contact and presses on the wall, the node stays on
 //! the wall: `v . n = a . n = 0`, as with a roller. The impulse of the wall, `I = m |v* . n|`,
 //! limits the friction. If an impulse of at most `mu I` stops the tangential part of `v*`, the node
-//! sticks: `v = a = 0`, as on a fixed wall. Otherwise the node slides, and friction against `v*`
-//! with the impulse `mu I` reduces its acceleration. If only a pull could keep the node on the
-//! wall, the node is free. (Bardenhagen, Brackbill & Sulsky 2000, CMAME 187, section 3, with a
-//! fixed wall as the other body.)
+//! sticks: `v = a = 0`, as on a fixed wall. Otherwise the node slides, and a friction impulse
+//! `mu I` against `v*` reduces the acceleration of the node. If only a pull could keep the node on
+//! the wall, the node is free. This is the contact law of Bardenhagen, Brackbill & Sulsky (2000,
+//! CMAME 187, section 3) between a body and a fixed wall.
 //!
 //! Nodes store their contact state between two advances. Velocities mapped in this interval are
 //! constrained by the stored state. Contact between two bodies uses the same states.
@@ -141,8 +141,8 @@ mod tests {
 
     const ADVANCE: Advance = Advance { from: 0.0, to: 0.5, dt: 0.5 };
 
-    /// Advances one node of the wall with velocity `v` and acceleration `a`. Returns both after the
-    /// advance, and the wall.
+    /// Advances one node of the wall with velocity `v` and acceleration `a`. Returns the velocity
+    /// and the acceleration after the advance, and the wall.
     fn advanced(side: Side, v: [f64; 2], a: [f64; 2]) -> (Vector<2>, Vector<2>, Friction) {
         let grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         let mut wall = Friction::face(&grid, 1, side, 0.25);

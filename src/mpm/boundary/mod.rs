@@ -1,4 +1,4 @@
-//! The family of boundary conditions on the grid. A new condition requires one file and one
+//! Registry of the boundary conditions on the grid. A new condition requires one file and one
 //! registration line below.
 //!
 //! A face without a condition is free. A periodic axis needs no condition. With the bases of this

@@ -34,9 +34,9 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// Returns `value` at `x` and `t` (s). Before the start the formula may be undefined and is not
-/// evaluated. Instead the velocity is extrapolated through its value at the start, `v(-t) = 2 v(0)
-/// - v(t)`, which is exact for a constant acceleration.
+/// Returns `value` at `x` and `t` (s). Before the start, t < 0, the formula may be undefined and is
+/// not evaluated. Instead the velocity is extrapolated by `v(-t) = 2 v(0) - v(t)`, which is exact
+/// for a constant acceleration.
 pub(in crate::mpm) fn continued<const D: usize>(
     value: &VelocityField<D>,
     x: &Vector<D>,

@@ -2,8 +2,9 @@
 //!
 //! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the current
 //! density rho, the cell size l and the wave speed c at rest. The quadratic term (von Neumann &
-//! Richtmyer 1950) acts in strong shocks, and is of second order in smooth motion. The linear term
-//! (Landshoff 1955) damps the oscillations behind weak shocks, and is of first order.
+//! Richtmyer 1950) acts in strong shocks. The linear term (Landshoff 1955) damps the oscillations
+//! behind weak shocks. In smooth motion, the quadratic term is of second order in l, and the linear
+//! term of first order.
 //!
 //! The pressure is part of the stress only while forces are computed. It is removed before the
 //! material updates the stress, because a law in rate form adds increments to the old stress.
@@ -23,7 +24,8 @@ pub struct ArtificialViscosity {
     pub length: f64,
     /// Wave speed c (m/s).
     pub speed: f64,
-    /// Viscous pressure in the stress of each particle (Pa); empty before the first step.
+    /// Viscous pressure that is part of the stress of each particle (Pa); empty before the first
+    /// step.
     pub q: Vec<f64>,
 }
 

@@ -8,7 +8,7 @@ use crate::subject::{Checkpoint, Column, Failure};
 
 /// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
-    /// Returns the name of the effect in suites.
+    /// Returns the name of the effect in suite files.
     fn name(&self) -> &'static str;
 
     /// Returns the columns that the effect stores per particle or node.
@@ -120,8 +120,8 @@ pub(in crate::mpm) fn strain<const D: usize>(
         effect.before_stress(body.particles());
     }
     material.update(&mut body);
-    // The hooks are nested: the effect that is first before the update is last after it. Thermal
-    // expansion thus restores the volume before artificial viscosity computes the density.
+    // After the update, the effects run in reverse order. Thermal expansion thus restores the
+    // volume before artificial viscosity computes the density.
     for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
         effect.after_stress(body.particles());
     }

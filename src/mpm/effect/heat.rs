@@ -11,11 +11,11 @@
 //! T_p   += dt sum_i Q_i/(c m_i) N_i                            as FLIP: increments only
 //! ```
 //!
-//! The published scheme maps only T_p, without the slope. Each node then gets a weighted mean of
-//! the temperatures in its support. At a wall this mean differs from the wall value. With linear
-//! functions the slope at the wall is a third too small, and the error at a face with heat flux is
-//! not of second order. With `g_p`, the slope of the previous step (as in TPIC), the map reproduces
-//! a linear field up to the wall.
+//! The published scheme maps only T_p, without the slope. The temperature of a node is then a
+//! weighted mean of the temperatures of nearby particles. At a wall this mean differs from the wall
+//! value. With linear functions the slope at the wall is a third too small, and the error at a face
+//! with heat flux is not of second order. With `g_p`, the slope of the previous step (as in TPIC),
+//! the map reproduces a linear field, also at the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
 //! flow into the body, to round-off. The method neglects heat from plastic work, viscosity and
@@ -31,12 +31,12 @@ use crate::subject::{Checkpoint, Column, Failure, Site};
 
 /// Function that writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
-/// The heat may depend on T_p at the start of the step, but not on T_i, which would need another
-/// pass.
+/// The heat may depend on T_p at the start of the step, but not on T_i, because T_i would need
+/// another pass.
 ///
 /// With a sink s = -r c T, linear functions and equally spaced particles, forward Euler is stable
-/// for dt < 2/(4 k/(rho c h^2) + r). This stable time step is not predicted, so the suite must
-/// state the step.
+/// for dt < 2/(4 k/(rho c h^2) + r). The crate does not predict this limit, so a suite file with a
+/// sink must specify the time step.
 pub type HeatSource<const D: usize> = Box<dyn FnMut(f64, &Particles<D>, &mut [f64]) + Send>;
 
 /// Heat conduction in the body.

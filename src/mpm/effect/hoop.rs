@@ -3,7 +3,7 @@
 //! The hoop strain rate is `D_tt = sum_i v_i,r N_i(x_p)/r_p`. The hoop stress acts towards the
 //! axis: `f_i,r -= sum_p V_p sigma_tt N_i(x_p)/r_p` (Sulsky & Schreyer 1996, Comput. Methods Appl.
 //! Mech. Engrg. 139; Nairn & Guilkey 2015, Int. J. Numer. Meth. Engng 101). Masses and volumes are
-//! per radian, `V_p = r_p A_p`, so forces and inertia in the plane need no change. Force and rate
+//! per radian, `V_p = r_p A_p`, so the in-plane equations of motion need no change. Force and rate
 //! use equal weights, so the power of the force equals the stress power.
 
 use super::contract::Effect;

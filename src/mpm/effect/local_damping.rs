@@ -7,7 +7,7 @@
 //! if all velocities change sign at the same time.
 //!
 //! The sign is taken from the velocity at the start of the step, half a step behind the forces. The
-//! damping therefore changes its sign up to one step late, and is of first order in time. The
+//! damping force therefore changes sign up to one step late, and is of first order in time. The
 //! damping acts on nodes and does not affect FLIP velocities without nodal momentum.
 
 use super::contract::Effect;

@@ -1,5 +1,6 @@
-//! The family of effects. A new effect requires one file and one line in `src/members.rs`. A solver
-//! has a list of effects. An effect that is not in the list adds no call, column or branch.
+//! Registry of the effects: additions to the equations of motion, such as gravity. A new effect
+//! requires one file and one line in `src/members.rs`. A solver has a list of effects. An effect
+//! that is not in the list adds no call, column or branch.
 
 mod contract;
 mod hoop;
@@ -25,8 +26,8 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the family of effects. The lines of [`each_effect`](crate::members) that name an effect
-/// declare a member.
+/// Declares the registry of effects. Each line of [`each_effect`](crate::members) that names an
+/// effect registers this effect.
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

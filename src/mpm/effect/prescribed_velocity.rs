@@ -1,8 +1,8 @@
 //! A set of particles with a prescribed velocity.
 //!
 //! The particle velocities are set after the transfer from the grid, and the particles move with
-//! them instead of the grid velocity. The next P2G of velocities affects the rest of the body: in
-//! the same step with MUSL, in the next step with USF and USL.
+//! these velocities instead of the grid velocity. The rest of the body is affected by the next P2G
+//! of velocities: in the same step with MUSL, in the next step with USF and USL.
 
 use super::contract::Effect;
 use crate::mpm::boundary::{VelocityField, continued};

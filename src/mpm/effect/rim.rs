@@ -78,8 +78,8 @@ pub(super) fn facets<const D: usize>(
 }
 
 /// Adds the forces of a pressure (Pa, per current area) on every facet. `pressure` is a function of
-/// the reference position. F at the rim is approximated by F of the particle, half a spacing away.
-/// Returns the number of visited particle-node pairs.
+/// the reference position. F at the rim is approximated by F of the nearest particle, half a
+/// spacing away. Returns the number of visited particle-node pairs.
 pub(super) fn press<const D: usize>(
     facets: &[Facet<D>],
     particles: &Particles<D>,

@@ -1,4 +1,5 @@
-//! A force on a set of particles, distributed among them in proportion to reference volume.
+//! A force on a set of particles, distributed in proportion to the reference volumes of the
+//! particles.
 //!
 //! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, with its total reference volume V0.
 //! This is a body force that is uniform in the reference configuration and follows the particles.

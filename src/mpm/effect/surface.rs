@@ -6,7 +6,7 @@
 //!
 //! - at the particle, `f_i += f N_i(x_p)`, half a spacing inside, as in the original MPM. The sum
 //!   of the forces is exact, but their moment is not. The moment arm of forces along the face is
-//!   s/2 too short, which causes a bending error of order h in the whole body;
+//!   s/2 too short. This causes a bending error of order h in the whole body;
 //! - at the surface, `f_i += f N_i(x_p) + (f (x) d) grad N_i(x_p)`, `d = F s/2 N`: the weights of
 //!   the surface point, extrapolated linearly from the particle. Sum and moment are exact,
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
@@ -48,8 +48,8 @@ pub(super) struct Surface {
     pub(super) area: f64,
     /// Half a spacing along the axis (m); not used for a mapped body.
     depth: f64,
-    /// Column of the domain matrix whose end is on the face, and its sign; `None` unless the body
-    /// is mapped.
+    /// Index of a column of the domain matrix, and a sign. The column times the sign is the vector
+    /// from a particle to the face. `None` unless the body is mapped.
     column: Option<(usize, f64)>,
     /// Index difference between a particle of this layer and its neighbour in the next layer.
     below: usize,
@@ -166,8 +166,8 @@ impl Surface {
     }
 }
 
-/// Adds `force` at particle `p` with a moment, so that it acts at the end of `arm`. The arm is the
-/// vector from the particle to the surface in the reference configuration (m).
+/// Adds `force` at particle `p`, and a moment that shifts the point of action to the end of `arm`.
+/// The arm is the vector from the particle to the surface in the reference configuration (m).
 pub(super) fn put_at_surface<const D: usize>(
     particles: &Particles<D>,
     kernel: &dyn Kernel<D>,
@@ -191,7 +191,8 @@ const ROUNDING: f64 = 1e-6;
 /// The layer of particles at a plane face of a mapped body.
 pub(super) struct MappedFace {
     pub(super) layer: Vec<usize>,
-    /// Column of the domain matrix whose end is on the face, and its sign.
+    /// Index of a column of the domain matrix, and a sign. The column times the sign is the vector
+    /// from a particle to the face.
     pub(super) column: (usize, f64),
     /// Area of the face per particle (m^(D-1)). Along a straight side in 2-D, the areas are equal.
     pub(super) area: f64,

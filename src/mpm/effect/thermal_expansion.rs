@@ -6,8 +6,8 @@
 //! in rate form the thermal strain increment is subtracted, `sigma -= E/(1 - 2 nu) alpha dT I`
 //! (Duhamel & Neumann). In 2-D this is plane strain, in 1-D uniaxial strain.
 //!
-//! The split applies to the D dimensions of the scene. If Poisson's ratio is zero, the other axes
-//! have no effect. The heat absorbed by the expansion is neglected.
+//! The split applies to the D dimensions of the body. If Poisson's ratio is zero, the out-of-plane
+//! axes have no effect. The heat absorbed by the expansion is neglected.
 
 use super::contract::Effect;
 use crate::mpm::foundation::algebra::Matrix;
@@ -25,9 +25,9 @@ pub struct ThermalExpansion<const D: usize> {
     law: ExpansionLaw<D>,
 }
 
-/// Form of the expansion, which depends on the kind of law.
+/// Form of the expansion for each kind of law.
 enum ExpansionLaw<const D: usize> {
-    /// The law uses `elastic`, which is Fe, in place of F while stresses are computed.
+    /// While stresses are computed, `elastic` contains Fe and is used in place of F.
     OfDeformation { elastic: Vec<Matrix<D>> },
     /// `modulus` is `E/(1 - 2 nu)` (Pa). `before` holds the temperatures (K) at the last stress
     /// update.

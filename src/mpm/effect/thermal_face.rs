@@ -2,9 +2,9 @@
 //!
 //! Every basis of this crate conforms to the walls of the grid: along the normal, one function is 1
 //! at the wall, and all others are 0. The wall nodes therefore have the temperature of the face.
-//! The face area of node i is `sum_p A_p N_i` over the layer of particles at the face, evaluated
-//! along the face only. Heat enters at the face. If heat entered at the particles half a spacing
-//! inside, the error would be of first order.
+//! The face area of node i is `sum_p A_p N_i` over the layer of particles at the face, with N_i
+//! evaluated along the face only. Heat enters at the face. If heat entered at the particles half a
+//! spacing inside, the error would be of first order.
 //!
 //! Areas are taken in the reference configuration, as for tractions. The face must stay at the end
 //! of the grid.
@@ -24,8 +24,8 @@ pub type ScalarField<const D: usize> = Box<dyn Fn(&Vector<D>, f64) -> f64 + Send
 /// Heat inflow (W/m^(D-1)) as a function of position, time (s) and local temperature (K).
 pub type HeatInflow<const D: usize> = Box<dyn Fn(&Vector<D>, f64, f64) -> f64 + Send>;
 
-/// Condition on a face that is not insulated: a prescribed value, or a prescribed flux, which may
-/// depend on the value.
+/// Condition on a face that is not insulated: a prescribed temperature, or a prescribed heat flux
+/// that may depend on the temperature.
 pub enum Thermal<const D: usize> {
     /// Temperature (K): Dirichlet condition.
     Temperature(ScalarField<D>),
@@ -47,8 +47,7 @@ pub struct ThermalBoundary<const D: usize> {
 }
 
 impl<const D: usize> ThermalBoundary<D> {
-    /// Imposes `condition` on the face `side` of `axis`. The functions on `grid` are those of
-    /// `basis`.
+    /// Imposes `condition` on the face `side` of `axis`. `basis` is the basis of `grid`.
     pub fn new(
         grid: &Grid<D>,
         basis: BasisName,

@@ -93,13 +93,12 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     array
 }
 
-/// 2^52. All `f64` from 2^52 to 2^53 are integers. The last bits of each are the integer by which
-/// it exceeds 2^52.
+/// 2^52. All `f64` x from 2^52 to 2^53 are integers, and their last bits hold the integer x - 2^52.
 pub(in crate::mpm) const WHOLE: f64 = 4_503_599_627_370_496.0;
 
-/// Rounds down; equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call would cost more
-/// than all other operations, and a conversion to integers and back would cost as much as the
-/// weights.
+/// Rounds down; equals `libm::floor` from -2^51 to 2^51. In the hot loop, a call of `libm::floor`
+/// would cost more than all other operations, and a conversion to integers and back as much as the
+/// evaluation of the weights.
 #[inline(always)]
 pub(in crate::mpm) fn floor(x: f64) -> f64 {
     const SHIFT: f64 = 1.5 * WHOLE;

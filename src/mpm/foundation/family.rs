@@ -1,10 +1,11 @@
-//! Macros that register the members of a family. One line defines a member and its name.
+//! Macros that declare a family of types, such as the basis functions. One line registers a type
+//! with its name.
 
-/// Declares a family of types that suites choose by name.
+/// Declares a family of types that suite files select by name.
 ///
 /// `family! { /// docs  pub enum BasisName; with_basis; "linear" => Linear, }` defines the enum of
 /// names and a macro `with_basis!(name, B => expr)`. The macro contains the only `match` from a
-/// name to a type. `"linear" => linear::Linear` also exports the member from its file.
+/// name to a type. `"linear" => linear::Linear` also exports the type from its file.
 macro_rules! family {
     (
         $(#[$meta:meta])* pub enum $names:ident; $with:ident;
@@ -49,7 +50,7 @@ macro_rules! family {
 }
 pub(in crate::mpm) use family;
 
-/// Declares a family of trait objects that suites choose by name.
+/// Declares a family of trait objects that suite files select by name.
 ///
 /// `objects! { /// docs  pub enum Names; /// docs  pub fn make -> Trait; "flip" => Flip: Flip, }`
 /// defines the enum of names and a function that creates the object with a given name, in any
@@ -78,8 +79,8 @@ macro_rules! objects {
 }
 pub(in crate::mpm) use objects;
 
-/// Declares a family of trait objects that suites choose by name and parameter. Each type has a
-/// constant `PARAMETER` and a constructor `new`.
+/// Declares a family of trait objects that suite files select by name and parameter. Each type has
+/// a constant `PARAMETER` and a constructor `new`.
 macro_rules! objects_with_parameter {
     ($(#[$meta:meta])* pub enum $names:ident: $parameter:ty;
         $(#[$fn_meta:meta])* fn $make:ident -> $contract:ident;

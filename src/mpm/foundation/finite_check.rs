@@ -1,8 +1,8 @@
 //! Checks that the state of the particles is finite.
 //!
-//! Through shared nodes a NaN can spread to other particles. A node that is fixed or has no mass
-//! can hide a NaN. Each quantity is therefore checked where it is computed, and the failure names
-//! the first particle with a NaN.
+//! A NaN of one particle can spread to other particles through shared nodes. A node that is fixed
+//! or has no mass can hide a NaN. Each quantity is therefore checked where it is computed, and the
+//! failure names the first particle with a NaN.
 
 use super::particles::Particles;
 use super::simd::{LANES, vectorized};

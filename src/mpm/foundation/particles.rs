@@ -37,8 +37,8 @@ pub struct Particles<const D: usize> {
     pub stress_across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix, F diag(spacing)/2, are the vectors from the particle to the middles
-    /// of the faces of its domain (m). Domains are updated from F only when positions move. If a
-    /// domain changed within a step, nodes without mass could receive forces.
+    /// of the faces of its domain (m). Domains are updated from F only when the particles move. If
+    /// a domain changed within a step, nodes without mass could receive forces.
     pub domain: Vec<Matrix<D>>,
     /// Domains in the reference configuration; empty if all are boxes of the size `spacing`.
     pub domain0: Vec<Matrix<D>>,
@@ -84,16 +84,16 @@ impl<const D: usize> Block<D> {
 }
 
 impl<const D: usize> Particles<D> {
-    /// Fills `block` with equally spaced particles at rest and free of stress, each at the centre
-    /// of an equal part. Along each axis, the number of particles per cell of size `h` is as close
-    /// to `per_axis` as the body length allows. The number is exact if the body is a whole number
-    /// of cells long.
+    /// Divides `block` into equal parts, and places a particle at rest and free of stress at the
+    /// centre of each part. Along each axis, the number of particles per cell of size `h` is as
+    /// close to `per_axis` as the body length allows. The number is exact if the body is a whole
+    /// number of cells long.
     pub fn fill(block: &Block<D>, h: f64, per_axis: usize) -> Self {
         Self::fill_where(block, h, per_axis, |_| true)
     }
 
-    /// Fills `block`, and keeps only particles whose reference position is `inside`. Each particle
-    /// has the full volume of its part.
+    /// Fills `block` like [`Particles::fill`], but only with the particles for which `inside` is
+    /// true at the reference position. Each particle has the full volume of its part.
     pub fn fill_where(
         block: &Block<D>,
         h: f64,

@@ -4,8 +4,8 @@
 /// Maximum number of particles or nodes that one thread processes without a split.
 pub(in crate::mpm) const FEW: usize = 1 << 14;
 
-/// Runs both closures, in parallel if there are several threads. With one thread, rayon is not
-/// used, because it would wake another thread.
+/// Runs both closures, in parallel if there are several threads. With one thread, the closures are
+/// called directly, because rayon would wake another thread.
 pub(in crate::mpm) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     if rayon::current_num_threads() == 1 {
         one();
@@ -35,10 +35,10 @@ pub(in crate::mpm) fn split<T>(
     column.map(|column| column.split_at_mut(count.min(column.len()))).unzip()
 }
 
-/// Splits a column into pieces that fit the cache, and the pieces among threads.
+/// Divides a column into pieces that fit into the cache, and distributes the pieces among threads.
 pub(in crate::mpm) const PIECES: RowChunks = RowChunks { length: FEW / 4, few: FEW };
 
-/// Splits a field into rows, and the rows among threads.
+/// Divides a field into rows, and distributes the rows among threads.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct RowChunks {
     /// Number of entries in a row; the last row may have fewer.

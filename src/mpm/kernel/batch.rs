@@ -37,13 +37,13 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         Self { particles, grid, locator, needs, basis: PhantomData }
     }
 
-    /// Calls `visit` for the patches of the batch that starts at particle `first`, in order. The
-    /// arguments of `visit` are the patches, their range of lanes (particle `first + k` is lane k),
-    /// and, for a particle with several patches, the moments of all its patches. Particles outside
+    /// Calls `visit` for the patches of the batch that starts at particle `first`. The arguments of
+    /// `visit` are the patches, their range of lanes (particle `first + k` is lane k), and, for a
+    /// particle with several patches, the weight moments over all these patches. Particles outside
     /// the grid are skipped.
     ///
-    /// Returns a mask. For bases with one patch, it contains the lanes of particles inside the
-    /// grid; otherwise it is [`ALL`].
+    /// For bases with one patch, returns the mask of the lanes with particles inside the grid;
+    /// otherwise [`ALL`].
     #[inline(always)]
     pub(in crate::mpm) fn visit<S: Simd>(
         &self,
@@ -135,7 +135,7 @@ pub(super) fn columns<S: Simd, const D: usize>(
     })
 }
 
-/// Writes the columns of a matrix, which start at lane `from`. They are written number by number,
+/// Writes the columns of a matrix, which start at lane `from`. Each number is written separately,
 /// because store-to-load forwarding fails for a matrix that is stored as a whole.
 #[inline(always)]
 pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(

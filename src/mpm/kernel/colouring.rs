@@ -1,12 +1,13 @@
 //! Blocks of particles in two colours, for P2G on several threads.
 //!
 //! The last axis divides the nodes into layers. Particles that are neighbours in memory mostly have
-//! nodes in neighbouring layers. The particles of a large scene are therefore divided into
+//! nodes in neighbouring layers. The particles of a large body are therefore divided into
 //! consecutive blocks of alternating colour, even and odd. Blocks of one colour have no common node
 //! and run in parallel. An odd block then adds to the sums of its even neighbours.
 //!
 //! The division, and therefore the bits of the results, depend only on the particles, not on the
-//! number of threads. A small scene, or a scene with particles in no spatial order, is one block.
+//! number of threads. A small body, or a body whose particles are not in spatial order, is one
+//! block.
 
 use super::contract::LoopSettings;
 use crate::mpm::basis::{Basis, Domain};
@@ -18,7 +19,8 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Number of chunks in the smallest block. Blocks consist of whole chunks of particles.
+/// Number of chunks in the smallest block. A chunk is a group of consecutive particles, and a block
+/// consists of whole chunks.
 const CHUNKS: usize = 8;
 
 /// Number of minima and maxima that one loop over positions computes in parallel.
@@ -42,7 +44,7 @@ struct Span {
     high: f64,
 }
 
-/// Blocks of a scene by colour; a single block is even.
+/// Blocks of a body, separated by colour; a single block is even.
 #[derive(Debug)]
 pub(in crate::mpm) struct Blocks {
     settings: LoopSettings,
@@ -71,8 +73,8 @@ impl Span {
     ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            // In a single minimum, each comparison would wait for the previous one. Several run in
-            // parallel.
+            // With a single minimum, each comparison would wait for the previous one. Several
+            // minima are therefore computed in parallel.
             let (many, rest) = x.as_chunks::<TOGETHER>();
             let mut spans = [span; TOGETHER];
             for several in many {
@@ -103,14 +105,15 @@ impl Span {
         let (cells, all) = (grid.cells[axis] as f64, layers(grid).end);
         let local = |x: f64| (x - grid.origin[axis]) * grid.inverse_h();
         let (low, high) = (local(self.low), local(self.high));
-        // A domain uses all nodes of the cells that it overlaps, and its ends are known only up to
-        // rounding.
+        // A domain uses all nodes of the cells that it overlaps, and the ends of the domain are
+        // known only up to rounding.
         let (below, above) = match B::DOMAIN {
             Domain::Point => (0.0, f64::from(B::DEGREE)),
             Domain::Fixed | Domain::Follows => (1.0, MARGIN as f64 + 1.0),
         };
         let wraps = low - below < 0.0 || high + (above - f64::from(B::DEGREE)) >= cells;
-        // A block at a periodic end also has nodes at the other end, so it gets all layers.
+        // A block at one end of a periodic axis also has nodes at the opposite end, so all layers
+        // are returned.
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
@@ -132,7 +135,8 @@ impl Blocks {
         (self.settings.min_block / CHUNKS).next_multiple_of(BATCH)
     }
 
-    /// Divides the particles into blocks, if they are numerous enough and in spatial order.
+    /// Divides the particles into blocks, if there are enough particles and they are in spatial
+    /// order.
     pub(in crate::mpm) fn cut<B: Basis, const D: usize>(
         &mut self,
         grid: &Grid<D>,

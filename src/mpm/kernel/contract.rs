@@ -1,9 +1,9 @@
 //! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
 //! [`Kernel`] is object-safe: there is one virtual call per pass, none per particle. Each pass
-//! recomputes the weights of a particle. One pass can therefore compute several quantities
-//! ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a separate
-//! pass.
+//! recomputes the weights of all particles. To save such passes, one pass can compute several
+//! quantities ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a
+//! separate pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -96,7 +96,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     );
 
     /// Calls `entry` with the node, the weight N_i and the gradient (1/m) of every function at
-    /// particle `p`. If a node occurs several times, its function is the sum of these entries.
+    /// particle `p`. If a node occurs in several calls, the weight and gradient of the node are
+    /// sums over these calls.
     fn functions(
         &self,
         grid: &Grid<D>,
@@ -106,7 +107,8 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     );
 
     /// Adds the nodal forces of a moment, `moment grad N_i(x_p)`, on particle `p`. The sum of these
-    /// forces is zero: `moment = f (x) d` (N m) moves the force f from the particle by d (m).
+    /// forces is zero. Together with a force f on the particle, the moment `f (x) d` (N m) has the
+    /// effect of f at the distance d (m) from the particle.
     fn p2g_point_moment(
         &self,
         particles: &Particles<D>,
@@ -251,8 +253,9 @@ pub struct P2gRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> P2gRequest<'_, D> {
-    /// Returns the names of the requested quantities, for reports. `weight moments` is included
-    /// only in requests for the mass, so it is counted once for each position of the particles.
+    /// Returns the names of the requested quantities, for reports. The name `weight moments` is
+    /// included only in requests for the mass, so weight moments are counted once for each position
+    /// of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
@@ -284,11 +287,11 @@ pub struct G2pRequest<'a, const D: usize> {
     /// Column for `moment_p = sum_i v_i (x) (x_i - mean_p) N_i(x_p)` (m^2/s).
     pub moment: Option<&'a mut [Matrix<D>]>,
     /// Column for `moment_p D_p^-1` (1/s): the gradient of a least-squares fit (Hu et al. 2018, eq.
-    /// 17), computed in the same visit to the nodes as the moment.
+    /// 17), computed in the same loop over the nodes as the moment.
     pub fit: Option<&'a mut [Matrix<D>]>,
     /// Column for `gradient_p = sum_i v_i (x) grad N_i(x_p)` (1/s).
     pub gradient: Option<&'a mut [Matrix<D>]>,
-    /// Time `dt` (s), and the column for the positions after it,
+    /// Time `dt` (s), and the column for the positions after this time,
     /// `advected_p = x_p + dt sum_i v_i N_i(x_p)` (m).
     pub advected: Option<(f64, &'a mut [Vector<D>])>,
 }
@@ -311,23 +314,23 @@ impl<const D: usize> G2pRequest<'_, D> {
 pub struct LoopSettings {
     /// Instruction set of the loops. Results are bit-identical for every set.
     pub level: Level,
-    /// Minimum number of particles for a division into blocks. Smaller scenes fit the cache. The
-    /// division changes the order of sums, and therefore their rounding.
+    /// Minimum number of particles for a division into blocks. Smaller bodies fit into the cache.
+    /// The division changes the order of sums, and therefore their rounding.
     pub min_particles: usize,
-    /// Minimum number of particles per block, such that a block shares only a small part of its
-    /// nodes with its neighbours.
+    /// Minimum number of particles per block. A large block shares only a small part of its nodes
+    /// with neighbouring blocks.
     pub min_block: usize,
 }
 
 impl Default for LoopSettings {
-    /// Returns the best level of this processor, and default block sizes.
+    /// Returns the fastest instruction set of this processor, and default block sizes.
     fn default() -> Self {
         Self { level: Level::new(), min_particles: 1 << 17, min_block: 1 << 13 }
     }
 }
 
-/// Number of particles visited for each quantity of the passes. Counting starts with the first call
-/// of `take`.
+/// Number of particles visited for each quantity that passes compute. Counting starts with the
+/// first call of `take`.
 #[derive(Debug, Default)]
 pub struct Tally(OnceLock<[AtomicU64; NAMES.len()]>);
 

@@ -1,4 +1,4 @@
-//! G2P: velocity, first moment and gradient from one visit to the nodes of a particle.
+//! G2P: velocity, first moment and gradient, computed in one loop over the nodes of a particle.
 
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
@@ -81,7 +81,8 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
         self.request.moment.is_some() || self.request.fit.is_some()
     }
 
-    /// Adds the sums over the nodes of patches. `moments` is the result of [`Self::takes_moments`].
+    /// Adds the sums over the nodes of the patches in `lanes` to `sums`. `moments` is the result of
+    /// [`Self::takes_moments`].
     #[inline(always)]
     fn gather_patches<S: Simd>(
         &self,
@@ -208,7 +209,8 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                     self.gather_patches(simd, patches, lanes, of_all, offsets, &mut sums);
                 },
             );
-            // Particles outside the grid get zero. Lanes after the last particle are not written.
+            // The sums of particles outside the grid are zero. Lanes after the last particle are
+            // not written.
             let unseen = !seen & ALL >> BATCH.saturating_sub(self.particles.len() - first);
             if unseen != 0 {
                 sums.reset(simd, offsets, slopes, |lane| unseen >> lane & 1 == 1);

@@ -1,4 +1,4 @@
-//! P2G: mass, momentum and internal force from one visit to the nodes of a particle.
+//! P2G: mass, momentum and internal force, computed in one loop over the nodes of a particle.
 
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
@@ -44,8 +44,8 @@ fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) ->
     if !particles.current_position.is_empty() {
         return columns(simd, &-particles.flux(p), force_lane(D));
     }
-    // The columns are scaled one by one. A product matrix in memory would be slow, because its
-    // store is not forwarded to the loads of its columns.
+    // The columns are scaled separately. A product matrix in memory would be slow, because
+    // store-to-load forwarding fails when its columns are loaded.
     let stress = columns(simd, &particles.sigma[p], force_lane(D));
     array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
 }
@@ -73,8 +73,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that the request does not need are never unpacked, so any vectors are valid. Every
-        // body has positions; a body at rest has no velocities.
+        // Lanes that the request does not need are never unpacked, so their values are arbitrary.
+        // Positions are used in place of velocities, because a body at rest has no velocities.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

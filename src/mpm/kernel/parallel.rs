@@ -1,8 +1,8 @@
 //! Two-colour schedule of P2G on threads, and the division of G2P particles among threads.
 //!
 //! Even blocks and the odd blocks between them form a binary tree of joins. An odd block runs on
-//! any thread after both its neighbours, when no other block uses its nodes. Layers to which no
-//! later block adds are unpacked immediately, while they are in the cache.
+//! any thread after both its neighbours, when no other block uses its nodes. As soon as no later
+//! block adds to a layer, the layer is unpacked, while its nodes are in the cache.
 
 use super::colouring::ParticleBlock;
 use super::contract::G2pRequest;
@@ -35,7 +35,8 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
 /// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
-/// unpacks the sums. Odd block k runs after even blocks k and k + 1, with which it shares nodes.
+/// unpacks the sums. Odd block k shares nodes with even blocks k and k + 1, and therefore runs
+/// after both.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],

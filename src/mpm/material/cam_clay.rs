@@ -8,7 +8,7 @@
 //! energy.
 //!
 //! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by
-//! `I + grad v dt`, which is `v R` in polar decomposition: R rotates the stress, and `ln v` is the
+//! `I + grad v dt`, with the polar decomposition `v R`: R rotates the stress, and `ln v` is the
 //! strain increment. This integration is exact under any rotation, and equals the Jaumann rate to
 //! second order in the step. Along fixed axes, logarithmic strains add up without error. The return
 //! mapping is implicit: exact at a constant stress ratio, and of first order in the step otherwise.
@@ -48,7 +48,7 @@ struct Clay {
     consolidation: f64,
 }
 
-/// Writes only the preconsolidation pressure.
+/// Reports contain only the preconsolidation pressure of the state.
 impl Entry for Clay {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.consolidation);
@@ -63,7 +63,7 @@ impl Memory for Clay {
     }
 }
 
-/// Input of a return: the stress before the step, and the strain increment of the step.
+/// Input of the return mapping: the stress before the step, and the strain increment of the step.
 struct ClayTrial {
     /// Mean stress before the step (Pa), positive in compression.
     pressure: f64,
@@ -76,7 +76,7 @@ struct ClayTrial {
     shear: Matrix<3>,
 }
 
-/// Maximum number of iterations of a return; about ten suffice.
+/// Maximum number of iterations of the return mapping; about ten suffice.
 const MAX_ITERATIONS: usize = 100;
 
 impl CamClay {
@@ -131,8 +131,8 @@ impl CamClay {
     }
 
     /// Returns the mean stress (Pa) and the stress deviator (Pa) after the elastic volume strain
-    /// `compaction`, if all shear is elastic. Both strains grow in proportion, so the result is the
-    /// exact integral of the rate form.
+    /// `compaction`, if all shear is elastic. Volume strain and shear strain grow in proportion, so
+    /// the result is the exact integral of the rate form.
     fn swollen(&self, trial: &ClayTrial, compaction: f64) -> (f64, Matrix<3>) {
         let t = compaction / self.swelling;
         let pressure = trial.pressure * libm::exp(t);
@@ -143,10 +143,10 @@ impl CamClay {
     /// Returns the mean stress, the deviator and the preconsolidation pressure (Pa) on the yield
     /// surface, for a trial state outside.
     ///
-    /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, which gives the plastic
+    /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, and pc gives the plastic
     /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`,
     /// with the plastic compaction x. The root lies between the critical state, m = 1, and the
-    /// surface before the step.
+    /// yield surface before the step.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.
@@ -186,7 +186,8 @@ fn equivalent(deviator: &Matrix<3>) -> f64 {
 }
 
 /// Finds the root of a function that is negative at `low` and positive at `high`, by the Illinois
-/// variant of false position (Dowell & Jarratt 1971). If an end has another sign, returns this end.
+/// variant of false position (Dowell & Jarratt 1971). Returns `low` if `f(low)` is not negative,
+/// and `high` if `f(high)` is not positive.
 fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     if !(at_low < 0.0) {
@@ -340,7 +341,7 @@ fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, Ma
 
 #[cfg(test)]
 impl super::contract::ClosedForms for CamClay {
-    /// The response is elastic, with principal stretches exp(e) and exp(-e).
+    /// Returns the elastic stress for the principal stretches exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let pressure = self.initial_pressure();
@@ -410,7 +411,7 @@ mod tests {
                 let flow = 0.08 * libm::log(pc / law.start.consolidation);
                 assert_abs_diff_eq!(elastic + flow, compaction, epsilon = 1e-12);
                 // The plastic shear divided by the gradient of q^2/M^2, and the plastic compaction
-                // divided by the gradient of p (p - pc), are the same multiplier.
+                // divided by the gradient of p (p - pc), both equal the plastic multiplier.
                 let modulus = 0.6 * (p - 100.0) / elastic;
                 let plastic = Matrix::from_diagonal(&shear) - deviator / (2.0 * modulus);
                 let flowed = plastic.dot(&deviator) / deviator.norm_squared();

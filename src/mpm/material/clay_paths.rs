@@ -32,8 +32,8 @@ fn squeeze(specimen: &mut Specimen<3>, [axial, lateral]: [f64; 2], steps: u32) -
     [-tau.trace() / 3.0, tau[(1, 1)] - tau[(0, 0)]]
 }
 
-/// Returns the axial and lateral strains of a shear at constant volume. `strain` is its deviatoric
-/// strain.
+/// Returns the axial and lateral strains of a shear at constant volume with the deviatoric strain
+/// `strain`.
 fn undrained(strain: f64) -> [f64; 2] {
     [strain, -0.5 * strain]
 }
@@ -50,8 +50,8 @@ fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
     (rows[0].into(), libm::log2(coarse[0] / fine[0]))
 }
 
-/// The expected p and q are closed forms, evaluated by an independent program. The return is of
-/// first order in the step size.
+/// The expected p and q are closed forms, evaluated by an independent program. The return mapping
+/// is of first order in the step size.
 #[rstest]
 #[case::low([95.265_762_753, 28.579_728_826], 0.003_504_455_447)]
 #[case::middle([83.651_164_207, 50.190_698_524], 0.008_175_376_601)]

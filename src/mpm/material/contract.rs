@@ -6,16 +6,16 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form. Always
-/// fails, because such a law reads the velocity gradient.
+/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form. Returns an
+/// error, because such a law reads the velocity gradient.
 pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
     Err("a law in rate form does not compute its stress from F or J")
 }
 
 /// Properties of a law that determine which problems can use the law.
 pub trait MaterialProperties {
-    /// Returns the stiffness at rest against strain along one axis (Pa): `rho0 c^2` of the fastest
-    /// wave, in a body with the reference density `density` (kg/m3).
+    /// Returns the modulus for uniaxial strain at rest (Pa): `rho0 c^2` of the fastest wave, in a
+    /// body with the reference density `density` (kg/m3).
     fn wave_modulus(&self, density: f64) -> f64;
 
     /// Returns the speed (m/s) of the fastest wave at rest, in a body with the reference density
@@ -24,8 +24,8 @@ pub trait MaterialProperties {
         (self.wave_modulus(density) / density).sqrt()
     }
 
-    /// Checks that stress is a function of F alone. Only then can a body start in the state of a
-    /// prescribed motion, or a body force be manufactured.
+    /// Checks that stress is a function of F alone. Only such laws support bodies that start in a
+    /// prescribed motion, and manufactured body forces.
     ///
     /// # Errors
     /// The reason why stress depends on other quantities.
@@ -103,8 +103,8 @@ pub struct Contradiction {
     pub explanation: &'static str,
 }
 
-/// Closed forms of stress and energy, for tests of all materials. For laws with flow or heat during
-/// a step, the values apply to one infinitely long step from a state of rest.
+/// Closed forms of stress and energy, for tests of all materials. The values apply to one
+/// infinitely slow step from rest, in which viscous stresses vanish.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
@@ -152,7 +152,7 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Whether an undeformed body at rest has a stress; [`start_deformed`](Self::start_deformed)
-    /// sets it.
+    /// computes this stress.
     fn is_stressed_at_rest(&self) -> bool {
         false
     }
@@ -191,8 +191,8 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation
-    /// gradient `f`. Both belong to a step that starts from the stored state of the law, which does
-    /// not change. `None` if the law has no tangent.
+    /// gradient `f`. Both are computed for a step from the stored state of the law, without
+    /// changing this state. `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }

@@ -5,7 +5,8 @@
 //! Howes, Schroeder & Teran 2012, SCA, "Energetically consistent invertible elasticity"; Jiang et
 //! al. 2016, SIGGRAPH Courses, section 6.3). The stress derives from the energy
 //! `W = mu sum (s_i - 1)^2 + lambda/2 (J - 1)^2` of the principal stretches s_i. In uniaxial strain
-//! P is linear in the displacement gradient. In 2-D the strain is plane, and in 1-D uniaxial.
+//! P is linear in the displacement gradient. The law assumes plane strain in 2-D and uniaxial
+//! strain in 1-D.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_along_axes, stored_energy};

@@ -1,12 +1,12 @@
 //! Drucker-Prager plasticity: a cone about the axis of mean stress.
 //!
 //! The material yields if `sqrt(J2) + eta p > k`, with `p = tr(tau)/3` positive in tension and
-//! `J2 = dev(tau) : dev(tau)/2`. The flow has the coefficient of dilation `etab` instead of `eta`.
-//! The return goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen 2008,
-//! section 8.3). [`plastic_flow`](super::plastic_flow) integrates the law.
+//! `J2 = dev(tau) : dev(tau)/2`. The flow rule uses the coefficient of dilation `etab` instead of
+//! `eta`. The return goes to the cone, or to its apex `p = k/eta` (de Souza Neto, Peric & Owen
+//! 2008, section 8.3). [`plastic_flow`](super::plastic_flow) integrates the law.
 //!
-//! Without dilation, plastic flow does not change the mean stress. If the mean stress is above the
-//! apex, the return to the apex is then a tension cut-off, which is not part of the flow rule.
+//! Without dilation, plastic flow does not change the mean stress. A return from a mean stress
+//! above the apex is then a tension cut-off that is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{
@@ -72,8 +72,9 @@ impl YieldSurface for Cone {
         Some((after, trial.distance(&after)))
     }
 
-    /// Uses the flow `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)`, `dp = K (tr deps - etab dg)`
-    /// and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)` with the direction n of the deviator (de Souza
+    /// Returns the consistent tangent. A trial strain increment deps causes
+    /// `dp = K (tr deps - etab dg)` and `d sqrt(J2) = mu (sqrt(2) n : deps - dg)`, with the flow
+    /// `g = (sqrt(J2) + eta p - k)/(mu + K eta etab)` and the direction n of the deviator (de Souza
     /// Neto et al. 2008, section 8.3).
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, .. } = *self;
@@ -92,7 +93,8 @@ impl YieldSurface for Cone {
         Some(modulus_of_invariants(trial, &mean_slope, (length, &length_slope)))
     }
 
-    /// de Souza Neto et al. (2008), eq. 8.113: both invariants are linear in the strain.
+    /// Returns stresses whose invariants `p` and `sqrt(J2)` are linear in the strain (de Souza Neto
+    /// et al. 2008, eq. 8.113).
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =

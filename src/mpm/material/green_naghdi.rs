@@ -57,8 +57,8 @@ impl GreenNaghdi {
         Self { elasticity: LinearElastic::new(young, poisson), states: Vec::new() }
     }
 
-    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). The right stretch has
-    /// these `squares` along `axes`.
+    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). `squares` are the
+    /// squared principal right stretches along `axes`.
     fn after<const D: usize>(
         &self,
         before: &Unrotated,
@@ -78,7 +78,7 @@ impl GreenNaghdi {
     }
 }
 
-/// Returns the components of a tensor along the D axes of the scene.
+/// Returns the components of a tensor along the first D axes.
 fn in_plane<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, j| m[(i, j)])
 }
@@ -159,7 +159,7 @@ impl<const D: usize> Material<D> for GreenNaghdi {
 
 #[cfg(test)]
 impl super::contract::ClosedForms for GreenNaghdi {
-    /// The strain of one step is the logarithmic strain.
+    /// Returns the stress of one step, whose strain increment is the logarithmic strain.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let shear = 2.0 * self.elasticity.mu * e;

@@ -15,8 +15,8 @@ pub(super) fn stored_energy<const D: usize>(
     all.map(|(f, vol0)| vol0 * density(f)).sum()
 }
 
-/// Sets volumes, and computes Cauchy stresses from F for several particles at a time. `of_j`
-/// computes from J the numbers that `cauchy` needs in addition to F.
+/// Sets volumes, and computes Cauchy stresses from F for several particles at a time. `cauchy`
+/// receives F of a particle and the result of `of_j`, a function of J.
 pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     body: &mut StressUpdate<'_, D>,
     of_j: impl Fn(&F64Batch) -> [F64Batch; N] + Sync,
@@ -38,9 +38,9 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     );
 }
 
-/// Sets volumes and Cauchy stresses, for laws whose stress has the axes of `F F^T`. `of_squares`
-/// converts the squared stretches of several particles at a time. `principal` computes the
-/// principal stresses (Pa) from the converted values and J.
+/// Sets volumes and Cauchy stresses, for laws whose stress has the axes of `F F^T`. `of_squares` is
+/// applied to the squared principal stretches, for several particles at a time. `principal`
+/// computes the principal stresses (Pa) from the results of `of_squares` and from J.
 pub(super) fn set_stress_along_axes<const D: usize>(
     body: &mut StressUpdate<'_, D>,
     of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,

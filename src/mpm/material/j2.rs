@@ -46,8 +46,9 @@ impl YieldSurface for VonMises {
         Some((PrincipalStrain { deviator, ..*trial }, flow))
     }
 
-    /// On the yield surface, the stress deviator has the length `sqrt(2/3) (Y + H (alpha + flow))`.
-    /// The slope of this length along the strain deviator is `2 mu H/(3 mu + H)`.
+    /// Returns the consistent tangent. On the yield surface, the stress deviator has the length
+    /// `sqrt(2/3) (Y + H (alpha + flow))`. The slope of this length along the strain deviator is
+    /// `2 mu H/(3 mu + H)`.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>> {
         let (mu, hardening) = (self.elasticity.mu, self.hardening);
         let (_, flow) = self.return_from(trial, flowed)?;
@@ -58,7 +59,7 @@ impl YieldSurface for VonMises {
         Some(modulus_of_invariants(trial, &mean, (length, &slope)))
     }
 
-    /// After the return, the stress deviator lies on the yield surface.
+    /// Returns stresses whose deviator lies on the yield surface.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let mu = self.elasticity.mu;

@@ -94,7 +94,7 @@ impl<const D: usize> Material<D> for Jaumann {
 
 #[cfg(test)]
 impl super::contract::ClosedForms for Jaumann {
-    /// The strain of one step is the logarithmic strain.
+    /// Returns the stress of one step, whose strain increment is the logarithmic strain.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let shear = 2.0 * self.0.mu * e;
@@ -111,7 +111,8 @@ impl super::contract::ClosedForms for Jaumann {
         None
     }
 
-    /// The logarithm of a stretch inherits the rounding error of the stretch.
+    /// Returns the stress caused by the rounding error of the stretch, because ln v inherits this
+    /// error.
     fn rounding(&self) -> f64 {
         4.0 * f64::EPSILON * self.wave_modulus(1.0)
     }

@@ -32,9 +32,9 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F. Its stress is then objective under any rotation in one step. A law that
-/// reads only the velocity gradient is objective only in the rate: a rotation during a step causes
-/// an error of second order in the angle.
+/// Whether the law reads F. The stress of such a law is objective under any rotation in one step. A
+/// law that reads only the velocity gradient is objective only in the rate: a rotation during a
+/// step causes an error of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -77,8 +77,7 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
 }
 
 /// The stored energy is the potential of the stress. At rest the energy equals its closed form
-/// (zero for a solid). The test subtracts large numbers, but the energy must be accurate to second
-/// order in small strains.
+/// (zero for a solid). For small strains, the energy must be accurate to second order.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {

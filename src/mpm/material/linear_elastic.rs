@@ -3,11 +3,11 @@
 //! `d eps = sym(grad v) dt`, `sigma += lambda tr(d eps) I + 2 mu d eps`, `V *= det(I + grad v dt)`
 //! (Wobbes & Tielen 2015, step 5; in 1-D `V *= 1 + d eps`). In the limit dt -> 0 the 1-D form
 //! integrates to `sigma = E ln F`. This stress agrees with small-strain elasticity only to first
-//! order in the strain. Reports separate the difference from the discretisation error.
+//! order in the strain. Reports list this difference separately from the discretisation error.
 //!
 //! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
-//! step, a spin adds no stress, but it does not rotate the current stress either. In more than one
-//! dimension, the law is objective only for small rotations.
+//! step, a spin adds no stress, but the law does not rotate the current stress either. In more than
+//! one dimension, the law is objective only for small rotations.
 //!
 //! For a body that starts deformed, the rate is integrated along the straight path `x = X + s u`, s
 //! from 0 to 1. This path has `grad v = H (I + s H)^-1` with `H = F - I`, and so `eps = sym(ln F)`
@@ -195,7 +195,8 @@ mod tests {
         assert_relative_eq!(bar.sigma[0][(0, 0)], young * libm::log(1.1), max_relative = 1e-6);
     }
 
-    /// Compares with the rate along `x = X + s u`, integrated by the midpoint rule.
+    /// Compares the initial stress with the rate along `x = X + s u`, integrated by the midpoint
+    /// rule.
     #[test]
     fn a_deformed_start_has_the_stress_of_the_straight_path() {
         let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);

@@ -1,5 +1,5 @@
-//! The family of materials. A new material requires one file and one line in `src/members.rs`. A
-//! parameter that no other material has also requires one line at the end of this file.
+//! Registry of the materials. A new material requires one file and one line in `src/members.rs`. A
+//! new parameter requires one more line at the end of this file.
 
 mod axisymmetric;
 #[cfg(test)]
@@ -54,7 +54,7 @@ impl MaterialPlan {
     }
 }
 
-/// A material parameter in a suite.
+/// A material parameter in a suite file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MaterialParameter {
     /// Name of the parameter in messages, such as `Young's modulus`.

@@ -1,13 +1,13 @@
 //! Mohr-Coulomb plasticity: a pyramid of six planes in principal stresses.
 //!
 //! The material yields if `(t1 - t3) + (t1 + t3) sin(phi) > 2 c cos(phi)`, with the principal
-//! Kirchhoff stresses `t1 >= t2 >= t3`, tension positive. The flow has the dilation angle psi
+//! Kirchhoff stresses `t1 >= t2 >= t3`, tension positive. The flow rule uses the dilation angle psi
 //! instead of phi. The return goes to a plane, to one of the two edges of this plane, or to the
 //! apex `p = c cot(phi)` (de Souza Neto, Peric & Owen 2008, section 8.2). With phi = 0 this is
 //! Tresca's law, which has no apex. [`plastic_flow`](super::plastic_flow) integrates the law.
 //!
-//! Without dilation, plastic flow does not change the mean stress. If the mean stress is above the
-//! apex, the return to the apex is then a tension cut-off, which is not part of the flow rule.
+//! Without dilation, plastic flow does not change the mean stress. A return from a mean stress
+//! above the apex is then a tension cut-off that is not part of the flow rule.
 
 use super::contract::Contradiction;
 use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
@@ -27,7 +27,7 @@ pub struct Pyramid {
     strength: f64,
 }
 
-/// Relative size of a negative flow on an edge that counts as a rounding error.
+/// Maximum relative size of a negative flow on an edge that counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// A plane of the pyramid: the indices of the largest and the smallest principal stress.
@@ -86,8 +86,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. Also
-    /// converts derivatives of these reductions to derivatives of the flows.
+    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. From
+    /// derivatives of `f_a` and `f_b`, the function returns derivatives of the flows.
     fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
@@ -183,7 +183,8 @@ impl YieldSurface for Pyramid {
         Some((after, trial.distance(&after)))
     }
 
-    /// The return is linear in the trial stress on each part of the pyramid.
+    /// Returns the consistent tangent. On each part of the pyramid, the return is linear in the
+    /// trial stress.
     fn modulus_of_return(&self, trial: &PrincipalStrain, _: f64) -> Option<Matrix<3>> {
         let (stress, order) = self.outside(trial)?;
         let elastic = self.elasticity.modulus();
@@ -201,7 +202,8 @@ impl YieldSurface for Pyramid {
         })
     }
 
-    /// The material yields on one plane while the third stress is between the other two.
+    /// Returns the stresses after a return to one plane. This requires that the third stress is
+    /// between the other two.
     #[cfg(test)]
     fn isochoric(&self, e: f64) -> [f64; 2] {
         let ([s, sp], LogElasticity { lambda, mu, .. }) = (self.sines, self.elasticity);
@@ -226,10 +228,10 @@ mod tests {
     use proptest::prelude::*;
     use rstest::rstest;
 
-    /// Angles, a path of logarithmic strain, and the expected principal Kirchhoff stresses at the
-    /// end of the path, which an independent program computed from closed forms. Uniaxial paths
-    /// return to an edge, isochoric paths to a plane. The path `isochoric_to_an_edge` ends on an
-    /// edge.
+    /// The arguments are the angles, a path of logarithmic strain, and the expected principal
+    /// Kirchhoff stresses at the end of the path. An independent program computed these stresses
+    /// from closed forms. Uniaxial paths return to an edge, isochoric paths to a plane. The path
+    /// `isochoric_to_an_edge` ends on an edge.
     #[rstest]
     #[case::compression([30.0, 10.0], &[[-0.01, 0.0, 0.0]], [-196.127_569_232, -53.828_851_027, -53.828_851_027])]
     #[case::in_steps(

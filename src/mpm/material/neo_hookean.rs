@@ -1,7 +1,7 @@
 //! Neo-Hookean elasticity: the stress is a function of the deformation gradient F.
 //!
 //! `sigma = (lambda ln(J)/J) I + (mu/J) (F F^T - I)` (Wallstedt & Guilkey 2008; Kamojjala et al.
-//! 2015). In 2-D the strain is plane, and in 1-D uniaxial.
+//! 2015). The law assumes plane strain in 2-D and uniaxial strain in 1-D.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{set_stress_by_batch, stored_energy};

@@ -3,7 +3,7 @@
 //! `sigma = -p I + 2 eta dev(D)`, `D = sym(grad v)`, with Tait's equation of state in Cole's form,
 //! `p = K/7 (J^-7 - 1)` (Cole 1948; Monaghan 1994). K is the bulk modulus at rest. The pressure has
 //! no upper limit, so particles do not collapse under compression. The deviator is
-//! three-dimensional in any dimension of the scene, `dev(D) = D - tr(D)/3 I`.
+//! three-dimensional for bodies of any dimension, `dev(D) = D - tr(D)/3 I`.
 //!
 //! The pressure depends only on J, which is integrated as `J *= det(I + grad v dt)`. F is not
 //! stored, because it grows without limit in a flow.

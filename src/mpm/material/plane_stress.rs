@@ -61,8 +61,9 @@ pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }
 
-/// Returns the first Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`. It multiplies
-/// the in-plane strains only (Timoshenko & Goodier 1970, section 16).
+/// Returns the first Lame parameter (Pa) of a plate, `2 lambda mu/(lambda + 2 mu)`. In plane
+/// stress, this parameter multiplies the in-plane strains only (Timoshenko & Goodier 1970, section
+/// 16).
 pub(super) fn lambda_of_plate(lambda: f64, mu: f64) -> f64 {
     2.0 * mu * thinning(lambda, mu)
 }
@@ -129,8 +130,8 @@ mod tests {
         plates
     }
 
-    /// If the 3-D law has the out-of-plane stretch of the plate, its in-plane stress equals that of
-    /// the plate and its out-of-plane stress is zero.
+    /// A 3-D body with the out-of-plane stretch of a plate has the in-plane stress of the plate,
+    /// and no out-of-plane stress.
     #[test]
     fn a_plate_is_a_body_that_is_free_across() {
         for (mut plate, mut space) in plates() {

@@ -136,7 +136,7 @@ struct Flowed {
     strain: f64,
 }
 
-/// Writes only the accumulated plastic strain.
+/// Reports contain only the accumulated plastic strain of the state.
 impl Entry for Flowed {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.strain);
@@ -310,7 +310,7 @@ fn trial<const D: usize>(
 
 #[cfg(test)]
 impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
-    /// Uses that the principal stretches of simple shear are exp(e) and exp(-e).
+    /// Returns the stress for the principal stretches exp(e) and exp(-e) of simple shear.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let [first, second] = self.surface.isochoric(e);

@@ -185,7 +185,8 @@ mod tests {
         }
     }
 
-    /// Along S0, `dP/dF` is `M + S0` for a law that depends only on F, and M for the rate form.
+    /// Along S0, `dP/dF` is `M + S0` for a law that depends only on F, and the wave modulus M for a
+    /// law in rate form.
     #[test]
     fn small_waves_along_the_stress_have_their_modulus() {
         let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));

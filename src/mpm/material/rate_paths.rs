@@ -1,5 +1,5 @@
-//! Compares objective rates of linear elasticity along paths with rotation, in the limit of small
-//! steps, with closed forms and with values of an independent program.
+//! Tests of objective rates of linear elasticity along paths with rotation. In the limit of small
+//! steps, stresses are compared with closed forms and with values of an independent program.
 
 use super::MaterialPlan;
 use super::specimen::{SLOW, Specimen};
@@ -40,8 +40,8 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
     Vector::<3>::new(tau[(0, 0)], tau[(0, 1)], work)
 }
 
-/// Extrapolates to small steps by Richardson's method in squares of the step. Also returns the
-/// observed order of the first component.
+/// Extrapolates the results of [`follow`] to step length zero by Richardson's method in even powers
+/// of the step. Also returns the observed order of the first component.
 fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     let mut rows: Vec<Vector<3>> = (4..=9).map(|k| follow(plan, corners, 1 << k)).collect();
     let change = |k: usize| rows[k + 1][0] - rows[k][0];
@@ -75,7 +75,7 @@ fn simple_shear_has_the_stress_of_its_rate(
 }
 
 /// After a closed cycle of shear and stretch, stress and work remain, except with the logarithmic
-/// rate. The reversed cycle leaves another stress, but the same work.
+/// rate. The reversed cycle leaves a different stress, but the same work.
 #[rstest]
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]

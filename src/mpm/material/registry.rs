@@ -1,7 +1,7 @@
 //! Registration: one line defines the name of a material and the keys of its parameters.
 
-/// Declares the family of materials from the lines of [`each_material`](crate::members). The key of
-/// the density is added to the keys of every material; laws compute the density from the masses.
+/// Declares the registry of materials from the lines of [`each_material`](crate::members). The key
+/// of the density is added to the keys of every material; laws compute the density from the masses.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
@@ -51,7 +51,7 @@ macro_rules! materials {
         }
 
         impl<N> MaterialSpec<N> {
-            /// Returns the name in suites and reports.
+            /// Returns the name in suite files and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
@@ -83,7 +83,7 @@ macro_rules! materials {
         }
 
         impl MaterialPlan {
-            /// Returns the name in suites and reports.
+            /// Returns the name in suite files and reports.
             pub fn name(&self) -> &'static str {
                 match self {
                     $(Self::$member { .. } => $name,)+
@@ -104,7 +104,7 @@ macro_rules! materials {
                 }
             }
 
-            /// Returns every parameter with its key in suites.
+            /// Returns every parameter with its key in suite files.
             pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {
                     $(Self::$member { $($field),* } => {

@@ -32,8 +32,8 @@ impl SoilPath {
         Self { strains, stresses }
     }
 
-    /// Asserts the stresses of a material along the path, on axes that rotate by `angle` about the
-    /// third axis in total.
+    /// Asserts the stresses of a material along the path, while the axes rotate by a total of
+    /// `angle` about the third axis.
     fn assert(&self, plan: MaterialPlan, angle: f64) {
         let mut soil = Specimen::<3>::new(plan);
         let largest = self.stresses.iter().flatten().fold(0.0, |m: f64, tau| m.max(tau.abs()));
@@ -105,7 +105,8 @@ impl ConePaths {
     }
 }
 
-/// Mohr-Coulomb soil: lambda and mu (Pa); two angles (degrees) and cohesion (Pa).
+/// Mohr-Coulomb soil: lambda and mu (Pa); friction and dilation angles (degrees), and cohesion
+/// (Pa).
 #[derive(Clone, Copy)]
 struct PyramidPaths([f64; 2], [f64; 3]);
 
@@ -241,7 +242,7 @@ fn unload(
     path.assert(plan, angle);
 }
 
-/// The strain paths are straight, so one step gives the stress of many.
+/// The strain paths are straight, so one step gives the same stress as many steps.
 #[test]
 fn one_step_has_the_stress_of_many() {
     let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));

@@ -11,9 +11,9 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, PlaneState};
 
-/// Duration (s) of a step with negligible viscous stresses. `FAST` is the duration of a step in
-/// which all other stresses are negligible. Both are powers of two, so velocity gradients times the
-/// step are exact.
+/// Duration (s) of a step so slow that viscous stresses are negligible. In a step of the duration
+/// `FAST`, all other stresses are negligible. Both durations are powers of two, so their products
+/// with velocity gradients are exact.
 pub(super) const SLOW: f64 = 1_099_511_627_776.0;
 pub(super) const FAST: f64 = 1.0 / SLOW;
 

@@ -2,12 +2,13 @@
 //!
 //! Golub & Van Loan, *Matrix Computations* (4th ed., 2013), section 8.5. The algorithm uses only
 //! products, quotients and square roots in a fixed order, so results are bit-identical everywhere.
-//! Equal eigenvalues need no special treatment. The eigenvalues of a positive definite matrix have
-//! a small relative error (Demmel & Veselic 1992), which the logarithm of a small eigenvalue
-//! requires.
+//! Equal eigenvalues need no special treatment. All eigenvalues of a positive definite matrix have
+//! a small relative error (Demmel & Veselic 1992), as required for the logarithm of a small
+//! eigenvalue.
 //!
 //! The batch version applies the operations of [`spectral`] to all particles of a batch at once,
-//! without branches, so the compiler vectorises the loops. A test checks that the bits are equal.
+//! without branches, so the compiler vectorises the loops. A test checks that both versions give
+//! identical bits.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};

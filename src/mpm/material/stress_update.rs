@@ -1,8 +1,8 @@
-//! One update of the stresses of a body, with one visit per particle:
+//! Updates the stresses of a body in one loop over the particles:
 //!
 //! ```text
-//! threads   halves of the body, down to some thousands of particles
-//! blocks    128 particles, whose columns stay in the first cache:  F  ->  law  ->  checks
+//! threads   the body is halved recursively, down to some thousands of particles
+//! blocks    128 particles, whose columns fit into the L1 cache:  F  ->  law  ->  checks
 //! ```
 
 use crate::mpm::foundation::algebra::{Matrix, product};
@@ -21,7 +21,7 @@ pub struct StressUpdate<'a, const D: usize> {
     particles: &'a mut Particles<D>,
     /// Whether F still has its value at the start of the step.
     awaits_strain: bool,
-    /// Smallest J of the last visit, if all J were positive and all stresses finite.
+    /// Smallest J after the last call of a law, if all J were positive and all stresses finite.
     least_j: Option<f64>,
 }
 
@@ -56,8 +56,8 @@ impl<'a, const D: usize> StressUpdate<'a, D> {
         Self { dt, particles, awaits_strain: false, least_j: None }
     }
 
-    /// Creates an update over `dt` (s) for particles with F at the start of the step. The velocity
-    /// gradients advance F in the same visit as the law.
+    /// Creates an update over `dt` (s) for particles with F at the start of the step. For each
+    /// block, F is advanced from the velocity gradients immediately before the law is called.
     pub(in crate::mpm) fn straining(dt: f64, particles: &'a mut Particles<D>) -> Self {
         Self { awaits_strain: true, ..Self::new(dt, particles) }
     }
@@ -141,8 +141,8 @@ fn first_mut<'a, T>(column: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     column.split_off_mut(..count.min(column.len())).unwrap_or_default()
 }
 
-/// Calls `law` block by block. If a time `strain` (s) is given, first advances F over this time.
-/// Returns the smallest J, see [`StressUpdate::least_j`].
+/// Calls `law` block by block. If `strain` is a time step (s), F is advanced over this step before
+/// the law is called. Returns the smallest J, see [`StressUpdate::least_j`].
 fn visit<S: Send, const D: usize>(
     mut body: StressBlock<'_, D>,
     mut state: &mut [S],

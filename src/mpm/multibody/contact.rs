@@ -2,7 +2,7 @@
 //! 187, section 3).
 //!
 //! Each body has its own velocity at an interface node. Two bodies that approach,
-//! `(v_a - v_b) . n > 0`, receive equal and opposite impulses, which make the normal velocities
+//! `(v_a - v_b) . n > 0`, receive equal and opposite impulses that make the normal velocities
 //! equal. The impulses also make the tangential velocities equal, unless this requires more than
 //! the friction limit, mu times the normal impulse. Separating bodies receive no impulse.
 //!
@@ -15,7 +15,7 @@
 //!
 //! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
 //! complete impulses. Velocities that strain the bodies before or after the impulses are corrected
-//! in the same way, but only for the strain update.
+//! by the same rule, but only for the strain update.
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
@@ -27,7 +27,7 @@ use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
 use crate::subject::{Checkpoint, Column};
 
-/// Contact among all bodies of a scene.
+/// Contact among all bodies on a grid.
 pub(in crate::mpm) struct Contact<const D: usize> {
     friction: f64,
     interface: InterfaceNodes,
@@ -85,8 +85,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Contact law: returns the contact state, and the change of the relative velocity of two
-    /// bodies.
+    /// Returns the contact state, and the change of the relative velocity of two bodies, by the
+    /// contact law.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
@@ -165,8 +165,8 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// Visits the contact states of the last impulses. The next step applies them to velocities
-    /// that strain the bodies.
+    /// Visits the contact states of the last impulses. The next step applies these states to
+    /// velocities that strain the bodies.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.states[..]);
     }

@@ -9,10 +9,10 @@ use crate::subject::{Checkpoint, Column};
 
 /// Coupling of two or more bodies at their interface nodes.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {
-    /// Returns the name in suites, if the coupling is an effect.
+    /// Returns the name in suite files, if the coupling is an effect.
     fn name(&self) -> Option<&'static str>;
 
-    /// Returns the columns with entries for nodes.
+    /// Returns the columns that the coupling stores per node.
     fn columns(&self) -> Vec<Column<'_>>;
 
     /// Visits the state that persists between steps, to store or restore it.

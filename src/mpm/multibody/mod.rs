@@ -1,12 +1,12 @@
 //! Several bodies on one grid.
 //!
 //! Each body is a [`Solver`] with its own particles, material, effects and fields, on a separate
-//! grid with the same geometry. All bodies run each pass. They are then coupled at the nodes to
-//! which more than one body contributes mass:
+//! grid with the same geometry. All bodies run each pass. The bodies are then coupled at the nodes
+//! to which more than one body contributes mass:
 //!
-//! - [`SharedVelocity`]: the bodies have a common velocity and acceleration there and are bonded
-//!   permanently, as in the original MPM, which does not distinguish bodies (Sulsky, Chen &
-//!   Schreyer 1994);
+//! - [`SharedVelocity`]: the bodies have a common velocity and acceleration at these nodes, and are
+//!   bonded permanently. The original MPM does not distinguish bodies and has the same effect
+//!   (Sulsky, Chen & Schreyer 1994);
 //! - [`Contact`]: each body has its own velocity, and approaching bodies exchange impulses.
 //!
 //! A single body has no coupling.
@@ -77,7 +77,8 @@ impl<const D: usize> Bodies<D> {
         joint_profile(self.solvers.iter().map(Solver::profile), coupling)
     }
 
-    /// Returns the number of visits by all bodies, see [`Solver::take_visits`].
+    /// Returns the numbers of visited particles, summed over all bodies, see
+    /// [`Solver::take_visits`].
     pub fn take_visits(&self) -> Vec<(&'static str, u64)> {
         let tallies = self.solvers.iter().map(|solver| solver.setup.kernel.tally());
         Tally::take(&tallies.collect::<Vec<_>>())

@@ -257,8 +257,8 @@ impl<const D: usize> StepEquations<D> {
 
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
 
-/// Numbers the free components. Indices vary slowest along the longest grid axis, which gives a
-/// narrow band. Returns the indices, and the node of each index.
+/// Numbers the free components. Indices vary slowest along the longest grid axis, so that the band
+/// is narrow. Returns the indices, and the node of each index.
 fn number<const D: usize>(
     grid: &Grid<D>,
     free: &[Vector<D>],

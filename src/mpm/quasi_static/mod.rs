@@ -5,8 +5,8 @@
 //! Load step k of N:
 //!
 //! 1. evaluate the basis functions at the particles;
-//! 2. solve `sum_p V0 tau(F') grad' N_i = (k/N) f_ext_i` for nodal displacement increments, which
-//!    start from zero ([`balance`]);
+//! 2. solve `sum_p V0 tau(F') grad' N_i = (k/N) f_ext_i` for nodal displacement increments,
+//!    starting from zero ([`balance`]);
 //! 3. move the particles, `x += sum_i u_i N_i`, update F, the state of the law and the domains, and
 //!    reset the grid.
 //!
@@ -62,7 +62,7 @@ pub struct QuasiStatic<const D: usize> {
     transfers: u64,
     min_j: f64,
     cell_tracker: CellTracker<D>,
-    /// Residuals of the iterates of the last load step, divided by its load.
+    /// Residuals of the iterates of the last load step, divided by the load of this step.
     residuals: Vec<f64>,
 }
 
@@ -206,7 +206,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         Some(Totals { strain_energy, ..particles.totals(|_| None) })
     }
 
-    /// Returns the reaction. Its time is the sum of the lengths of the load steps.
+    /// Returns the reaction. [`Reaction::time`] is the sum of the lengths of the load steps.
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         let QuasiStaticSetup { grid, boundary, .. } = &self.setup;
         let side = |high| if high { Side::High } else { Side::Low };

@@ -14,8 +14,8 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::Failure;
 
-/// Residual relative to the load at which a step counts as converged. Rounding limits the residual
-/// to between 2e-14 and 1e-11 of the load.
+/// Residual, divided by the load, below which a step counts as converged. Rounding limits the
+/// residual to between 2e-14 and 1e-11 of the load.
 pub(super) const CONVERGED: f64 = 1e-10;
 
 const MOST_CORRECTIONS: usize = 25;
@@ -25,8 +25,8 @@ const PATIENCE: usize = 4;
 
 const MOST_HALVINGS: u32 = 12;
 
-/// Fraction of the reduction predicted by a linear model that the line search requires (Armijo
-/// 1966).
+/// Reduction that the line search requires, as a fraction of the reduction predicted by a linear
+/// model (Armijo 1966).
 const SUFFICIENT: f64 = 1e-4;
 
 pub(super) struct Solution<const D: usize> {
@@ -85,7 +85,7 @@ impl<const D: usize> LoadStep<'_, D> {
         if now.norm / scale < CONVERGED { Ok(now) } else { Err(self.not_converged(&now, scale)) }
     }
 
-    /// Returns the iterate after a Newton correction, which is shortened if required.
+    /// Returns the iterate after a Newton correction. The correction is shortened if required.
     fn corrected(
         &self,
         now: &Iterate<D>,

@@ -84,7 +84,8 @@ impl<const D: usize> Particles<D> {
         (self.rate_across, self.stress_across) = (vec![0.0; self.len()], vec![0.0; self.len()]);
     }
 
-    /// Whether the initial radius of any hoop is NaN or differs from its reference radius.
+    /// Whether the body is a body of revolution with a particle whose initial radius is NaN or
+    /// differs from the reference radius.
     pub(in crate::mpm) fn is_widened(&self) -> bool {
         let is_own = |(x, x0): (&Vector<D>, &Vector<D>)| x[0] == x0[0];
         !self.stress_across.is_empty() && !self.x.iter().zip(&self.x0).all(is_own)

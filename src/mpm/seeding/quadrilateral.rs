@@ -27,9 +27,9 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible. This
-    /// is required by GIMP, which replaces domains by boxes whose half-lengths are the diagonal
-    /// entries of the domain matrix.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
+    /// requires this orientation, because GIMP replaces domains by boxes whose half-lengths are the
+    /// diagonal entries of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -63,8 +63,8 @@ impl Quadrilateral {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
 
-    /// Returns the number of particles along each axis of the map, at least two. The number per
-    /// cell of size `h` (m) is as close to `per_axis` as the mean length of opposite sides allows.
+    /// Returns the number of particles along each axis of the map, at least two. The number is the
+    /// mean length of two opposite sides divided by `h` (m), times `per_axis`, rounded.
     pub fn counts(&self, h: f64, per_axis: usize) -> [usize; 2] {
         [0, 1].map(|i| {
             let length = f64::midpoint(self.side(i).norm(), self.side(i + 2).norm());

@@ -31,7 +31,7 @@ impl<const D: usize> CellTracker<D> {
         Ok(Self { cells, crossings: 0, left_domain: 0 })
     }
 
-    /// Adds the numbers of particles, crossings and departures to `counters`.
+    /// Returns `counters` with the numbers of particles, crossings and departures of this tracker.
     pub(in crate::mpm) fn counters(&self, counters: RunCounters) -> RunCounters {
         RunCounters {
             particles: Some(self.cells.len() as u64),
@@ -46,8 +46,8 @@ impl<const D: usize> CellTracker<D> {
     }
 
     /// Counts cell changes and departures. In the total-Lagrangian frame a particle remains in the
-    /// cell of its reference position, and its position must not be NaN. The error names the first
-    /// particle outside all cells.
+    /// cell of its reference position, and only a non-finite position is an error. The error names
+    /// the first particle outside all cells.
     pub(in crate::mpm) fn track(
         &mut self,
         grid: &Grid<D>,
@@ -121,7 +121,7 @@ impl<const D: usize> Memory for CellTracker<D> {
     }
 }
 
-/// Whether every particle of a batch is still in its previous cell, which is usual.
+/// Whether every particle of a batch is still in its previous cell, the usual case.
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {

@@ -79,8 +79,8 @@ pub fn combine(
     Ok(())
 }
 
-/// Rejects an invalid combination for several bodies on one grid, which either have `contact` or
-/// share one velocity field.
+/// Rejects an invalid combination for several bodies on one grid. The bodies have contact if
+/// `contact` is true, and otherwise share one velocity field.
 ///
 /// # Errors
 /// One line with the part and the reason.

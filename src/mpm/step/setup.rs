@@ -30,13 +30,13 @@ pub struct Setup<const D: usize> {
     pub volume: VolumeName,
     /// The constitutive law.
     pub material: Box<dyn Material<D>>,
-    /// Effects of the scene.
+    /// Effects that act on the body.
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Boundary conditions on faces of the grid. Where faces meet, the last condition applies.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
     /// Time scheme, which defines the order of the stages.
     pub scheme: SchemeName,
-    /// Time of the initial velocity.
+    /// Meaning of the initial velocity in the first step.
     pub start: Start,
 }
 
@@ -47,7 +47,7 @@ impl<const D: usize> Setup<D> {
             || self.boundary.iter().any(|condition| condition.reads_velocity())
     }
 
-    /// Returns the stages of a step. `is_read` states whether another part reads nodal velocities
+    /// Returns the stages of a step. `is_read` is true if another part reads nodal velocities
     /// before they advance.
     pub(in crate::mpm) fn stages(&mut self, is_read: bool) -> &'static [Stage] {
         let G2pRequest { mix, moment, gradient, .. } = self.transfer.g2p_request(0.0);
@@ -77,7 +77,8 @@ impl<const D: usize> Setup<D> {
     }
 }
 
-/// Creates the step profile of a body with these effects and columns, without passes and visits.
+/// Creates the step profile of a body with these effects and columns. The lists of passes and of
+/// visited particles are empty.
 pub(in crate::mpm) fn profile<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,

@@ -34,7 +34,7 @@ pub struct Solver<const D: usize> {
     /// Position of each particle after the step (m), stored between G2P and the update of
     /// positions.
     pub(in crate::mpm) advected: Vec<Vector<D>>,
-    /// Arrays for averaged volume ratios, if the method averages them.
+    /// Arrays for averaged volume ratios; `None` if the method does not average volume ratios.
     pub(in crate::mpm) volume_average: Option<VolumeAverage<D>>,
 }
 
@@ -284,7 +284,8 @@ impl<const D: usize> Solver<D> {
             self.jacobians()?;
         }
         let Setup { particles, material, .. } = &self.setup;
-        // A law that reads F computes J from F. The check of J then covers every number of F.
+        // A law that reads F computes J from F, so the check of J also detects a NaN or an infinity
+        // in F.
         if !material.reads_deformation() {
             particles.deformed_finite()?;
         }

@@ -1,9 +1,9 @@
 //! Implements [`Subject`] for a solver: the step, checkpoints, and the state as a vector of
 //! numbers.
 //!
-//! A step runs the passes of the schedule in order. Checkpoints name every field, so the compiler
-//! reports a field that a checkpoint omits. The grid and the advected positions are recomputed in
-//! each step.
+//! A step runs the passes of the schedule in order. The checkpoint functions list every field by
+//! name, so the compiler reports an omitted field. The grid and the advected positions are
+//! recomputed in each step.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
 //! its column exists, and the affine state of the transfer. The grid has no state between steps.

@@ -1,5 +1,5 @@
-//! F-bar with an averaged volume ratio, which prevents volumetric locking (Zhao, Jiang & Choo 2023,
-//! IJNME 124).
+//! F-bar: an averaged volume ratio prevents volumetric locking (Zhao, Jiang & Choo 2023, IJNME
+//! 124).
 //!
 //! When a law computes the stress of a particle, the law reads a deformation gradient with an
 //! averaged volume ratio:
@@ -203,7 +203,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
         self.material.checkpoint(checkpoint);
     }
 
-    /// Reads the volumes of the particles, which have already been computed from F.
+    /// Uses the particle volumes, which have already been computed from F.
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {
         self.average.own_volume.copy_from_slice(&particles.vol);
         self.with_average(particles, |material, particles| material.start_deformed(particles))

@@ -8,7 +8,8 @@ use crate::mpm::kernel::contract::{Divergence, G2pRequest, Kernel, P2gRequest, P
 use crate::mpm::scheme::Stage;
 use crate::subject::Column;
 
-/// Kind of a transfer, which determines the methods with which it can be combined.
+/// Kind of a transfer. The kind determines with which bases, mass matrices and frames the transfer
+/// can be combined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TransferKind {
     /// Particles have only a velocity.
@@ -40,7 +41,7 @@ impl TransferParameter {
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
 /// loop over particles return the number of passes for the work counter. Each quantity of a request
-/// counts as a pass, even if one visit to the nodes computes several quantities.
+/// counts as a pass, even if one loop over the nodes computes several quantities.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {
@@ -96,9 +97,9 @@ pub trait Transfer<const D: usize>: Send + Sync {
     /// gradient of the request is the affine state that the transfer stores between steps.
     fn g2p_request(&mut self, dt: f64) -> G2pRequest<'_, D>;
 
-    /// Returns the first moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). Its
-    /// antisymmetric part is the internal angular momentum of the particle per unit mass. `None` if
-    /// the particle has only a velocity.
+    /// Returns the first moment of the velocity field around particle `p`, `C_p D_p` (m^2/s). The
+    /// antisymmetric part of this moment is the internal angular momentum of the particle per unit
+    /// mass. `None` if the particle has only a velocity.
     fn moment(&self, _p: usize) -> Option<Matrix<D>> {
         None
     }
@@ -124,8 +125,7 @@ pub(super) fn p2g<const D: usize>(
 /// Performs G2P over `dt` (s) for `stages` in one pass. The pass computes new velocities, velocity
 /// gradients in `particles.grad_v`, and positions after the step in `advected` (m).
 ///
-/// Returns the number of passes. The pass for positions is not included, because it is counted when
-/// the particles move.
+/// Returns the number of passes. The pass for positions is counted later, when the particles move.
 pub fn g2p<const D: usize>(
     transfer: &mut dyn Transfer<D>,
     kernel: &dyn Kernel<D>,
@@ -145,7 +145,8 @@ pub fn g2p<const D: usize>(
         (std::mem::take(&mut particles.v), std::mem::take(&mut particles.grad_v));
     request.value = stages.contains(&Stage::ParticleVelocity).then_some(&mut v);
     let wants_gradient = stages.contains(&Stage::Stress);
-    // The gradient of the transfer is computed from the same velocities, so it is copied.
+    // The gradient of the transfer comes from the same velocities, so it is copied instead of
+    // computed again.
     let is_copied = wants_gradient && !is_fit && request.gradient.is_some();
     if wants_gradient && is_fit {
         request.fit = Some(&mut grad_v);

@@ -1,4 +1,4 @@
-//! FLIP: a particle retains its velocity and adds only the change of the grid velocity.
+//! FLIP: only the change of the grid velocity is added to the particle velocity.
 //!
 //! `v_p += dt sum_i a_i N_i(x_p)` (Brackbill & Ruppel 1986; step 3 of the original MPM in Wobbes &
 //! Tielen 2015).

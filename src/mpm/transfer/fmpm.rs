@@ -1,10 +1,10 @@
-//! FMPM(k): PIC with grid velocities that approximate the result of the consistent mass matrix.
+//! FMPM(k): PIC with an approximate inverse of the consistent mass matrix.
 //!
 //! With S the map from grid to particles and S+ the map back, the consistent matrix is the lumped
 //! matrix times S+ S. The inverse of this matrix is approximated by k terms of the Neumann series,
 //! `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn & Hammerquist 2021,
-//! CMAME 374, eqs 20-24). Momentum and force are both solved in this way. Then the particles
-//! receive the grid velocity. FMPM(1) is PIC.
+//! CMAME 374, eqs 20-24). This inverse converts nodal momenta to velocities, and nodal forces to
+//! accelerations. Then the particles receive the grid velocity. FMPM(1) is PIC.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::boundary::Boundary;
@@ -24,7 +24,7 @@ pub struct Fmpm<const D: usize> {
 }
 
 impl<const D: usize> Fmpm<D> {
-    /// Parameter in suites: the order k.
+    /// Parameter of the method: the order k.
     pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
 
     /// Creates FMPM(k) with k = `order`.

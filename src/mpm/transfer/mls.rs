@@ -1,4 +1,4 @@
-//! MLS-MPM: APIC with gradients from the least-squares fit of its affine field.
+//! MLS-MPM: APIC whose gradients come from the least-squares fit of the affine velocity field.
 //!
 //! `f_int_i = - sum_p V_p sigma_p D_p^-1 (x_i - x_p) N_i` and `grad v_p = C_p = B_p D_p^-1` (Hu et
 //! al. 2018, eqs 17-18). The gradients grad N_i are not needed.

@@ -1,5 +1,5 @@
-//! The family of transfers of velocity between particles and grid. A new transfer requires one file
-//! and one line below, and a second line if its parameter is set in suites.
+//! Registry of the transfers of velocity between particles and grid. A new transfer requires one
+//! file and one line below. A transfer with a parameter requires a second line.
 
 /// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]
@@ -49,7 +49,7 @@ objects! {
 }
 
 objects_with_parameter! {
-    /// Names of the transfers with a parameter in suites.
+    /// Names of the transfers that have a parameter.
     pub enum WithParameter: TransferParameter;
     /// Creates the transfer with this name and this value of its parameter.
     fn with_parameter -> Transfer;
@@ -69,7 +69,8 @@ impl TransferName {
 pub enum TransferChoice {
     /// A registered transfer without a parameter.
     Named(TransferName),
-    /// A transfer with the value of its parameter, which must be in its range.
+    /// A transfer with the value of its parameter, which must be within
+    /// [`TransferParameter::range`].
     With(WithParameter, u32),
 }
 

@@ -1,4 +1,4 @@
-//! PIC: a particle takes the grid velocity and discards its own velocity.
+//! PIC: the interpolated grid velocity replaces the particle velocity.
 //!
 //! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the grid.
 //! This damps variations within a cell.

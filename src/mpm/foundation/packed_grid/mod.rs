@@ -14,10 +14,11 @@
 //! row     | node 0 | node 1 | ... | node n-1 | MARGIN nodes |     x fastest, then y, then z
 //! ```
 //!
-//! The margin of a periodic axis repeats its first nodes, so the nodes of a patch always form a
-//! box. The margin of other axes is zero. Functions with weight zero may read the margin.
+//! The margin of a periodic axis repeats the first nodes of the axis, so the nodes of a patch
+//! always form a box. The margin of other axes is zero. Functions with weight zero may read the
+//! margin.
 //!
-//! The module also defines the columns of nodes to which packed fields are unpacked.
+//! After P2G, the field is unpacked to the columns of the grid ([`Columns`]).
 
 mod node;
 
@@ -59,7 +60,7 @@ impl<N: PackedNode> PackedField<N> {
         FieldViewMut { nodes: &mut self.nodes, layout }
     }
 
-    /// Adds the margins of periodic axes to the nodes that they repeat.
+    /// Adds the numbers in the margins of periodic axes to the nodes that the margins repeat.
     pub(in crate::mpm) fn fold<const D: usize>(&mut self, grid: &Grid<D>) {
         for axis in (0..D).rev().filter(|&axis| grid.periodic[axis]) {
             for (beyond, node) in self.seam(grid, axis) {
@@ -92,7 +93,7 @@ impl PackedField<Node4> {
         FieldView { nodes: &self.nodes, layout: self.layout }
     }
 
-    /// Packs a field of vectors and, optionally, the field `second` in the lanes after it.
+    /// Packs a field of vectors and, optionally, the field `second` in the next lanes of each node.
     pub(in crate::mpm) fn pack<const D: usize>(
         &mut self,
         grid: &Grid<D>,
@@ -135,7 +136,8 @@ impl PackedField<Node4> {
 /// Number of nodes unpacked at a time in 1-D: few enough for all columns to stay in the cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
-/// Columns into which a field is unpacked: for all nodes, or for some layers across the last axis.
+/// Columns into which a packed field is unpacked, for all nodes or for some layers of nodes. A
+/// layer is perpendicular to the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// Nodal mass, from the last of the four lanes.
@@ -149,7 +151,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     pub(in crate::mpm) before: usize,
 }
 
-/// Returns the range of all node layers across the last axis of a packed field.
+/// Returns the indices of all node layers of a packed field, counted along the last axis.
 pub(in crate::mpm) fn layers<const D: usize>(grid: &Grid<D>) -> Range<usize> {
     0..grid.counts[D - 1] + MARGIN
 }
@@ -166,7 +168,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, before: *before }
     }
 
-    /// Splits the columns into the nodes before `layer` of the grid and the nodes from `layer`.
+    /// Splits the columns at the first node of grid layer `layer`.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);

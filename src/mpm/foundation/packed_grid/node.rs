@@ -47,8 +47,8 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
     fn force(&self) -> [f64; LANES];
 }
 
-/// Returns the first lane of a force among its four lanes. In 1-D these also contain momentum and
-/// mass.
+/// Returns the position of a force within the four lanes that contain it. In 1-D these lanes also
+/// contain momentum and mass.
 pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
     if dimension == 1 { 1 } else { 0 }
 }
@@ -224,8 +224,8 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
         self.nodes.fill(N::default());
     }
 
-    /// Splits the view at a layer across the last of D axes. The second part begins with this
-    /// layer.
+    /// Splits the view at the first node of a layer. Layers are perpendicular to the last of the D
+    /// axes.
     pub(in crate::mpm) fn split_at<const D: usize>(self, layer: usize) -> (Self, Self) {
         let Self { nodes, layout } = self;
         let before = layout.before.max(layer * layout.strides[D - 1]);

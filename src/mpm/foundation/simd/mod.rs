@@ -27,11 +27,11 @@ use std::ops::Range;
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 use std::sync::LazyLock;
 
-/// Loop over registers. All functions called by the loop must be `#[inline(always)]`. Other
-/// functions are compiled for the baseline processor.
+/// A loop that can be compiled for several kinds of registers. All functions called by the loop
+/// must be `#[inline(always)]`. Other functions are compiled for the baseline processor.
 pub trait SimdPass: Sized {
-    /// Whether the loop is faster with AVX-512, which has 32 registers instead of 16, twice as
-    /// wide.
+    /// Whether the loop is faster with AVX-512. AVX-512 has 32 registers instead of 16, and they
+    /// are twice as wide as those of AVX2.
     const NEEDS_AVX512: bool;
 
     /// Runs the loop.
@@ -253,8 +253,8 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // A conjunction of the masks would be a call that is not inlined, so each mask is
-                // checked separately.
+                // Each mask is checked separately, because a call that combines both masks would
+                // not be inlined.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 

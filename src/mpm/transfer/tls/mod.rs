@@ -84,7 +84,8 @@ impl<const D: usize> Transfer<D> for Tls<D> {
         self.quadrature.columns().into_iter().chain(points).collect()
     }
 
-    /// Performs separate P2G passes for each stage, because each stage integrates other fields.
+    /// Performs a separate P2G pass for each stage, because each stage integrates a different
+    /// field.
     fn p2g(
         &mut self,
         kernel: &dyn Kernel<D>,

@@ -1,5 +1,6 @@
 //! Quadrature points: the Gauss points of full cells, and the particles in cells at the boundary of
-//! the body. In these boundary cells a polynomial would extend outside the body.
+//! the body. In a boundary cell, a polynomial fitted to the particles would extend outside the
+//! body.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -13,7 +14,7 @@ const RULE: [(f64, f64); 3] = [
     (0.774_596_669_241_483_4, 5.0 / 18.0),
 ];
 
-/// Second moments below this fraction of h^2 are rounding errors.
+/// Fraction of h^2 below which a second moment of the particle positions in a cell counts as zero.
 const SMALLEST: f64 = 1e-6;
 
 /// A point at which the fields of a cell are integrated.
@@ -25,7 +26,8 @@ pub(in crate::mpm) struct QuadraturePoint<const D: usize> {
     pub(in crate::mpm) particle: Option<usize>,
     /// Centre of the cell of the point (m).
     pub(in crate::mpm) centre: Vector<D>,
-    /// Second moments of a fit below this value (m^2) count as zero.
+    /// Value (m^2) below which a second moment of the particle positions in the cell counts as
+    /// zero.
     pub(in crate::mpm) smallest: f64,
     pub(in crate::mpm) members: (usize, usize),
 }
@@ -56,7 +58,7 @@ impl<const D: usize> QuadraturePoints<D> {
         ]
     }
 
-    /// Allocates the columns; returns the maximum number of points.
+    /// Allocates all arrays, and returns the maximum number of quadrature points.
     pub(in crate::mpm) fn start(&mut self, grid: &Grid<D>, particles: &Particles<D>) -> usize {
         let cells: usize = grid.cells.iter().product();
         let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
@@ -80,7 +82,7 @@ impl<const D: usize> QuadraturePoints<D> {
         &self.order[point.members.0..point.members.1]
     }
 
-    /// Computes the points for particles that have moved.
+    /// Replaces the quadrature points by those for the current particle positions.
     pub(in crate::mpm) fn place(&mut self, grid: &Grid<D>, particles: &Particles<D>) {
         self.sort(grid, particles);
         self.all.clear();
