@@ -12,7 +12,8 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// An external solver that has been started, and its gate.
+/// A running external solver with its gate. A gate is the set of requirements that the solver must
+/// meet for the command to succeed.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -51,8 +52,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
-    /// Returns true if there are no such reasons.
+    /// Prints the skipped suites, and an error if cases that must be tested are untested. Returns
+    /// true without such an error. Failed cases are not checked here.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -104,7 +105,7 @@ struct ConfigSpec {
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
     order: Option<f64>,
-    /// Bound on errors that are accepted without an order.
+    /// Errors at or below this bound are accepted for any order.
     error_below: Option<f64>,
     /// Reason why the suite is not run.
     skip: Option<String>,
