@@ -8,7 +8,8 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Maximum volume, as a share of a box, that counts as rounding error.
+/// If the part of the body in a set has at most this share of the volume of the box, the set counts
+/// as empty.
 const SLIVER: f64 = 1e-12;
 
 /// Compiles the particle sets. Their loads are compiled later.

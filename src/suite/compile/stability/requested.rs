@@ -1,4 +1,5 @@
-//! Quantities that a run measures separately, only if a suite requests them.
+//! Determines whether a suite requests quantities that runs measure only on request: the null space
+//! of the grid, and the energy ledger.
 
 use crate::mpm::TransferKind;
 use crate::subject::PlaneState;

@@ -25,7 +25,7 @@ pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
-    /// Step lengths (s), used cyclically.
+    /// Step lengths (s); after the last one, the first one follows again.
     pub(crate) dt: Vec<f64>,
     /// Share of the stable time step for an automatic `dt`, which is computed once the particles
     /// exist.
@@ -204,14 +204,16 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
-/// Default maximum energy of a stable run, relative to the initial energy. It allows for the energy
-/// exchange between velocities and stresses in a leapfrog scheme just below its stability limit.
+/// Default maximum energy of a stable run, relative to the initial energy. The value allows for a
+/// leapfrog scheme just below its stability limit, in which energy is exchanged between velocities
+/// and stresses.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Default energy, relative to the initial energy, above which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Returns the scales of measured values and the energy bounds for runs of `scene`.
+/// Returns the values by which measured quantities are divided, and the energy bounds, for runs of
+/// `scene`.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
