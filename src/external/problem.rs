@@ -24,8 +24,8 @@ pub struct LevelProblem {
     pub materials: Vec<ProblemMaterial>,
     /// Shapes of the bodies in the reference configuration, in the order of `materials`.
     pub bodies: Vec<ProblemBody>,
-    /// Condition normal to the plane of two-dimensional bodies; always plane strain in one and
-    /// three dimensions.
+    /// Out-of-plane state of two-dimensional bodies; always plane strain in one and three
+    /// dimensions.
     pub plane: PlaneState,
     /// Contact between the bodies; `None` if bodies that touch move together.
     pub contact: Option<ProblemContact>,

@@ -25,7 +25,8 @@ study_spec! {
         show: Vec<crate::verify::RunFigure>,
         /// Methods to be studied. List values give one case for each combination.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<StabilityExpectSpec>,
     }
@@ -42,7 +43,7 @@ pub(crate) struct ParticleSpec {
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Positions (m) of additional particles, which have the volume of the others.
+    /// Positions (m) of additional particles, each with the volume of a lattice particle.
     #[serde(default)]
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
@@ -111,7 +112,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// Expected value, as a formula of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Maximum deviation from `is`, relative to the value, or to one if the value is smaller.
+    /// Maximum deviation from `is`, relative to `is` (or to one, if `is` is smaller).
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

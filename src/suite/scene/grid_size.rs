@@ -8,8 +8,8 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Number of spare grid cells outside a free face, for bodies that expand. The grid is also
-/// extended there by a tenth of the body length.
+/// Number of spare grid cells outside a free face, for bodies that expand. A tenth of the body
+/// length is added to these cells.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {

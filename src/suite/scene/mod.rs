@@ -30,8 +30,8 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// Map of a quadrilateral, which is a mapped box. All other bodies with an outline have free
-    /// surfaces.
+    /// Map from a box to a quadrilateral; `None` for other shapes. All other shapes with an outline
+    /// have free surfaces.
     pub mapped: Option<Quadrilateral>,
     /// Lowest and highest corner of the stated grid (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
@@ -63,7 +63,7 @@ pub struct Scene {
     pub initial_velocity: Vec<Formula>,
 }
 
-/// Distance that is treated as rounding error, relative to the size of the body.
+/// Distances up to this share of the body size are treated as rounding errors.
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {

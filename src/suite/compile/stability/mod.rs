@@ -3,7 +3,7 @@
 //! ```text
 //! setup    parameter values -> the set-up of a run, its scales and bounds
 //! expect   the expectations
-//! requested   figures that need a measurement of their own
+//! requested   quantities that are measured only on request
 //! ```
 
 pub(crate) mod expect;

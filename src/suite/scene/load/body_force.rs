@@ -9,8 +9,8 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations (with unrolled sums) of a formula that is precomputed for each
-/// position.
+/// Formulas with at most this number of operations (counted with unrolled sums) are precomputed for
+/// each position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.
