@@ -21,8 +21,8 @@ use record::{RunState, record};
 
 const STEPS: usize = 6;
 
-/// Built-in suites for the checks, starting with the simplest. Their bodies move at the start,
-/// because a body at rest hides errors of the step length.
+/// Built-in suites for the checks, starting with the simplest. The bodies move at the start,
+/// because a body at rest would hide a wrong step length.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 

@@ -66,7 +66,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
     }
 }
 
-/// Name of the finding that a run did not complete.
+/// Name of the finding for a run that did not complete.
 const BROKE: &str = "does-not-get-through";
 
 fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {

@@ -181,8 +181,8 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         size(minus(mean(course.last()), mean(1)))
     };
     let ratio = distance(half) / distance(whole);
-    // The ratio is 1/2 at constant speed and 1/4 at constant acceleration. The examination
-    // `translation` reports bodies that do not move.
+    // For half the step length, the ratio is 1/2 at constant speed and 1/4 at constant
+    // acceleration. The examination `translation` reports bodies that do not move.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

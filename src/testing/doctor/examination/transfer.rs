@@ -4,13 +4,14 @@
 //! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
 //! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
 //! rotation or a stretch about the centre C. The moment `M = sum m (X - C) x v` (rotation) or `M =
-//! sum m (X - C) . v` (stretch) measures its transfer.
+//! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
 //!
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. D is the second
 //! moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines, and
-//! beta is the share of PIC. An affine transfer loses `1 - a` times as much if its matrix C is
-//! wrong by the factor a. It loses twice as much of a rotation if C is transposed, and nothing if C
-//! is correct (Jiang et al. 2015, eq. 8 to 11).
+//! beta is the share of PIC. An affine transfer (APIC) loses nothing if its affine matrix is
+//! correct (Jiang et al. 2015, eq. 8 to 11). If the matrix is wrong by the factor a, it loses `1 -
+//! a` times as much as PIC. If the matrix is transposed, it loses twice as much of a rotation as
+//! PIC.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -39,7 +40,7 @@ const RATE: f64 = 1e-4;
 /// Basis functions whose averaging loss is known.
 const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 
-/// Maximum relative difference between a loss and the loss of a basis.
+/// Maximum relative difference between a measured loss and the predicted loss for a basis.
 const NEAR: f64 = 0.03;
 
 /// Loss (relative to h2 and the inertia) below which a transfer counts as conserving the moment.
@@ -101,8 +102,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines the initial velocity of a stretched body: whether the solver uses it, its layout, and
-/// whether it grows.
+/// Examines a body that starts with a stretching velocity: whether the solver uses this velocity,
+/// whether vectors are stored point by point, and whether the velocity grows.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -248,7 +249,7 @@ fn cause(
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));
     let is_averaging = match of_basis {
         Some(of_basis) => is_alike(of_basis.later, stretch.later),
-        // The factor allows for the decay of the averaging error in later steps.
+        // The factor 0.65 allows for the decay of the averaging error in later steps.
         None => stretch.later > 0.65 * stretch.first,
     };
     // FLIP may replace a part of the averaging of any basis.

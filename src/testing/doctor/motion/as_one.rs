@@ -1,4 +1,4 @@
-//! Causes of errors if a body keeps its shape but moves incorrectly.
+//! Determines the cause if a body keeps its shape but moves incorrectly.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -116,7 +116,7 @@ fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
 }
 
-/// Returns a finding if displacements disagree with correct velocities.
+/// Returns a finding if displacements are wrong although the velocities are correct.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];

@@ -26,8 +26,8 @@ const STRETCH_RATE: f64 = 1e-4;
 /// Gravity (m/s2).
 const GRAVITY: f64 = 1e-3;
 
-/// Minimum displacement into a wall for which the run is repeated with half the step, in the unit
-/// of [`Wall::sinking`].
+/// If the body sinks into the wall by more than this value (in the unit of [`Wall::sinking`]), the
+/// run is repeated with half the step length.
 pub(super) const SUNK: f64 = 0.1;
 
 /// Results of the runs for one wall; `None` for a quantity that no run measures.
@@ -46,8 +46,8 @@ pub(super) struct Wall {
     /// Error of the force under gravity that does not change with time, relative to the weight of
     /// one cell.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, relative to that of a free body while a wave crosses one
-    /// cell.
+    /// Displacement through the wall, relative to the displacement of a free body while a wave
+    /// crosses one cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to the product of velocity and step length.
     pub(super) jump: Option<f64>,
@@ -180,8 +180,8 @@ pub(super) fn walls_across(
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
 /// uniformly until a wave arrives from its free end. A method reproduces this motion if its basis
-/// functions represent a linear velocity up to the wall. They do not if nodes behind the wall are
-/// fixed at zero, because the exact velocity there has the opposite sign.
+/// functions represent a linear velocity up to the wall. This fails if nodes behind the wall have
+/// zero velocity, because the linear velocity has the opposite sign there.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -229,7 +229,7 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     let other = (axis + 1) % kind.0;
-    // Full length along the walls, half the length between them.
+    // The body has the full length along the walls, and half the length from wall to wall.
     scene.body.1[axis] = scene.body.0[axis] + 0.5 * CELLS * H;
     scene.grid.1[axis] = scene.body.1[axis];
     scene.body.1[other] = scene.body.0[other] + CELLS * H;
@@ -309,8 +309,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Returns the displacement (m) along the axis at the wall at the end. It is extrapolated by a
-    /// line through the points less than two cells from the wall.
+    /// Returns the displacement (m) along the axis at the wall at the end. The displacement is
+    /// extrapolated by a line through the points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {

@@ -76,7 +76,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         measured.push(format!("sliding: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
-    // A wall that moves or is missing also causes non-uniform sliding.
+    // Sliding is judged only without other findings, because a moving or missing wall also makes it
+    // non-uniform.
     if findings.is_empty() {
         findings.extend(sliding.findings);
     }
