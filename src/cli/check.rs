@@ -142,7 +142,7 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Prepares the findings about `count` suites. Notes are printed in full if every target is a
+    /// Creates empty findings for `count` suites. Notes are printed in full if every target is a
     /// single suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;

@@ -1,5 +1,5 @@
 //! `run --gate` and `--solver-config`: determines the requirements on a solver, and checks whether
-//! it meets them.
+//! the solver meets them.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};

@@ -97,7 +97,8 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// Compiles the translation of the particles (m). It must keep every particle in its cell.
+/// Compiles the translation of the particles (m). The translation must keep every particle in its
+/// cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");

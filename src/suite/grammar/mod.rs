@@ -107,7 +107,7 @@ pub(crate) enum StudyName {
     Convergence,
     /// Internal force on a node while a particle moves through the node.
     InternalForce,
-    /// Whether runs stay bounded, and the limit of a parameter.
+    /// Whether runs stay bounded, and the largest stable value of a parameter.
     Stability,
     /// Derivatives that a differentiable solver reports.
     Gradient,

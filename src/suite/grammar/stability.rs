@@ -18,7 +18,8 @@ study_spec! {
         run: StabilityRunSpec,
         /// The swept parameter and its values.
         sweep: Ordered<OneOrMany<NumberText>>,
-        /// The parameter whose largest stable value is determined for each row.
+        /// The parameter whose largest stable value is determined, for each value of the swept
+        /// parameter.
         critical: Option<CriticalSpec>,
         /// Measured quantities in the report.
         #[serde(default)]
@@ -74,7 +75,7 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) unstable_above: Option<NumberText>,
 }
 
-/// The parameter whose stability limit is sought, and its range.
+/// The parameter whose largest stable value is determined, and the range of the search.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

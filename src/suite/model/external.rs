@@ -8,8 +8,8 @@ use std::sync::Arc;
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
     /// examines the internals of a method. A convergence study keeps the cases that it states for
-    /// this solver. If it states none, it gets one case for each combination of solution to compare
-    /// with and end time. With `gate`, each case without an expectation must reach an order or an
+    /// this solver. If it states none, it gets one case for each combination of end time and
+    /// reference solution. With `gate`, each case without an expectation must reach an order or an
     /// error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
@@ -168,7 +168,7 @@ impl Case {
     }
 }
 
-/// Returns one case of the solver for each combination of solution to compare with and end time.
+/// Returns one case of the solver for each combination of end time and reference solution.
 fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
     let mut cases: Vec<Case> = Vec::new();

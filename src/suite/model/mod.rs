@@ -41,11 +41,11 @@ pub struct Suite {
     pub about: String,
     /// Name and text of every parameter, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
-    /// Head and formula of each declared function.
+    /// Head (such as `s(tau)`) and formula of each declared function.
     pub functions: Vec<(String, String)>,
     /// The study plan.
     pub study: Arc<dyn StudyPlan>,
-    /// Fingerprint of the file's text.
+    /// Hash of the text of the file.
     pub(crate) fingerprint: u64,
 }
 

@@ -21,7 +21,7 @@ pub struct RefinePlan {
 /// One refinement level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPlan {
-    /// Cells along the first axis of the grid, or of the body.
+    /// Number of cells along the first axis of the stated grid; of the body if no grid is stated.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,

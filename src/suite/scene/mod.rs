@@ -48,9 +48,9 @@ pub struct Scene {
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
-    /// The bodies if there are several, otherwise empty. Each is a scene with the same grid, faces
-    /// and loads. In this case, `self` is the bounding box of all bodies, with the material of the
-    /// first one.
+    /// The bodies if there are several, otherwise empty. Each body is a scene with the same grid,
+    /// faces and loads. If there are several bodies, `self` describes their bounding box and the
+    /// material of the first body.
     pub bodies: Vec<Self>,
     /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
     /// field.

@@ -25,7 +25,7 @@ pub enum Severity {
 
 /// An error, warning or note about a file: message, position, and correct form.
 ///
-/// `Display` formats it like an error of `rustc`, with the source line and a caret.
+/// `Display` formats a diagnostic like an error of `rustc`, with the source line and a caret.
 /// [`Diagnostic::one_line`] is for editors and logs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic(Box<Parts>);

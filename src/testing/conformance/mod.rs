@@ -1,10 +1,9 @@
-//! Checks whether a solver conforms to the contract of [`Subject`](crate::subject::Subject), before
-//! any verdict.
+//! Checks whether a solver conforms to the contract of [`Subject`](crate::subject::Subject).
 //!
 //! ```text
-//! start    column sizes, labels, weights and motion before the first step
-//! course   order of labels, finite numbers, counters and sums over a few steps
+//! course   columns, labels, weights and motion at the start; counters and sums over a few steps
 //! again    repeated sampling, half-length step, new subject, resumed run
+//! record   recorded runs, and the type of a breach
 //! ```
 
 mod again;

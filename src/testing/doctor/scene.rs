@@ -1,4 +1,4 @@
-//! Small scenes, written as suites and passed to the solver like suites.
+//! Small scenes. A scene is converted to the text of a suite, and the suite to a problem.
 
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};

@@ -17,8 +17,8 @@ struct StatedStep {
 
 /// Checks that every level and the reference have valid time steps. If time is refined, the steps
 /// must decrease from level to level. In a run that is compared with a computed reference, steps
-/// must end at the instants of the reference. This may change the time step by at most the
-/// tolerance.
+/// must end at the instants of the reference. This may change the time step by at most
+/// [`STEP_TOLERANCE`].
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -92,7 +92,8 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a number of instants that changes the time step of `case` by more than the tolerance.
+/// Refuses a number of instants that changes the time step of `case` by more than
+/// [`STEP_TOLERANCE`].
 fn as_wanted(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,5 @@
-//! Compiles the exact solution or equilibrium of a suite, and checks that it solves its problem.
+//! Compiles the exact solution or equilibrium of a suite, and checks that it solves the problem of
+//! the suite.
 //!
 //! A stated equilibrium is compared with the state at the end of the run.
 
@@ -355,7 +356,7 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Placeholder for a suite without exact solution, in which only conserved sums are judged.
+/// Placeholder for a suite without exact solution, in which only conserved sums are checked.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {

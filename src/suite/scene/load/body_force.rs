@@ -101,7 +101,6 @@ impl SceneLoad for BodyForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
-    /// Formulas with more than `MOST_OPERATIONS` operations are not precomputed.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));

@@ -53,8 +53,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
-/// Returns the largest difference of a column at the end of two runs, relative to its largest
-/// value.
+/// Returns the largest difference of a column at the end of two runs, relative to the largest value
+/// of the column.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));

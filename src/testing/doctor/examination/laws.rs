@@ -25,7 +25,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Displacement gradient at the end of the run.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
 
-/// Stretch rate (1/s) in the examination of volumes.
+/// Stretch rate (1/s) in [`volumes`].
 const STRETCHED: f64 = 0.5;
 
 /// Initial displacement gradient of a body that starts deformed.
@@ -162,7 +162,7 @@ fn deformed(kind: Kind) -> BoxScene {
     BoxScene { displacement, ..scene }
 }
 
-/// Creates the field with this gradient that is zero at the centre of the body.
+/// Creates a field that is zero at the centre of the body and has the given gradient.
 fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
     let d = scene.dimension;
     let gradient = std::array::from_fn(|i| {
@@ -171,7 +171,8 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// Fits F in the middle of the body at the end, row by row, to displacements (least squares).
+/// Computes F in the middle of the body at the end of the run, row by row, by a least-squares fit
+/// to the displacements.
 pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =

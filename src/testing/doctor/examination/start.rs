@@ -22,8 +22,8 @@ pub(super) const EXAMINATION: Examination = Examination {
 };
 
 /// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Other
-/// deformations distribute the particles unevenly over cells, which reduces the force by a tenth
-/// with linear functions.
+/// deformations distribute the particles unevenly over cells. With linear functions, this reduces
+/// the force by a tenth.
 const SHEAR: f64 = 1.0;
 
 /// Initial stretch in one dimension.

@@ -9,9 +9,9 @@
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. D is the second
 //! moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines, and
 //! beta is the share of PIC. An affine transfer (APIC) loses nothing if its affine matrix is
-//! correct (Jiang et al. 2015, eq. 8 to 11). If the matrix is wrong by the factor a, it loses `1 -
-//! a` times as much as PIC. If the matrix is transposed, it loses twice as much of a rotation as
-//! PIC.
+//! correct (Jiang et al. 2015, eq. 8 to 11). If the matrix is wrong by the factor a, the transfer
+//! loses `1 - a` times as much as PIC. If the matrix is transposed, the transfer loses twice as
+//! much of a rotation as PIC.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;

@@ -1,4 +1,4 @@
-//! Examination of a rigid body at constant speed that crosses several cells, away from any lattice.
+//! Examination of a rigid body that crosses several cells at constant speed.
 
 use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;

@@ -5,7 +5,7 @@
 //! the free faces. Until then, there is no net force inside the body. Momentum is transferred from
 //! one half to the other by `dP_j/dt = -sigma_ij A` through the middle plane with normal i. The
 //! transfer is measured in a tube, which consists of the points near axis i. Velocities alone
-//! determine it exactly, for any basis functions.
+//! determine this transfer exactly, for any basis functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`

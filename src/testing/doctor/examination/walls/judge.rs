@@ -209,7 +209,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
 /// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // Averaging (PIC) also lets the body sink, but increases the sinking with smaller steps.
+    // With averaging (PIC) the body also sinks, but smaller steps make it sink more.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
     // The wall fixes its nodes correctly but does not carry their weight (half a cell).
     let is_missing =

@@ -7,7 +7,7 @@ use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
 /// Length of the bar (cells).
 const CELLS: f64 = 16.0;
-/// Distance that waves travel during a run (cells). It is less than half the bar.
+/// Distance that waves travel during a run (cells); less than half the length of the bar.
 pub(super) const TRAVEL: f64 = 7.0;
 
 /// Number of steps; waves travel a quarter of a cell per step.
@@ -224,8 +224,8 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
 }
 
-/// Creates a broad body between two `fixed` walls normal to `axis`. It moves along the walls with
-/// the speed `c/1000` (m/s), and the run ends before waves have crossed it.
+/// Creates a broad body between two `fixed` walls normal to `axis`. The body moves along the walls
+/// with the speed `c/1000` (m/s), and the run ends before waves have crossed the body.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     let other = (axis + 1) % kind.0;
