@@ -197,7 +197,8 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Key to compare with `wanted`. Deserialization fails on purpose at the key to be located.
+/// Seed that compares a key with `wanted`. If the key itself is to be located, deserialization
+/// fails on purpose at this key.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

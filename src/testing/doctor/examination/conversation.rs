@@ -100,7 +100,7 @@ fn grouped_under_acceleration(
         let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
         for i in 0..kind.0 {
             stretch.gradient[i][i] = 0.1;
-            // Fast enough to make particles change cells.
+            // At this velocity, particles change cells.
             stretch.value[i] = 1.0;
         }
         scene.velocity = stretch;

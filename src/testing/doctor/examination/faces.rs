@@ -15,8 +15,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) by which the outermost particles have crossed a cell face. The next nodes
-/// receive only this fraction of a regular nodal mass.
+/// Distance (cells) by which the outermost particles have crossed a cell face. Nodes that only
+/// these particles reach have only this fraction of a regular nodal mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Maximum strain of a rigid body due to rounding errors.

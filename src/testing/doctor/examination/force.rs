@@ -243,8 +243,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Applies a force that grows linearly with X. Returns a finding if the velocities after one step
-/// do not grow linearly with X.
+/// Returns a finding if the velocities after one step do not grow linearly with X. The force in the
+/// run `course` grows linearly with X.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {

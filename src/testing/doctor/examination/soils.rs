@@ -2,10 +2,10 @@
 //! objectivity and the number of steps.
 //!
 //! The body is so heavy that no wave moves during the run. It therefore follows `v = L (X - X_c)`,
-//! and its deformation gradient grows from I to `I + L` in one second. The stress in its middle
-//! follows from the law along this path. The built-in solver computes the expected stress in a
-//! Total Lagrangian run, which represents the motion exactly. The measured motion determines the
-//! path, because averaging (PIC) and basis functions on a fixed grid change the motion.
+//! and its deformation gradient grows from I to `I + L` in one second. The stress in the middle of
+//! the body follows from the law along this path. The built-in solver computes the expected stress
+//! in a Total Lagrangian run, which represents the motion exactly. The measured motion determines
+//! the path, because averaging (PIC) and basis functions on a fixed grid change the motion.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -83,8 +83,8 @@ impl Leg {
         !(self.relative_error() <= NEAR)
     }
 
-    /// Returns the largest difference between the stress errors of the two paths, relative to the
-    /// largest component.
+    /// Returns the largest difference between the stress errors of `self` and `other`, relative to
+    /// the largest expected component.
     fn distance_from(&self, other: &Self) -> f64 {
         let errors = |leg: &Self| -> Vec<f64> {
             leg.stress.iter().zip(&leg.expected).map(|(found, expected)| found - expected).collect()

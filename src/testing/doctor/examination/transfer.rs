@@ -6,12 +6,12 @@
 //! rotation or a stretch about the centre C. The moment `M = sum m (X - C) x v` (rotation) or `M =
 //! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
 //!
-//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. D is the second
-//! moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines, and
-//! beta is the share of PIC. An affine transfer (APIC) loses nothing if its affine matrix is
-//! correct (Jiang et al. 2015, eq. 8 to 11). If the matrix is wrong by the factor a, the transfer
-//! loses `1 - a` times as much as PIC. If the matrix is transposed, the transfer loses twice as
-//! much of a rotation as PIC.
+//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. Here d is the number
+//! of axes along which v varies, and beta is the share of PIC. D is the second moment of the
+//! weights along an axis: 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines. An affine transfer
+//! (APIC) loses nothing if its affine matrix is correct (Jiang et al. 2015, eq. 8 to 11). If the
+//! matrix is wrong by the factor a, the transfer loses `1 - a` times as much as PIC. If the matrix
+//! is transposed, the transfer loses twice as much of a rotation as PIC.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -43,7 +43,7 @@ const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 /// Maximum relative difference between a measured loss and the predicted loss for a basis.
 const NEAR: f64 = 0.03;
 
-/// Loss (relative to h2 and the inertia) below which a transfer counts as conserving the moment.
+/// A transfer conserves the moment if its losses (in the unit of [`Losses`]) are below this value.
 const KEPT: f64 = 0.004;
 
 const STEPS: u64 = 5;
@@ -54,8 +54,9 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. I is the
-/// moment of inertia divided by the mass.
+/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. Here d is
+/// the number of axes along which the velocity varies, and I is the moment of inertia divided by
+/// the mass.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
@@ -77,7 +78,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // Velocities in another order lose the whole moment in the first step, and nothing later.
+    // If velocities are in another order than points, the whole moment is lost in the first step,
+    // and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step the velocities of a stretched body belong to other places";
         let finding = SolverFinding::defect(
@@ -191,8 +193,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small` is
-/// a stretch of a body of an eighth of the size.
+/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small`
+/// contains the losses in a stretch of a body with an eighth of the size.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -252,7 +254,7 @@ fn cause(
         // The factor 0.65 allows for the decay of the averaging error in later steps.
         None => stretch.later > 0.65 * stretch.first,
     };
-    // FLIP may replace a part of the averaging of any basis.
+    // The transfer may be a blend of PIC and FLIP, with any basis.
     let is_blend = averaging.iter().any(|l| {
         let share = stretch.first / l.first;
         let decay = 1.0 - share * (1.0 - l.later / l.first);

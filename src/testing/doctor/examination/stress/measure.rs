@@ -162,8 +162,8 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Returns F_00 - 1 from the column `deformation_gradient`, relative to its value in the motion;
-/// `None` without this column.
+/// Returns F_00 - 1 from the column `deformation_gradient`, relative to F_00 - 1 of the exact
+/// motion; `None` without this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;

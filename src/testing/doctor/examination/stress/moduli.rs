@@ -223,7 +223,8 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
-/// Returns acceleration factors with known causes; no two factors are equal.
+/// Returns the factors by which known mistakes change accelerations, each with the mistake. No two
+/// factors are equal.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

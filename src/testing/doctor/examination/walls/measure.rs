@@ -128,7 +128,7 @@ pub(super) fn walls_across(
     let sides = [false, true].map(|high| BarEnd { axis, high });
     let fall = falls.then(|| &courses[courses.len() - 1]);
     let sunk = fall.map(|course| sides.map(|side| sinking(side, course)));
-    // Only a body that sinks into the wall is run again.
+    // The run is repeated only if the body sinks into a wall.
     let halved = match sunk {
         Some(sunk) if sunk.iter().any(|sunk| !(sunk.abs() <= SUNK)) => {
             Some(patient.run_all(&[falling.with_half_the_step()])?)
@@ -137,7 +137,8 @@ pub(super) fn walls_across(
     };
     Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        // The first run pushes the high wall and pulls the low wall; the second the reverse.
+        // In the first run the body pushes the high wall and pulls the low wall; in the second run,
+        // the reverse.
         let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
         let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
         let run_along = if axis == 0 { 2 } else { 1 };
