@@ -52,8 +52,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the skipped suites, and an error if cases that must be tested are untested. Returns
-    /// true without such an error. Failed cases are not checked here.
+    /// Prints the skipped suites. Prints an error and returns false if no case is tested, or if a
+    /// suite that must be tested is not. Failed cases are not checked here.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {

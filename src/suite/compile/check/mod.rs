@@ -151,8 +151,8 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses the expectation at `path` if it bounds the drift of a sum that the FEM bar does not
-/// compute.
+/// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
+/// or conserve.
 pub(crate) fn check_drift(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -212,7 +212,7 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("use `lumped` to judge a reaction"))
 }
 
-/// Refuses the energy bound at `path` for a body whose law has no energy.
+/// Refuses the key at `path`, which needs the energy of the body, if the law has no energy.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

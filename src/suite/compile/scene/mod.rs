@@ -66,7 +66,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// Combines all `bodies` into one scene. A single body is returned unchanged.
+/// Combines all `bodies` into one scene. If `several` is false, returns the only body.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -55,7 +55,7 @@ pub(crate) fn null_space(
 }
 
 /// Whether a requested quantity needs the energy ledger, which assigns energy changes to the stages
-/// of a step. Refuses several bodies.
+/// of a step. Refuses scenes and studies for which the ledger is not implemented.
 pub(crate) fn ledger(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -181,7 +181,8 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
-/// Refuses a frozen body that is not stress-free and at rest, or on which a load acts.
+/// Refuses a frozen run of bodies that have an initial stress or motion, carry loads, or are in
+/// contact.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
