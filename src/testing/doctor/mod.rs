@@ -93,7 +93,8 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// Returns the first examination with defects among those that `examination` depends on.
+/// Returns the first examination with defects on which `examination` depends, directly or through a
+/// skipped one.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

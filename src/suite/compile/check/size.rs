@@ -1,4 +1,5 @@
-//! Checks that every level fits into memory, and that fixed faces have grid nodes.
+//! Checks that every level fits into memory, that fixed faces have grid nodes, and that the body
+//! and the sets contain particles.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -19,7 +20,8 @@ pub(crate) struct LevelPaths {
     pub(crate) dt: Path,
 }
 
-/// Refuses a level that is too large, or that has no nodes on a fixed face.
+/// Refuses a level that is too large, has no nodes on a fixed face, or has no particle in a set or
+/// a small body.
 pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
