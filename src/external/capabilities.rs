@@ -62,8 +62,7 @@ pub struct ProblemNeeds {
     pub conditions: Vec<&'static str>,
     /// Names of the loads and effects.
     pub loads: Vec<&'static str>,
-    /// Optional column that contains the quantity whose error is measured; `None` if the study
-    /// needs no optional column.
+    /// Optional column with the quantity whose error is measured, if the study needs one.
     pub column: Option<&'static str>,
     /// Parameters for which the study needs derivatives.
     pub gradients: Vec<&'static str>,

@@ -12,8 +12,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// A running external solver with its gate. A gate is the set of requirements that the solver must
-/// meet for the command to succeed.
+/// A running external solver, with the gate (set of requirements) that it must pass.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -122,7 +121,6 @@ struct SolverConfig {
 }
 
 impl SolverConfig {
-    /// Reads the file and checks it for a run of `suites`.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;

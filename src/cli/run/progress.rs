@@ -69,7 +69,6 @@ impl RunProgress {
         self.bar.inc(1);
     }
 
-    /// Hides the bar while `print` runs.
     pub(super) fn suspend(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }
@@ -100,8 +99,8 @@ impl ProgressState {
     }
 }
 
-/// Estimates the remaining time of a run that has taken `seconds` and finished levels with a
-/// predicted time of `done`, out of `all` (s). `None` while the estimate is unreliable.
+/// Estimates the remaining time after `seconds`, from the predicted times (s) of the finished
+/// levels (`done`) and of all levels (`all`). `None` while the estimate is unreliable.
 fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     if !(done > ENOUGH * all && seconds > 1.0) {
         return None;

@@ -161,8 +161,8 @@ fn two() -> f64 {
     2.0
 }
 
-/// A column: either its numbers, or the part of the bytes after the message that contains them,
-/// given by its offset in bytes and the number of doubles.
+/// A column: its numbers, or its position in the bytes after the message, as offset (bytes) and
+/// number of doubles.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColumnText {

@@ -34,8 +34,8 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject in a solver process. One message requests all steps up to the next instant (a step
-/// whose state is compared with the exact solution), because other states are not used.
+/// A subject in a solver process. One message requests all steps up to the next state that is
+/// compared with the exact solution.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,

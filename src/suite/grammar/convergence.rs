@@ -36,8 +36,7 @@ study_spec! {
         /// Quantity and norm of the error from which the order is determined.
         #[serde(default)]
         judge: JudgeSpec,
-        /// Point whose velocity history and displacement are reported; the displacement is
-        /// extrapolated to its limit on fine grids.
+        /// Point whose velocity history and extrapolated displacement are reported.
         observe: Option<ObserveSpec>,
         /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
         /// fail.

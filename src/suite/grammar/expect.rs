@@ -27,7 +27,7 @@ pub(crate) struct ExpectSpec {
     pub(crate) finest_pair: Option<Vec<NumberText>>,
     /// Whether particles change their cell on the finest level.
     pub(crate) crossings: Option<CrossingsName>,
-    /// Axis whose spacing causes the part of the error that no longer falls (error floor).
+    /// Axis whose spacing causes the error floor (the error that no longer falls).
     pub(crate) floor: Option<FloorCause>,
             $($(#[$doc])* pub(crate) $key: Option<NumberText>,)+
     /// Bounds on the relative change of sums over the body, such as the mass.

@@ -86,8 +86,7 @@ pub struct ConvergencePlan {
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Point (m) whose velocity history and displacement are reported; the displacement is
-    /// extrapolated to its limit on fine grids.
+    /// Point (m) whose velocity history and extrapolated displacement are reported.
     pub observe: Option<Vec<f64>>,
     /// The cases: all combinations of the lists in `methods`, in order.
     pub cases: Vec<Case>,

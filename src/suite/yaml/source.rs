@@ -143,8 +143,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// Reads all bytes, up to the maximum. The limit applies while reading, because the file size may
-/// be unknown or grow.
+/// Checks the maximum size while reading, because the file size may be unknown or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);

@@ -105,7 +105,6 @@ impl BoxScene {
         }
     }
 
-    /// Returns this scene with twice as many steps of half the length.
     pub(super) fn with_half_the_step(&self) -> Self {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }

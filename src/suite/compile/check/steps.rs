@@ -71,8 +71,7 @@ fn usable(
     })
 }
 
-/// Refuses a level whose time step is not smaller than that of the previous level, as stated or
-/// after rounding to a whole number of steps.
+/// Refuses a level whose stated or rounded time step is not smaller than on the previous level.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -12,8 +12,8 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// Returns the sum whose error the suite measures, with its exact value; `None` if the suite
-/// measures the error of another quantity.
+/// Returns the sum whose error is measured, with its exact value; `None` if the suite measures
+/// another quantity.
 ///
 /// # Errors
 /// The reason why a method or the exact solution does not define the sum.

@@ -127,7 +127,6 @@ pub(crate) fn velocity(
         .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
-/// Compiles the initial stress of the reference configuration.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,

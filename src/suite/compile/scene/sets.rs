@@ -8,8 +8,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// If the part of the body in a set has at most this share of the volume of the box, the set counts
-/// as empty.
+/// A set counts as empty if at most this share of its volume is in the body.
 const SLIVER: f64 = 1e-12;
 
 /// Compiles the particle sets. Their loads are compiled later.

@@ -1,5 +1,5 @@
-//! Determines whether a suite requests quantities that runs measure only on request: the null space
-//! of the grid, and the energy ledger.
+//! Determines whether a suite requests the null space of the grid or the energy ledger, which runs
+//! compute only on request.
 
 use crate::mpm::TransferKind;
 use crate::subject::PlaneState;

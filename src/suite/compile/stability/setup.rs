@@ -25,7 +25,7 @@ pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
-    /// Step lengths (s); after the last one, the first one follows again.
+    /// Step lengths (s), repeated cyclically.
     pub(crate) dt: Vec<f64>,
     /// Share of the stable time step for an automatic `dt`, which is computed once the particles
     /// exist.

@@ -42,8 +42,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         needs.column = Some("stress");
     })?;
     let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
-    // All laws are examined in the first supported number of dimensions, and the first law in all
-    // numbers of dimensions.
+    // All laws run in the first supported number of dimensions, and the first law in all of them.
     let laws = FINITE.into_iter().map(|law| (first.dimension, law));
     let dimensions = [1, 2, 3].into_iter().map(|d| (d, first.law));
     let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();

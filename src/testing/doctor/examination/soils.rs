@@ -29,8 +29,8 @@ const LAWS: [&str; 2] = ["drucker_prager", "mohr_coulomb"];
 /// and the error is up to 0.016.
 const NEAR: f64 = 0.025;
 
-/// Maximum error on the path with a rotation. The value is larger than [`NEAR`], because affine
-/// transfers change a rotation in their first step.
+/// Maximum error on the path with a rotation; larger than [`NEAR`], because affine transfers change
+/// a rotation in their first step.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
 /// The stress depends on the number of steps if the errors with one and with 20 steps have at most

@@ -54,9 +54,8 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. Here d is
-/// the number of axes along which the velocity varies, and I is the moment of inertia divided by
-/// the mass.
+/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. I is the
+/// moment of inertia divided by the mass.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
@@ -104,8 +103,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines a body that starts with a stretching velocity: whether the solver uses this velocity,
-/// whether vectors are stored point by point, and whether the velocity grows.
+/// Examines a stretching body: whether the solver uses the initial velocity, stores vectors point
+/// by point, and keeps the velocity from growing.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;

@@ -61,8 +61,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Refuses conditions on the surface of a body with an outline. Also refuses loads on the surface,
-/// except loads that may act on the rim of a disk or an annulus.
+/// Refuses conditions on the rims of a body, and loads on rims unless they may act on round rims.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -10,11 +10,11 @@ use crate::testing::doctor::scene::FACES;
 /// over the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Wall forces up to this value (relative to the expected force of a fixed wall) count as zero: the
-/// body can separate from the wall or slide along it.
+/// Wall forces up to this value, relative to the expected force, count as zero: the body separates
+/// from the wall or slides along it.
 const NONE: f64 = 0.2;
 
-/// If the wall forces are at most this value (relative to the expected force), the wall is missing.
+/// A wall is missing if its forces are at most this value, relative to the expected force.
 const ABSENT: f64 = 0.1;
 
 /// Maximum relative difference between forces of walls that are mirror images, or that differ only

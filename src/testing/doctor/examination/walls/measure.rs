@@ -18,7 +18,6 @@ const SPEED: f64 = 1e-3;
 
 /// Distance that waves travel during the run of the stretched bar (cells).
 const STRETCH_TRAVEL: f64 = 4.0;
-/// Number of steps of the stretched bar.
 const STRETCH_STEPS: u64 = 16;
 /// Strain rate of the stretched bar, multiplied by the time in which a wave crosses a cell.
 const STRETCH_RATE: f64 = 1e-4;

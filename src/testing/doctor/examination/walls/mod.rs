@@ -76,8 +76,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         measured.push(format!("sliding: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
-    // Sliding is judged only without other findings, because a moving or missing wall also makes it
-    // non-uniform.
+    // Non-uniform sliding is reported last, because a moving or missing wall also causes it.
     if findings.is_empty() {
         findings.extend(sliding.findings);
     }
