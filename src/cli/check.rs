@@ -103,14 +103,15 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
-    /// Whether notes are printed in full, instead of only counted.
+    /// False if notes are only counted, true if they are printed.
     has_notes: bool,
     suites: Vec<Value>,
     /// Summary of the suites that the external solver can run; `None` without an external solver.
     applicable: Option<ApplicableSuites>,
 }
 
-/// Suites that an external solver can run, and the capabilities that it lacks for other suites.
+/// Counts the suites that an external solver can run, and the capabilities that it lacks for the
+/// rest.
 #[derive(Default)]
 struct ApplicableSuites {
     names: Vec<String>,
@@ -141,7 +142,7 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Prepares the findings about `count` suites. Notes are printed in full if every target is a
+    /// Creates empty findings for `count` suites. Notes are printed in full if every target is a
     /// single suite.
     pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
@@ -189,8 +190,8 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// Adds a suite that can run, with its findings. External solvers are judged by `run --gate`,
-    /// so they need no expectation in the suite.
+    /// Adds a suite that can run, with its findings. A run with an external solver needs no
+    /// expectations, because `run --gate` checks its results.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,
@@ -308,7 +309,7 @@ fn sound(suite: &Suite, is_explored: bool) -> String {
     format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
 }
 
-/// Rounds to one significant digit, because an estimate is not more accurate.
+/// Rounds an estimate to one significant digit, because further digits are not reliable.
 fn rounded(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }

@@ -53,7 +53,7 @@ enum ComparedResults {
     Snapshots(ReportDocument),
 }
 
-/// Prints the changes between two runs. Both sides are read first, and errors in both are reported.
+/// Prints the changes between two runs. If both runs have errors, reports the errors of both.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let tolerance = args.tolerance;
     if !(tolerance.is_finite() && tolerance >= 0.0) {

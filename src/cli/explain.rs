@@ -67,7 +67,7 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
     Err(CommandError::option("--without", name, reason))
 }
 
-/// Note on the integration of linear elasticity, which the equation does not show.
+/// Note on how the solver integrates the linear elastic law; the printed equation omits this.
 const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
                           objective rate";
 

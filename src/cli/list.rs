@@ -58,7 +58,8 @@ pub(super) struct StepsArgs {
     format: FormatArgs,
 }
 
-/// Prints the time steps of each suite. The status is `Failed` if a step exceeds the tolerance.
+/// Prints the time steps of each suite. The status is `Failed` if an actual step differs from the
+/// requested step by more than [`STEP_TOLERANCE`].
 pub(super) fn steps(args: &StepsArgs) -> Status {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let is_off = Cell::new(false);

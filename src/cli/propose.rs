@@ -58,8 +58,8 @@ fn of_suite(
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
-    // The remarks include warnings about the amplitude, the grid and the steps, because no
-    // expectation can correct such errors.
+    // A wrong amplitude, grid or time step cannot be corrected by an expectation, so the warnings
+    // of `check` are printed too.
     let found = preflight(&exploring, source);
     let remarks = found.iter().map(|found| {
         let help = found.help().map(|help| format!("; {help}"));

@@ -142,8 +142,8 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Suggests a file or suite for the path of a missing file: a file in the same folder with a
-/// similar name, or a suite with this name.
+/// Suggests a replacement for the path of a missing file: a similar file name in the same folder,
+/// or a suite with the name of the file.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));

@@ -1,4 +1,4 @@
-//! Prints information about suites: one page after the other, or one JSON document.
+//! Prints information about suites, as one text page for each suite or as one JSON document.
 
 use super::output::{CommandError, Status};
 use super::{output, select};
@@ -13,8 +13,7 @@ pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> Stat
     try_each(targets, |_, suite| Ok(page(suite)))
 }
 
-/// Prints a page for each suite, or its error. `page` receives the suite and its file, and may
-/// fail.
+/// Prints a page for each suite, or the error if the suite cannot be loaded or `page` fails.
 pub(super) fn try_each(
     targets: &[PathBuf],
     page: impl Fn(&Source, &Suite) -> Result<String, CommandError>,

@@ -58,8 +58,8 @@ pub(super) fn greet(
     Ok(solver)
 }
 
-/// Replaces the methods of the suite by the solver, if there is one. If the suite tests internals
-/// of a method, which external solvers do not have, prints a note and returns `None`.
+/// Replaces the methods of the suite by the solver, if there is one. Prints a note and returns
+/// `None` if the suite tests internals of the built-in methods.
 pub(super) fn in_place_of_methods(
     suite: Suite,
     solver: Option<&dyn SolverFactory>,
@@ -83,8 +83,9 @@ fn suite_of_solver(
     judged
 }
 
-/// Replaces the methods of the suites by the solver. A suite gets a gate if `terms` returns its
-/// requirements. Also returns the names of skipped suites, which test internals of a method.
+/// Replaces the methods of the suites by the solver. If `terms` returns requirements for a suite,
+/// the run checks the solver against them. Also returns the names of the skipped suites, which test
+/// internals of the built-in methods.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,

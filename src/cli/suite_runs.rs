@@ -23,8 +23,8 @@ impl SuiteRuns {
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// Prepares runs of the suites with each solver (`of_each`), after runs with their own methods
-    /// if `with_methods`. Suites without any run are skipped.
+    /// Prepares a run of each suite in `of_each` with its solver. If `with_methods` is true, the
+    /// methods of `suites` run first. Suites without any run are skipped.
     pub(super) fn of_solvers(
         suites: &[Suite],
         of_each: Vec<Vec<Suite>>,

@@ -38,7 +38,7 @@ pub struct Capabilities {
     pub initial_stress: bool,
     /// Whether the body force may depend on the displacement.
     pub displacement_force: bool,
-    /// Whether the reference density may vary over a body. The particle masses include the
+    /// Whether the reference density may vary over a body. The given particle masses include this
     /// variation.
     pub varying_density: bool,
     /// Whether loads may act on the rims of disks and annuli.
@@ -62,7 +62,7 @@ pub struct ProblemNeeds {
     pub conditions: Vec<&'static str>,
     /// Names of the loads and effects.
     pub loads: Vec<&'static str>,
-    /// Optional column that contains the judged quantity, if the study needs one.
+    /// Optional column with the quantity whose error is measured, if the study needs one.
     pub column: Option<&'static str>,
     /// Parameters for which the study needs derivatives.
     pub gradients: Vec<&'static str>,
@@ -106,7 +106,8 @@ impl Capabilities {
         }
     }
 
-    /// Lists the missing capabilities, each as the entry that the solver would have to state.
+    /// Lists the missing capabilities, each as the entry that the solver would have to add to
+    /// `hello`.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -285,7 +286,7 @@ fn known(capability: &str) -> &'static [&'static str] {
     }
 }
 
-/// Returns the unknown name in `stated` that is most similar to `name`.
+/// Returns the first unknown name in `stated` that is probably a misspelling of `name`.
 fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'a str> {
     let known = known(capability);
     let unknown = stated.iter().map(String::as_str).filter(|stated| !known.contains(stated));

@@ -28,8 +28,9 @@ pub struct HandedValues {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, HandedNumber>"))]
     pub values: Vec<(&'static str, HandedNumber)>,
-    /// Keys of the quantities that are not constant. Each has the keys of a request `values` that
-    /// it depends on: `reference_position`, `t`, `displacement`.
+    /// Keys of the quantities that are not constant. The list after each key contains the arguments
+    /// of the quantity (`reference_position`, `t` or `displacement`), named as in a `values`
+    /// request.
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, Vec<String>>"))]
     pub asked: Vec<(&'static str, Vec<&'static str>)>,
@@ -189,8 +190,7 @@ pub(crate) trait ForceSource: Send + Sync {
         self.at(body, label, t)
     }
 
-    /// Implements [`BodyForceField::at_places`], if this is cheaper than evaluation at single
-    /// points.
+    /// Implements [`BodyForceField::at_places`]; `None` if evaluation point by point is as cheap.
     fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         None
     }

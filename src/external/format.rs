@@ -1,4 +1,4 @@
-//! Writes a problem to a file, for comparison by hand and for viewers.
+//! Converts a problem to a file, for manual inspection or a viewer.
 
 use super::problem::LevelProblem;
 use crate::named::named;
@@ -17,7 +17,7 @@ named! {
         Csv = "csv",
         /// One document with the keys of the protocol.
         Json = "json",
-        /// Arrays of NumPy, one for each column and for the grid.
+        /// NumPy arrays: one for each column, and arrays with grid and time step.
         Npz = "npz",
         /// Points with data, for ParaView.
         Vtu = "vtu",

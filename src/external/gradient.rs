@@ -64,8 +64,7 @@ impl LevelProblem {
         }
     }
 
-    /// Changes one parameter of the problem. A changed density changes all masses; nothing else
-    /// changes.
+    /// Changes one parameter of the problem. A new density also changes all particle masses.
     #[must_use]
     pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
         match parameter {
@@ -103,8 +102,8 @@ impl LevelProblem {
 
 impl Functional {
     /// Computes the functional for `samples` of particles with the masses `mass` (kg), and its
-    /// rounding error. The rounding error depends on the positions, because displacements are their
-    /// differences. The value is NaN if the particle or axis does not exist.
+    /// rounding error. Displacements are differences of positions, so their rounding error grows
+    /// with the positions. The value is NaN if the particle or axis does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();

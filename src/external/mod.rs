@@ -37,7 +37,7 @@ pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, r
 
 /// Creates an external solver for any level of a suite.
 pub trait SolverFactory: Sync {
-    /// Returns the name of the solver and of its cases in reports.
+    /// Returns the name of the solver. Reports also use it as the name of the case.
     fn name(&self) -> &str;
 
     /// Returns the theoretical order in h of the displacement error for a smooth solution.
@@ -55,9 +55,9 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// Returns the hash of all inputs that affect the results, except the problem: the program and
-    /// its arguments. Later runs of a solver with the same hash use cached results. `None` (the
-    /// default): results are not cached.
+    /// Returns a hash of everything that affects the results apart from the problem, such as the
+    /// program and its arguments. Later runs of a solver with the same hash use cached results. By
+    /// default, `None` is returned and results are not cached.
     fn identity(&self) -> Option<u64> {
         None
     }
@@ -68,8 +68,8 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// Creates a subject in the initial state of `problem`. Its labels are the reference positions
-    /// of the particles, or of the solver's own sample points.
+    /// Creates a subject in the initial state of `problem`. The labels of the subject are the
+    /// reference positions of the particles, or of the solver's own sample points.
     ///
     /// # Errors
     /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not
@@ -77,8 +77,8 @@ pub trait SolverFactory: Sync {
     /// fails.
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError>;
 
-    /// Computes a functional after all steps of `problem`, and its gradient. By default, a solver
-    /// is not differentiable.
+    /// Computes a functional after all steps of `problem`, and its gradient. The default
+    /// implementation returns [`GradientError::Cannot`].
     ///
     /// # Errors
     /// [`GradientError::Cannot`] if the solver does not support this gradient,

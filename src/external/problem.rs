@@ -1,4 +1,4 @@
-//! Problem of one level, in a form for any solver.
+//! The problem of one level, in a form that does not depend on the solver.
 
 use super::fields::{BodyForceField, HandedValues, ProblemFields, as_map};
 use crate::subject::PlaneState;
@@ -6,7 +6,8 @@ use serde::Serialize;
 #[cfg(feature = "schemas")]
 use std::collections::BTreeMap;
 
-/// Initial state of one level of a study, and all other inputs of its run.
+/// All inputs of a solver for one level of a study: initial state, grid, materials, loads and
+/// steps.
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -23,7 +24,7 @@ pub struct LevelProblem {
     pub materials: Vec<ProblemMaterial>,
     /// Shapes of the bodies in the reference configuration, in the order of `materials`.
     pub bodies: Vec<ProblemBody>,
-    /// State of two-dimensional bodies normal to their plane; plane strain in one and three
+    /// Out-of-plane state of two-dimensional bodies; always plane strain in one and three
     /// dimensions.
     pub plane: PlaneState,
     /// Contact between the bodies; `None` if bodies that touch move together.
@@ -185,7 +186,7 @@ pub struct ProblemBody {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ProblemContact {
-    /// Contact law: `coulomb`, which excludes penetration and tension and adds Coulomb friction.
+    /// Contact law: `coulomb`, meaning no penetration, no tension, and Coulomb friction.
     pub law: &'static str,
     /// Coefficient of friction.
     pub coefficient: f64,
@@ -204,8 +205,8 @@ pub struct ProblemMaterial {
     pub parameters: Vec<(&'static str, f64)>,
     /// Reference density (kg/m3), or its largest value if it varies over the body.
     pub density: f64,
-    /// Reference density (kg/m3) that varies over the body, as a formula of X, Y, Z. Particle
-    /// masses are its integrals over the particles.
+    /// Reference density (kg/m3) that varies over the body, as a formula of X, Y, Z. The mass of a
+    /// particle is the integral of this formula over the particle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub varying_density: Option<String>,
 }
@@ -242,7 +243,7 @@ pub struct ProblemLoad {
     pub numbers: HandedValues,
 }
 
-/// Box that contains the material points whose reference position is inside or on its faces.
+/// Box that selects the material points whose reference position is in the box or on its surface.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[non_exhaustive]

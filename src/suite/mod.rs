@@ -6,7 +6,7 @@
 //! scene     the body, its loads and boundary conditions, each with its keys
 //! grammar   the keys and values that a file may contain
 //! model     checked values: methods, plans
-//! compile   grammar -> model: computes numbers, resolves names, checks the truth
+//! compile   grammar -> model: computes numbers, resolves names, checks the exact solution
 //! ```
 //!
 //! Each module imports only modules listed above it.

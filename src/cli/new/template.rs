@@ -76,9 +76,9 @@ pub(super) struct NamedChoice {
     pub(super) known: Vec<&'static str>,
 }
 
-/// Template variables for each dimension. Levels run within seconds, so they are coarse in 3-D. The
-/// interval between instants is a multiple of the time step. The motion has a different phase along
-/// each axis, so some parts are stretched while others are compressed.
+/// Template variables for each dimension. The 3-D levels are coarse, because every level should run
+/// within seconds. Each axis has a different phase of the motion, so parts of the body are
+/// stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [
     [
         ("body", "bar"),

@@ -68,8 +68,8 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the HTML page. Suites and outcomes are in the order of `sources`, except that refused and
-/// skipped suites are missing.
+/// Writes the HTML page. `suites` and `outcomes` have the order of `sources`, without refused and
+/// skipped suites.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
@@ -98,7 +98,7 @@ pub(super) fn write_page(
 /// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether all cases are written, not only those with unexpected results.
+    /// True if all cases are written; false if only cases with unexpected results are written.
     all: bool,
 }
 

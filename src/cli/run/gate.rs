@@ -1,5 +1,5 @@
 //! `run --gate` and `--solver-config`: determines the requirements on a solver, and checks whether
-//! it meets them.
+//! the solver meets them.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -12,7 +12,7 @@ use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// An external solver that has been started, and its gate.
+/// A running external solver, with the gate (set of requirements) that it must pass.
 pub(super) struct JudgedSolver {
     pub(super) program: SolverProgram,
     pub(super) gate: Option<SolverGate>,
@@ -51,8 +51,8 @@ impl SolverGate {
         if self.allows_not_applicable { BTreeSet::new() } else { self.named.clone() }
     }
 
-    /// Prints the exceptions, and the reasons other than failed cases why the solver does not pass.
-    /// Returns true if there are no such reasons.
+    /// Prints the skipped suites. Prints an error and returns false if no case is tested, or if a
+    /// suite that must be tested is not. Failed cases are not checked here.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -104,7 +104,7 @@ struct ConfigSpec {
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
     order: Option<f64>,
-    /// Bound on errors that are accepted without an order.
+    /// Errors at or below this bound are accepted for any order.
     error_below: Option<f64>,
     /// Reason why the suite is not run.
     skip: Option<String>,
@@ -121,7 +121,6 @@ struct SolverConfig {
 }
 
 impl SolverConfig {
-    /// Reads the file and checks it for a run of `suites`.
     fn read(file: &Path, suites: &[Suite]) -> Result<Self, Diagnostic> {
         let source = Source::read(file)?;
         let spec: ConfigSpec = read(&source)?;

@@ -93,7 +93,8 @@ fn report(
     let (runs, judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites without a selected case are skipped. The order of the other suites does not change.
+    // Suites without a selected case have no source; the remaining sources keep the order of
+    // `suites`.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -114,7 +115,7 @@ fn report(
         bar.note_at_interrupt(note.clone());
     }
     let mut shown = Ok(());
-    // Outcomes of the suites for each solver, which its gate checks.
+    // Outcomes for each solver, in the order of `judging.solvers`, for the check of its gate.
     let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
     let mut outcomes: Vec<SuiteOutcome> = Vec::new();
     for suite in &runs {
@@ -163,7 +164,7 @@ fn report(
             output::complain("error: no case is applicable to the solver");
             return Ok(Status::Failed);
         }
-        // The gate is checked even if cases have failed, because it prints its exceptions.
+        // `passes` is called even if cases have failed, because it prints the skipped suites.
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
     Ok(if passed { Status::Passed } else { Status::Failed })
@@ -214,7 +215,7 @@ struct Judging {
 }
 
 impl Judging {
-    /// Returns the settings for reporting the results in a cache without running levels.
+    /// Returns settings that take all results from the cache `kept` and run no level.
     fn of_kept(kept: ResultCache) -> Self {
         let (solvers, repeat) = (Vec::new(), 1);
         Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
@@ -246,8 +247,8 @@ fn one(
     let warn = |warning: &StepWarning| {
         bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
     };
-    // A suite may deliberately use steps that are too long, and expect the result. These warnings
-    // are therefore printed only for cases that fail.
+    // A suite may deliberately use time steps that are too long. Warnings about long steps are
+    // therefore printed only for cases that fail.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {

@@ -64,7 +64,7 @@ impl Printing {
     }
 }
 
-/// Formats complete reports of the cases with unexpected results, below the names of their suites.
+/// Formats the reports of all cases with unexpected results, with the suite name above each group.
 fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
@@ -76,7 +76,7 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
     text
 }
 
-/// Returns one line with the location of the reports.
+/// Returns a line that describes where the reports are.
 fn place(args: &ReportArgs, sources: &[Source]) -> String {
     if let Some(folder) = &args.out {
         return format!("reports: {}", folder.join("SUITE.txt").display());

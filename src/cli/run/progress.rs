@@ -12,7 +12,8 @@ use std::time::Instant;
 /// Exit status after Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// Fraction of the predicted time that must have passed before the remaining time is shown.
+/// The remaining time is shown after levels with this fraction of the total predicted time have
+/// finished.
 const ENOUGH: f64 = 0.02;
 
 pub(super) struct RunProgress {
@@ -68,7 +69,6 @@ impl RunProgress {
         self.bar.inc(1);
     }
 
-    /// Hides the bar while `print` runs.
     pub(super) fn suspend(&self, print: impl FnOnce()) {
         self.bar.suspend(print);
     }
@@ -99,8 +99,8 @@ impl ProgressState {
     }
 }
 
-/// Estimates the remaining time after `seconds` if `done` of `all` predicted seconds are finished.
-/// `None` while the estimate is unreliable.
+/// Estimates the remaining time after `seconds`, from the predicted times (s) of the finished
+/// levels (`done`) and of all levels (`all`). `None` while the estimate is unreliable.
 fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     if !(done > ENOUGH * all && seconds > 1.0) {
         return None;

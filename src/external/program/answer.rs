@@ -1,4 +1,5 @@
-//! Answers of a solver, including its capabilities and columns of numbers.
+//! Messages of a solver: answers, with capabilities and columns of numbers, and requests for
+//! values.
 
 use super::error::{ProgramError, plain, printable};
 use super::frame::MessageFrame;
@@ -17,7 +18,7 @@ pub(super) enum Answer {
     Hello(Hello),
     /// The problem is accepted.
     Ready {
-        /// Sample points of the states; by default the particles.
+        /// Points at which the solver reports its states; by default the particles of the problem.
         #[serde(default)]
         points: Option<Points>,
     },
@@ -39,7 +40,7 @@ pub(super) enum Answer {
         /// Description of the failure.
         reason: String,
     },
-    /// Not an answer: a request for the body force.
+    /// A request for the body force.
     BodyForce {
         /// Time (s).
         t: f64,
@@ -55,7 +56,7 @@ pub(super) enum Answer {
         #[serde(default)]
         body: Option<usize>,
     },
-    /// Not an answer: a request for values of a field.
+    /// A request for values of a field.
     Values {
         /// The field: `body_force`, `displacement`, `velocity`, `deformation_gradient`, `stress`,
         /// `initial_stress`, `load:INDEX` or `face:NAME`.
@@ -77,7 +78,7 @@ pub(super) enum Answer {
     },
 }
 
-/// Sample points of a solver without particles, or with other particles.
+/// Sample points of a solver that does not use the particles of the problem.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub(super) struct Points {
     /// Reference positions (m), D numbers each.
@@ -91,13 +92,13 @@ pub(super) struct Points {
 pub(super) struct State {
     /// Columns by name: `displacement` (m), `velocity` (m/s), and the columns in `capabilities`.
     pub(super) columns: BTreeMap<String, ColumnText>,
-    /// Number of cell changes of particles so far.
+    /// Total number of times that a particle has moved to another cell.
     #[serde(default)]
     pub(super) crossings: Option<u64>,
-    /// Particles outside the grid.
+    /// Number of particles outside the grid.
     #[serde(default)]
     pub(super) left_domain: Option<u64>,
-    /// Smallest determinant of F so far.
+    /// Smallest determinant of F of any particle since the start.
     #[serde(default)]
     pub(super) min_j: Option<f64>,
 }
@@ -160,7 +161,8 @@ fn two() -> f64 {
     2.0
 }
 
-/// A column, as numbers or as a part of the bytes after the message: offset and number of doubles.
+/// A column: its numbers, or its position in the bytes after the message, as offset (bytes) and
+/// number of doubles.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum ColumnText {
@@ -169,7 +171,7 @@ pub(super) enum ColumnText {
 }
 
 impl ColumnText {
-    /// Returns the number of entries that the column states.
+    /// Returns the number of entries, without reading the bytes.
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Numbers(numbers) => numbers.len(),

@@ -1,8 +1,8 @@
 //! The process of a solver, with limits on its time and memory.
 //!
-//! Two threads read the output of the process and one writes its input. A process that neither
-//! reads nor writes therefore does not block the caller. Each thread ends when its pipe closes, at
-//! the latest when the process is killed.
+//! Two threads read the output of the process, and another one writes its input. The caller is
+//! therefore not blocked by a process that neither reads nor writes. Each thread ends when its pipe
+//! closes, at the latest when the process is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -115,7 +115,7 @@ impl Connection {
     /// Waits for the next answer and its block of bytes.
     ///
     /// # Errors
-    /// Reason of the failure. The process has then been killed.
+    /// Returns the reason of the failure, and kills the process.
     pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), ProgramError> {
         let found = match self.heard() {
             Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
@@ -129,8 +129,8 @@ impl Connection {
         })
     }
 
-    /// Returns the next message, if it arrives in time. A child process may keep the pipe open
-    /// after the process has ended. Therefore the process itself is polled too.
+    /// Returns the next message, if it arrives in time. Also polls whether the process has ended,
+    /// because a child of the process may keep the pipe open.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
@@ -203,7 +203,7 @@ impl Drop for Connection {
     }
 }
 
-/// Calls `look` until it returns a result or the time limit is reached.
+/// Calls `look` until `look` returns a result or the time `most` has passed.
 fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T> {
     let start = Instant::now();
     loop {

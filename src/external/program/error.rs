@@ -5,8 +5,8 @@ use crate::subject::{HIGHEST_ORDER, LONGEST_NAME};
 use std::io;
 use thiserror::Error;
 
-/// Failure of a solver process, or violation of the protocol. Each text is a predicate whose
-/// subject is the solver.
+/// Failure of a solver process, or violation of the protocol. Most messages continue a sentence
+/// that begins with the name of the solver.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ProgramError {
@@ -45,7 +45,7 @@ pub enum ProgramError {
     /// The output ended within an answer or a block of bytes.
     #[error("ended in the middle of {0}")]
     Truncated(&'static str),
-    /// An answer is longer than this number of bytes, the maximum for any valid answer.
+    /// An answer is longer than this maximum number of bytes.
     #[error("answered with more than {0} bytes")]
     TooLong(usize),
     /// An answer contains a number that JSON does not support, such as NaN.

@@ -31,7 +31,7 @@ pub(super) struct Inquiry {
 }
 
 impl Inquiry {
-    /// Prepares the answers for a solver of `problem` that uses this `version` of the protocol. The
+    /// Prepares to answer a solver of `problem` that uses this `version` of the protocol. The
     /// default points of a request are the particles.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
@@ -60,18 +60,19 @@ impl Inquiry {
         Ok(())
     }
 
-    /// Returns a field of the initial state at the default points, if it is defined there.
+    /// Returns a field of the initial state at the default points; `None` if the field is
+    /// undefined.
     pub(super) fn start(&self, of: FieldName) -> Option<Vec<f64>> {
         let at = FieldPlaces::new(&self.labels, &self.bodies);
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
     }
 
-    /// Resets the number of requests, and allows at most `requests`.
+    /// Resets the count of requests, and sets its maximum to `requests`.
     pub(super) fn allow(&mut self, requests: u64) {
         (self.asked, self.most) = (0, requests);
     }
 
-    /// Answers a request that is followed by a block of `bytes`.
+    /// Answers a request. `bytes` is the block of bytes that follows the request.
     pub(super) fn answer(
         &mut self,
         request: ValueRequest,
@@ -128,7 +129,7 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // A load that is equal at all points is evaluated at a single default point.
+            // A load that is equal at all points has a single default point, assigned to body 0.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }

@@ -29,7 +29,7 @@ pub fn protocol_schema() -> String {
     serde_json::to_string_pretty(&schema).unwrap_or_default() + "\n"
 }
 
-/// Adds the key that announces a block of bytes to the schema of a message.
+/// Adds the key `bytes` to the schema of a message. This key announces a block of bytes.
 fn with_bytes(schema: Schema) -> Value {
     let mut schema = schema.to_value();
     if let Value::Object(message) = &mut schema {

@@ -22,7 +22,7 @@ pub(super) const PROTOCOL: u64 = 2;
 /// Versions of the protocol that a solver may use.
 pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 
-/// Maximum number of requests for values between a problem and the answer `ready`.
+/// Maximum number of requests for values before the solver answers a problem with `ready`.
 const SETUP_QUESTIONS: u64 = 10_000;
 
 /// An external solver that a command starts.
@@ -54,7 +54,8 @@ impl SolverProgram {
     }
 
     /// Gives the solver another name, for example to distinguish two solvers that run the same
-    /// program. If a suite states expectations for a solver by name, they then apply to `name`.
+    /// program. Expectations that a suite states for an external solver are then looked up under
+    /// `name`.
     ///
     /// # Errors
     /// If `name` is not a valid solver name.
@@ -113,9 +114,9 @@ pub(super) struct Started {
     pub(super) connection: Connection,
     pub(super) inquiry: Inquiry,
     pub(super) hello: Hello,
-    /// Sample points of the solver; `None` if its sample points are the particles.
+    /// Sample points of the solver; `None` if it reports states at the particles.
     pub(super) points: Option<Points>,
-    /// Block of bytes after the answer that states the points.
+    /// Block of bytes after the `ready` answer, with the columns of `points`.
     pub(super) bytes: Vec<u8>,
 }
 
@@ -191,7 +192,7 @@ impl SolverFactory for SolverProgram {
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = self.hello.capabilities.known.lacking(needs);
         if self.hello.protocol == 1 {
-            // A capability that is also missing for another reason is reported only once.
+            // Excludes capabilities that are already in `lacking`.
             let stated = needs.beyond_version_1().into_iter();
             let stated = stated.filter(|need| !lacking.iter().any(|known| known.starts_with(need)));
             let new: Vec<String> = stated

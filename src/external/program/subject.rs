@@ -13,8 +13,8 @@ use serde_json::json;
 /// Maximum number of requests for values per step, averaged over the steps between two instants.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Returns the maximum length (bytes) of an answer to `problem`. The limit allows all columns as
-/// decimal text, for three times as many points as particles.
+/// Returns the maximum length (bytes) of an answer to `problem`. The length is enough for all
+/// columns as decimal text at three times as many points as the problem has particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
@@ -34,8 +34,8 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject in a solver process. One message requests all steps up to the next instant, because
-/// states between instants are not used.
+/// A subject in a solver process. One message requests all steps up to the next state that is
+/// compared with the exact solution.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
@@ -43,7 +43,7 @@ pub(super) struct ProgramSubject {
     /// Remaining steps after which the state is requested.
     instants: std::vec::IntoIter<u64>,
     next: Option<u64>,
-    /// Number of steps that the caller has requested, and number that the process has run.
+    /// Number of steps that the caller has requested. The process has run `taken` of them.
     called: u64,
     taken: u64,
     inquiry: Inquiry,
@@ -56,8 +56,8 @@ pub(super) struct ProgramSubject {
 }
 
 impl ProgramSubject {
-    /// Creates the subject in the initial state of `problem`, with the sample points `points`, if
-    /// any.
+    /// Creates the subject in the initial state of `problem`. Without `points`, the sample points
+    /// are the particles.
     ///
     /// # Errors
     /// If the points are invalid.

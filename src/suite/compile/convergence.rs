@@ -29,8 +29,8 @@ struct Compiled<'a> {
 
 type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 
-/// Checks before the expectations are compiled. Their order only determines which of several errors
-/// is reported.
+/// Checks that run before the expectations are compiled. If several checks fail, the first one is
+/// reported.
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),

@@ -261,10 +261,10 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points per axis and of times at which `is_translation` evaluates a motion.
+/// Number of points along each axis, and of time intervals, in the check by `is_translation`.
 const PLACES: usize = 5;
 
-/// Maximum displacement gradient of a translation, due to rounding.
+/// Displacement gradients up to this value count as rounding errors.
 const UNDEFORMED: f64 = 1e-14;
 
 pub(crate) fn any_method(
@@ -309,7 +309,7 @@ pub(crate) fn any_method(
     Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })
 }
 
-/// Whether the motion is a translation of a stress-free body, without strain or rotation.
+/// Whether the motion only translates a stress-free body.
 fn is_translation(problem: &Problem) -> bool {
     let d = problem.dimension();
     let along = |axis: usize, k: usize| {

@@ -273,9 +273,9 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether the suite parameter with this `value` sets the parameter of `scene`: both must be equal.
-/// An initial velocity must be proportional to the suite parameter instead, so its relative
-/// `growth` must be 1.
+/// Whether the suite parameter with this `value` sets the problem `parameter`, that is, `scene` has
+/// the same value. An initial velocity must be proportional to the suite parameter instead: its
+/// relative `growth` must be 1.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();

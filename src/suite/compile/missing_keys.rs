@@ -7,7 +7,7 @@ use crate::suite::{embedded, yaml};
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// A suite with those required keys that no suite of the repository uses.
+/// A suite that contains the required keys missing from all suites of the repository.
 const MORE: &str = "
 suite: more
 title: More

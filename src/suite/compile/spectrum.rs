@@ -1,5 +1,5 @@
-//! Compiles a spectrum study: a wave in a periodic row of cells, methods with their closed forms,
-//! and expectations.
+//! Compiles a spectrum study: waves in a periodic row of cells, methods with closed formulas for
+//! the phase speed and damping, and expectations.
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
@@ -97,7 +97,8 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     }
 }
 
-/// Compiles the translation of the particles (m). It must keep every particle in its cell.
+/// Compiles the translation of the particles (m). The translation must keep every particle in its
+/// cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = Path::top("particles").then("shift");
@@ -161,8 +162,7 @@ fn velocity(
     evaluator.formula(path, &text, &coordinates_and_time(1))
 }
 
-/// Compiles the cases, one for each combination of the lists in `methods`, with closed forms and
-/// expectations.
+/// Compiles the cases, one for each combination of the list values in `methods`.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

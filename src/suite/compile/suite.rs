@@ -29,8 +29,8 @@ impl Suite {
         Ok(Self { group: source.group(), fingerprint, ..suite? })
     }
 
-    /// Compiles the scene of the convergence study in `source`, without exact solution. Tests use
-    /// it to run solvers with deliberate defects.
+    /// Compiles the scene of the convergence study in `source`, without exact solution. Tests that
+    /// run solvers with deliberate defects need this function.
     ///
     /// # Errors
     /// A [`Diagnostic`] with the position of the first error.
@@ -132,7 +132,7 @@ fn assemble(
     Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
 }
 
-/// Refuses a suite name that is invalid in names of tests and files.
+/// Refuses a suite name that cannot be used in names of tests and files.
 fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {

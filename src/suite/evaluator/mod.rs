@@ -300,8 +300,9 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. To find the parameter that makes a formula infinite
-/// or NaN, the parameter is replaced by these values and by its own magnitude.
+/// Values for which most formulas are finite. If a formula is infinite or NaN, each of its
+/// parameters is replaced by these values and by its own magnitude, to find the parameter that is
+/// the cause.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {

@@ -1,4 +1,4 @@
-//! Declares tables, and checks declared names: reserved, unused or undeclared ones are errors.
+//! Declares tables, and refuses reserved, unused and undeclared names.
 
 use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};

@@ -33,18 +33,19 @@ study_spec! {
         particles: Option<ScatterSpec>,
         /// Methods to be judged. List values give one case for each combination.
         methods: Vec<MethodSpec>,
-        /// The judged error.
+        /// Quantity and norm of the error from which the order is determined.
         #[serde(default)]
         judge: JudgeSpec,
-        /// Point whose displacement limit and velocity history are reported.
+        /// Point whose velocity history and extrapolated displacement are reported.
         observe: Option<ObserveSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<ExpectSpec>,
         /// Accepted warnings of `check`, each with its reason.
         #[serde(default)]
         acknowledge: Vec<AcknowledgeSpec>,
-        /// Accuracy that any method can reach, for the gate of external solvers.
+        /// Accuracy that any method can reach, which `run --gate` requires of external solvers.
         any_method: Option<AnyMethodSpec>,
     }
 }
@@ -102,17 +103,17 @@ pub(crate) struct ReferenceFemSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct JudgeSpec {
-    /// The judged quantity.
+    /// Quantity whose error is measured.
     #[serde(default)]
     pub(crate) of: Quantity,
     /// Norm of the error.
     #[serde(default)]
     pub(crate) norm: NormName,
-    /// Face whose reaction is judged; default: all walls together.
+    /// Face whose reaction force is measured; default: the sum over all walls.
     pub(crate) face: Option<String>,
-    /// Box of reference positions to which the judged error is restricted; default: the body.
+    /// Box of reference positions in which the error is measured; default: the body.
     pub(crate) within: Option<BoxSpec>,
-    /// Divisor of the judged error.
+    /// Value by which the error is divided.
     pub(crate) scale: Option<NumberText>,
     /// Whether the order may use levels on which particles change their cell.
     #[serde(default)]
@@ -153,7 +154,7 @@ pub(crate) struct RunSpec {
     pub(crate) instants: Option<NumberText>,
 }
 
-/// Refinement plan. The key with a list is refined, from coarse to fine.
+/// Refinement plan. The key with a list of values is refined, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -168,7 +169,7 @@ pub(crate) struct RefineSpec {
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
 
-/// Offsets of particles from their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice points, as shares of the particle spacing.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -27,16 +27,16 @@ pub(crate) struct ExpectSpec {
     pub(crate) finest_pair: Option<Vec<NumberText>>,
     /// Whether particles change their cell on the finest level.
     pub(crate) crossings: Option<CrossingsName>,
-    /// Axis whose spacing causes the error floor.
+    /// Axis whose spacing causes the error floor (the error that no longer falls).
     pub(crate) floor: Option<FloorCause>,
             $($(#[$doc])* pub(crate) $key: Option<NumberText>,)+
-    /// Bounds on the relative change of sums over the body.
+    /// Bounds on the relative change of sums over the body, such as the mass.
     pub(crate) drift: Option<DriftSpec>,
-    /// Bounds on the rate of the energy (1/s).
+    /// Bounds on the relative growth rate of the energy (1/s).
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     /// Reason for the expectation.
     pub(crate) because: String,
-    /// Expectation for a full run, if it differs.
+    /// Different expectation for a full run (`run --full`).
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
@@ -59,7 +59,7 @@ each_case_figure!(expect_spec);
 pub(crate) struct AnyMethodSpec {
     /// Highest order along the refined axis that the regularity of the solution allows.
     pub(crate) order: Option<NumberText>,
-    /// Bound on errors that are accepted without an order.
+    /// Errors at or below this bound are accepted for any order.
     pub(crate) error_below: Option<NumberText>,
     /// Whether a solver may use any law, because no body deforms.
     #[serde(default)]
@@ -114,11 +114,11 @@ named! {
         SmallStrain = "small_strain",
         /// A solver that computes in single precision.
         SinglePrecision = "single_precision",
-        /// An interface of two bodies or a loaded face inside a cell.
+        /// An interface of two bodies, or a loaded face, that lies inside a cell.
         InsideCell = "inside_cell",
         /// A tolerance of a linearised solution that is much larger than necessary.
         LooseTolerance = "loose_tolerance",
-        /// A box whose last particles start on nodes.
+        /// A box whose outermost particles start exactly on nodes.
         EndOnNode = "end_on_node",
         /// An equilibrium study without dissipation.
         Undamped = "undamped",

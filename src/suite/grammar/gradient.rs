@@ -26,7 +26,8 @@ study_spec! {
         /// External solvers for which the suite states expectations.
         #[serde(default)]
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<GradientExpectSpec>,
     }
@@ -117,7 +118,7 @@ pub(crate) enum FunctionalSpec {
 pub(crate) struct GradientSweepSpec {
     /// Name of the parameter, as in `with_respect_to`.
     pub(crate) parameter: String,
-    /// Half the interval, as a share of the parameter value.
+    /// Half the length of the interval, as a share of the parameter value.
     pub(crate) within: NumberText,
     /// Number of points.
     pub(crate) points: NumberText,
@@ -130,7 +131,7 @@ pub(crate) struct GradientSweepSpec {
 pub(crate) struct GradientExpectSpec {
     /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
-    /// State of the derivative; default: any but `wrong`.
+    /// Result of the verification of the derivative; default: any result except `wrong`.
     pub(crate) state: Option<GradientState>,
     /// Lowest and highest order of the error of the derivative.
     pub(crate) order: Option<Vec<NumberText>>,

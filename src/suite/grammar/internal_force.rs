@@ -14,7 +14,8 @@ study_spec! {
         internal_force: ForceSpec,
         /// Basis functions that are compared.
         methods: Vec<ForceMethodSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<ForceExpectSpec>,
     }

@@ -30,7 +30,7 @@ pub(crate) enum MethodSpec {
         start: Option<OneOrMany<Start>>,
         /// Mass matrix; default: `lumped`.
         mass: Option<OneOrMany<MassName>>,
-        /// Frame; default: `updated_lagrangian`.
+        /// Frame in which basis functions are defined; default: `updated_lagrangian`.
         frame: Option<OneOrMany<FrameName>>,
         /// Volume ratio at which the law computes its stress; default: `particle`.
         volume: Option<OneOrMany<VolumeName>>,
@@ -43,7 +43,7 @@ pub(crate) enum MethodSpec {
         element: OneOrMany<Element>,
         /// Mass matrix.
         mass: OneOrMany<Mass>,
-        /// Equation of motion; default: that of the exact solution.
+        /// Equation of motion; default: the equation of the exact solution.
         law: Option<OneOrMany<EquationName>>,
         /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
@@ -55,9 +55,9 @@ pub(crate) enum MethodSpec {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
     },
-    /// An external solver, which the command line starts.
+    /// An external solver that the command line starts.
     External {
-        /// Name of the solver, which is part of the case name.
+        /// Name of the solver; part of the case name.
         #[cfg_attr(
             feature = "schemas",
             schemars(extend("type" = ["string", "number", "boolean"]))

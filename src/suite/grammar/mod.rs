@@ -3,8 +3,8 @@
 //! Every map refuses unknown keys. A number may be a formula of declared parameters. Settings of a
 //! method may be lists; each combination of their values is a case.
 
-/// Declares the keys of a kind of study: the keys that all studies have, then its own. The keys are
-/// not shared by `serde(flatten)`, because errors would then have no position.
+/// Declares the keys of one kind of study, after the keys that all kinds of study have.
+/// `serde(flatten)` is not used, because its errors have no position.
 macro_rules! study_spec {
     (
         $(#[$about:meta])*
@@ -78,11 +78,11 @@ use serde::Deserialize;
 /// The keys of a suite, by kind of study.
 #[derive(Debug, Clone)]
 pub(crate) enum SuiteSpec {
-    /// Convergence study: errors over a refinement plan.
+    /// Convergence study: errors on levels of increasing refinement.
     Convergence(Box<ConvergenceSpec>),
     /// Internal-force study: force on a node while a particle moves through the node.
     InternalForce(Box<InternalForceSpec>),
-    /// Stability study: whether runs stay bounded, and the limit of a parameter.
+    /// Stability study: whether runs stay bounded, and the largest stable value of a parameter.
     Stability(Box<StabilitySpec>),
     /// Gradient study: derivatives that a differentiable solver reports.
     Gradient(Box<GradientSpec>),
@@ -103,11 +103,11 @@ pub(crate) struct Head {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StudyName {
-    /// Errors over a refinement plan.
+    /// Errors on levels of increasing refinement.
     Convergence,
     /// Internal force on a node while a particle moves through the node.
     InternalForce,
-    /// Whether runs stay bounded, and the limit of a parameter.
+    /// Whether runs stay bounded, and the largest stable value of a parameter.
     Stability,
     /// Derivatives that a differentiable solver reports.
     Gradient,

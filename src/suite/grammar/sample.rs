@@ -6,7 +6,8 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// Required keys and their sample values. In `owner.key`, the sample applies to one owner only.
+/// Required keys and their sample values. A name `owner.key` restricts the sample to the keys of
+/// this owner.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -160,8 +161,8 @@ impl StudyName {
     }
 }
 
-/// Adds help to the error if an unknown key of a spectrum study is about irregular particles: this
-/// study has regular particles only.
+/// Adds help to the error about an unknown key of a spectrum study, if the key would make the
+/// particles irregular.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()

@@ -15,7 +15,7 @@ use serde::Deserialize;
 pub(crate) struct SceneSpec {
     /// Number of space dimensions: 1, 2 or 3.
     pub(crate) dimension: NumberText,
-    /// State of two-dimensional bodies normal to their plane.
+    /// Out-of-plane state of two-dimensional bodies.
     pub(crate) plane: Option<PlaneState>,
     /// The body.
     pub(crate) body: Option<BodySpec>,

@@ -17,7 +17,8 @@ study_spec! {
         spectrum: WavesSpec,
         /// Methods to be studied. List values give one case for each combination.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<SpectrumExpectSpec>,
     }

@@ -18,14 +18,16 @@ study_spec! {
         run: StabilityRunSpec,
         /// The swept parameter and its values.
         sweep: Ordered<OneOrMany<NumberText>>,
-        /// The parameter whose largest stable value is determined for each row.
+        /// The parameter whose largest stable value is determined, for each value of the swept
+        /// parameter.
         critical: Option<CriticalSpec>,
         /// Measured quantities in the report.
         #[serde(default)]
         show: Vec<crate::verify::RunFigure>,
         /// Methods to be studied. List values give one case for each combination.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. A suite without expectations is not a gate.
+        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
+        /// fail.
         #[serde(default)]
         expect: Vec<StabilityExpectSpec>,
     }
@@ -42,7 +44,7 @@ pub(crate) struct ParticleSpec {
     pub(crate) ppc: NumberText,
     /// Translation of every particle (m) before the start.
     pub(crate) shift: Option<Vec<NumberText>>,
-    /// Positions (m) of additional particles, which have the volume of the others.
+    /// Positions (m) of additional particles, each with the volume of a lattice particle.
     #[serde(default)]
     pub(crate) extra: Vec<Vec<NumberText>>,
 }
@@ -73,7 +75,7 @@ pub(crate) struct StabilityRunSpec {
     pub(crate) unstable_above: Option<NumberText>,
 }
 
-/// The parameter whose stability limit is sought, and its range.
+/// The parameter whose largest stable value is determined, and the range of the search.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -111,7 +113,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// Expected value, as a formula of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Maximum deviation from `is`, relative to the value, or to one if the value is smaller.
+    /// Maximum deviation from `is`, relative to `is` (or to one, if `is` is smaller).
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

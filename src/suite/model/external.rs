@@ -8,13 +8,14 @@ use std::sync::Arc;
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
     /// examines the internals of a method. A convergence study keeps the cases that it states for
-    /// this solver, or else gets one case for each combination of reference and end. With `gate`,
-    /// each case without an expectation must meet an order or an error bound.
+    /// this solver. If it states none, it gets one case for each combination of end time and
+    /// reference solution. With `gate`, each case without an expectation must reach an order or an
+    /// error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
 
-    /// Like [`Suite::of_external`], but with the gate `terms` of the solver's author, if any.
+    /// Like [`Suite::of_external`], but the solver must meet the requirements `terms`, if any.
     pub fn of_external_on(
         &self,
         solver: ExternalMethod<'_>,
@@ -58,7 +59,8 @@ impl ConvergencePlan {
         plan
     }
 
-    /// Sets the gate of a case. The suite's own expectation remains, unless `terms` replace it.
+    /// Sets the requirements of `run --gate` on a case. An expectation of the suite remains, unless
+    /// `terms` replace it.
     fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
         let has_terms = terms.order.is_some() || terms.error_below.is_some();
         if case.expectation.is_some() && terms.skip.is_none() && !has_terms {
@@ -81,7 +83,8 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Returns the role of a case in the gate, for a solver with this formal order.
+    /// Returns whether a case must meet requirements, and which, for a solver with this formal
+    /// order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());
@@ -153,7 +156,7 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// Returns summary and reason of the expectation, or of the gate requirement.
+    /// Returns summary and reason of the expectation, or else of the requirement of `run --gate`.
     pub(super) fn expected(&self) -> Option<(String, &str)> {
         match (&self.expectation, &self.gating) {
             (Some(expectation), _) => Some((expectation.summary(), &expectation.because)),
@@ -165,7 +168,7 @@ impl Case {
     }
 }
 
-/// Returns one case of the solver for each combination of reference and end.
+/// Returns one case of the solver for each combination of end time and reference solution.
 fn unstated(plan: &ConvergencePlan, solver: ExternalMethod<'_>) -> Vec<Case> {
     let ExternalMethod { name, formal_order, precision } = solver;
     let mut cases: Vec<Case> = Vec::new();

@@ -44,7 +44,7 @@ pub struct Differentiated {
 pub struct SweepPlan {
     /// The parameter to vary.
     pub parameter: GradientParameter,
-    /// Half the interval, relative to the value of the parameter.
+    /// Half the length of the interval, relative to the value of the parameter.
     pub within: f64,
     /// Number of points.
     pub points: u64,

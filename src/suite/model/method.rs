@@ -1,5 +1,5 @@
-//! Methods of a suite, including external solvers, and the accuracy that a gate may require of
-//! external solvers.
+//! Methods of a suite, including external solvers, and the accuracy that `run --gate` may require
+//! of external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, VolumeName};
@@ -87,8 +87,8 @@ impl Method {
     }
 
     /// Returns the theoretical order of the displacement error on a smooth solution. This is p + 1
-    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM. For the nodal
-    /// values of superconvergent elements it is 2p (Strang & Fix 1973, section 1.6).
+    /// for a basis of degree p, but at most 2 with the lumped mass matrix of MPM. The nodal values
+    /// of superconvergent elements have the order 2p (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
             Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
@@ -182,17 +182,17 @@ pub struct ExternalMethod<'a> {
 pub struct AnyMethod {
     /// Highest order along the refined axis that the regularity of the solution allows.
     pub order: Option<f64>,
-    /// Errors at or below this bound are accepted without an order.
+    /// Errors at or below this bound are accepted for any order.
     pub error_below: Option<f64>,
     /// Whether no body deforms in the problem; a solver may then use any law.
     pub any_law: bool,
-    /// Whether the gate applies to external solvers.
+    /// Whether `run --gate` checks external solvers on this suite.
     pub gated: bool,
     /// The reason; empty if the key is absent.
     pub because: String,
 }
 
-/// Without the key `any_method`, the gate requires the solver's order and the scene's law.
+/// Without the key `any_method`, `run --gate` requires the solver's order and the scene's law.
 impl Default for AnyMethod {
     fn default() -> Self {
         let (order, error_below, because) = (None, None, String::new());
@@ -200,14 +200,14 @@ impl Default for AnyMethod {
     }
 }
 
-/// Requirements of the gate on one suite, from the configuration file of a solver's author.
+/// Requirements of `run --gate` on one suite, from the configuration file of the solver.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct GateTerms {
     /// Formal order that replaces the order stated by the solver.
     pub formal_order: Option<f64>,
     /// Required order on this suite.
     pub order: Option<f64>,
-    /// Bound on errors that are accepted without an order.
+    /// Errors at or below this bound are accepted for any order.
     pub error_below: Option<f64>,
     /// Reason for not running this suite.
     pub skip: Option<String>,

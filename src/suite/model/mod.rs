@@ -41,11 +41,11 @@ pub struct Suite {
     pub about: String,
     /// Name and text of every parameter, and its value unless it is a table.
     pub parameters: Vec<(String, String, Option<f64>)>,
-    /// Head and formula of each declared function.
+    /// Head (such as `s(tau)`) and formula of each declared function.
     pub functions: Vec<(String, String)>,
     /// The study plan.
     pub study: Arc<dyn StudyPlan>,
-    /// Fingerprint of the file's text.
+    /// Hash of the text of the file.
     pub(crate) fingerprint: u64,
 }
 
@@ -71,11 +71,12 @@ pub struct ConvergencePlan {
     pub steps: StepKind,
     /// Number of instants at which the error is measured.
     pub instants: u64,
-    /// Norm of the judged error.
+    /// Norm of the error.
     pub norm: NormName,
     /// The quantity whose error is measured.
     pub of: Quantity,
-    /// The judged sum and its exact value, if the judged quantity is a sum over the body.
+    /// The sum over the body whose error is measured, with its exact value; `None` if another
+    /// quantity is measured.
     pub sum: Option<Arc<JudgedSum>>,
     /// Box to which errors are restricted; `None`: errors over the whole body.
     pub within: Option<JudgedBox>,
@@ -85,7 +86,7 @@ pub struct ConvergencePlan {
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.
     pub any_method: AnyMethod,
-    /// Point (m) whose displacement limit and velocity history are reported.
+    /// Point (m) whose velocity history and extrapolated displacement are reported.
     pub observe: Option<Vec<f64>>,
     /// The cases: all combinations of the lists in `methods`, in order.
     pub cases: Vec<Case>,
@@ -144,7 +145,7 @@ pub struct ReferencePlan {
 }
 
 impl Against {
-    /// Returns the phrase for this solution in a sentence.
+    /// Returns a noun phrase for this solution, for use in sentences.
     pub fn words(self) -> &'static str {
         match self {
             Self::Exact => "the exact solution",
@@ -203,7 +204,7 @@ impl Suite {
         Self { study: self.study.only(keep), ..self.clone() }
     }
 
-    /// Whether the suite has no expectations. Such a suite is not a gate.
+    /// Whether the suite has no expectations, so its cases neither pass nor fail.
     pub fn explores(&self) -> bool {
         (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
     }
@@ -269,8 +270,8 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     /// Returns the study with only those cases for whose index `keep` returns true.
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
 
-    /// Returns the study with an external solver in place of its methods, gated on `terms`, if any.
-    /// `None` if the study examines the internals of a method.
+    /// Returns the study with an external solver in place of its methods. The solver must meet the
+    /// requirements `terms`, if any. `None` if the study examines the internals of a method.
     fn of_external(
         &self,
         _solver: ExternalMethod<'_>,

@@ -13,15 +13,15 @@ pub struct RefinePlan {
     pub usual: usize,
     /// The time steps as stated: one formula of h, or one for each level.
     pub steps: Vec<String>,
-    /// Share of the stable time step, if time steps are automatic. The steps of the levels are then
-    /// preliminary, because they do not depend on the particles.
+    /// Share of the stable time step, if time steps are automatic. The time steps in `levels` are
+    /// then preliminary, because they are computed before the particles exist.
     pub rule: Option<f64>,
 }
 
 /// One refinement level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPlan {
-    /// Cells along the first axis of the grid, or of the body.
+    /// Number of cells along the first axis of the stated grid; of the body if no grid is stated.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
@@ -65,7 +65,8 @@ impl LevelPlan {
         }
     }
 
-    /// Returns the distance between neighbouring particles (m), or between nodes without particles.
+    /// Returns the distance between neighbouring particles (m), or between nodes if there are no
+    /// particles.
     pub fn particle_spacing(self, dimension: usize) -> f64 {
         let per_cell = self.ppc.unwrap_or(1) as f64;
         self.h / libm::pow(per_cell, 1.0 / dimension as f64)
@@ -87,7 +88,7 @@ pub enum SameMethod {
 }
 
 impl SameMethod {
-    /// Returns the phrase for this reference in a sentence.
+    /// Returns a noun phrase for this reference, for use in sentences.
     pub fn words(self) -> &'static str {
         match self {
             Self::ShorterSteps(_) => "the same method with shorter steps",

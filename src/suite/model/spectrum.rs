@@ -49,9 +49,10 @@ pub struct SpectrumCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Closed form of the method; `None` for an external solver whose method is unknown.
+    /// Closed formulas for the phase speed and damping of the method; `None` for an external solver
+    /// whose method is unknown.
     pub curve: Option<WaveMethod>,
-    /// Stability limit of the Courant number, from the closed form.
+    /// Stability limit of the Courant number, from `curve`.
     pub limit: Option<f64>,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(SpectrumExpectation, String)>,

@@ -14,9 +14,9 @@ pub struct StabilityPlan {
     pub(crate) template: SetupTemplate,
     /// Name of the swept parameter.
     pub swept: String,
-    /// Values of the swept parameter, one for each row.
+    /// Values of the swept parameter, one for each row of the report.
     pub values: Vec<f64>,
-    /// The parameter whose stability limit is sought, and its range.
+    /// Name of the parameter whose largest stable value is determined, and the range of the search.
     pub sought: Option<(String, f64, f64)>,
     /// Whether the particles do not move.
     pub frozen: bool,

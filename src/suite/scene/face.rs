@@ -28,8 +28,8 @@ impl SceneFace {
     }
 }
 
-/// Returns the number of the face called `name`, which is the key at `path` if `is_key` is true,
-/// otherwise the value.
+/// Returns the index in [`FACES`] of the face called `name`. An error points to the key at `path`
+/// if `is_key` is true, otherwise to the value at `path`.
 pub(crate) fn face(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,4 @@
-//! Sizes of a level: cells, grid, and particles per cell and axis.
+//! Computes cell sizes, grid sizes, and the number of particles along the axes of a cell.
 
 use super::{Scene, SceneFace};
 
@@ -8,8 +8,8 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Number of spare grid cells outside a free face, for bodies that expand. The grid is also
-/// extended there by a tenth of the body length.
+/// Number of spare grid cells outside a free face, for bodies that expand. A tenth of the body
+/// length is added to these cells.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {
@@ -40,7 +40,8 @@ impl Scene {
         self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
     }
 
-    /// Returns the length along `axis` (m) of the stated grid, or of the body without stated grid.
+    /// Returns the length (m) of the stated grid along `axis`; the length of the body if no grid is
+    /// stated.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
         to[axis] - from[axis]
@@ -53,7 +54,8 @@ pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     (to[0] - from[0]) / cells as f64
 }
 
-/// Returns the particles along each axis of a cell; `None` if `ppc` is not a power of an integer.
+/// Returns the number of particles along each axis of a cell; `None` if `ppc` is not the D-th power
+/// of an integer.
 pub(crate) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     let root = libm::round(libm::pow(ppc as f64, 1.0 / dimension as f64)) as u64;
     (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)

@@ -12,7 +12,7 @@ use crate::dimension::with_dimension;
 use crate::exact::Cut;
 use crate::mpm::{Block, Vector};
 
-/// Offsets of particles from their lattice, in shares of their spacing.
+/// Offsets of particles from their lattice points, as shares of the particle spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LatticeOffsets {
     /// Translation of all particles as a share of the spacing, one number per axis; empty for none.

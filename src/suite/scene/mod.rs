@@ -30,8 +30,8 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// Map of a quadrilateral, which is a mapped box. All other bodies with an outline have free
-    /// surfaces.
+    /// Map from a box to a quadrilateral; `None` for other shapes. All other shapes with an outline
+    /// have free surfaces.
     pub mapped: Option<Quadrilateral>,
     /// Lowest and highest corner of the stated grid (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
@@ -48,9 +48,9 @@ pub struct Scene {
     pub sets: Vec<Region>,
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
-    /// The bodies if there are several, otherwise empty. Each is a scene with the same grid, faces
-    /// and loads. In this case, `self` is the bounding box of all bodies, with the material of the
-    /// first one.
+    /// The bodies if there are several, otherwise empty. Each body is a scene with the same grid,
+    /// faces and loads. If there are several bodies, `self` describes their bounding box and the
+    /// material of the first body.
     pub bodies: Vec<Self>,
     /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
     /// field.
@@ -63,7 +63,7 @@ pub struct Scene {
     pub initial_velocity: Vec<Formula>,
 }
 
-/// Distance that is treated as rounding error, relative to the size of the body.
+/// Distances up to this share of the body size are treated as rounding errors.
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {

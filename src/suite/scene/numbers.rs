@@ -1,5 +1,5 @@
-//! Formulas and numbers of loads and boundary conditions, as functions for the solver and as
-//! numbers for external solvers.
+//! Converts formulas and numbers of loads and boundary conditions to functions for the built-in
+//! solver and to numbers for external solvers.
 
 use crate::exact::formula::{Formula, Number};
 use crate::exact::{Region, variables};
@@ -58,8 +58,8 @@ impl NumberField {
         self.formulas.iter().map(Formula::constant).collect()
     }
 
-    /// Returns whether the value depends on the coordinates, on time, and on the displacement, in
-    /// `d` dimensions.
+    /// Returns three flags: whether the value depends on the coordinates, on time, and on the
+    /// displacement, in `d` dimensions.
     pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
         let reads = |from: usize, to: usize| {
             let mut formulas = self.formulas.iter();
@@ -109,7 +109,7 @@ pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
 }
 
 /// Evaluates a formula at the reference position `label` (m) and time `t`, for the displacement `u`
-/// (m), on which the formula need not depend.
+/// (m). The formula need not depend on `u`.
 pub(crate) fn of_displacement<T: Number>(
     formula: &Formula,
     label: &[f64],

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// characters.
 const MAX_WORDS: usize = 300;
 
-/// Maximum length of advice (characters), which may list many names.
+/// Maximum length of advice (characters), because advice may list many names.
 const MAX_HELP: usize = 500;
 
 /// Severity of the diagnostic.
@@ -25,7 +25,7 @@ pub enum Severity {
 
 /// An error, warning or note about a file: message, position, and correct form.
 ///
-/// `Display` formats it like an error of `rustc`, with the source line and a caret.
+/// `Display` formats a diagnostic like an error of `rustc`, with the source line and a caret.
 /// [`Diagnostic::one_line`] is for editors and logs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic(Box<Parts>);
@@ -75,7 +75,7 @@ impl Diagnostic {
         diagnostic
     }
 
-    /// Adds the label under the caret, which states the expected value.
+    /// Sets the label under the caret. The label describes the expected value.
     #[must_use]
     pub fn with_label(mut self, label: &str) -> Self {
         self.0.label = Some(printable(label)).filter(|label| !label.is_empty());
@@ -116,7 +116,7 @@ impl Diagnostic {
         &self.0.message
     }
 
-    /// Returns the label under the caret, which states the expected value.
+    /// Returns the label under the caret.
     pub fn label(&self) -> Option<&str> {
         self.0.label.as_deref()
     }
@@ -197,7 +197,8 @@ fn shortened(words: &str, most: usize) -> String {
     safe
 }
 
-/// Whether `c` is a bidirectional control character, which reorders a line in a terminal.
+/// Whether `c` is a bidirectional control character. A terminal would display the line in another
+/// order.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -1,8 +1,8 @@
 //! Locates a value in a file after parsing.
 //!
 //! The YAML library reports positions only in errors. The text is therefore parsed again with a
-//! seed that follows a path and fails on purpose at its end. The position thus agrees with the
-//! first parse, without a second parser.
+//! `DeserializeSeed` that follows the path to the value and then fails on purpose. The error
+//! contains the position.
 
 use super::{Diagnostic, OneOrMany, Place, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
@@ -197,7 +197,8 @@ impl<'de> Visitor<'de> for Walk<'_> {
     }
 }
 
-/// Key to compare with `wanted`. Deserialization fails on purpose at the key to be located.
+/// Seed that compares a key with `wanted`. If the key itself is to be located, deserialization
+/// fails on purpose at this key.
 struct Key<'a> {
     wanted: &'a str,
     last: bool,

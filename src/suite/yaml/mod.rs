@@ -1,7 +1,7 @@
 //! Safe parsing of handwritten YAML, with a position for every error.
 //!
 //! ```text
-//! path -> Source          size, encoding, characters, nesting: refused before the parser runs
+//! path -> Source          checks size, encoding, characters and nesting before parsing
 //!      -> read::<Suite>   typed; every error becomes a Diagnostic with file:line:column
 //!      -> Source::value_at, within   the position of a value that is rejected later
 //! ```

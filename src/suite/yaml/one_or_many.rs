@@ -36,7 +36,7 @@ impl<T> OneOrMany<T> {
 }
 
 impl<T> OneOrMany<T> {
-    /// Returns `values` as a list if `self` is one, otherwise the first value, if any.
+    /// Returns `values` as a list if `self` is a list; otherwise the first value, if any.
     pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
         let limit = if self.listed { usize::MAX } else { 1 };
         let values: Vec<T> = values.into_iter().take(limit).collect();

@@ -13,10 +13,11 @@ pub struct Place {
 }
 
 impl Place {
-    /// Returns the position of a byte range of `text`, cut at the end of its first line.
+    /// Returns the position of a byte range of `text`. A range of several lines is cut at the end
+    /// of the first line.
     ///
     /// Any range is valid, because its ends are moved into the text and to character boundaries. A
-    /// range that starts at the end of the text is moved to the last visible character.
+    /// range that starts at the end of the text is moved to just after the last visible character.
     pub fn of(text: &str, range: Range<usize>) -> Self {
         let start = if range.start >= text.len() {
             text.trim_end().len()

@@ -21,14 +21,14 @@ pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
     CheckedShape::new(source, "")?.read(&|_, _| None)
 }
 
-/// A file whose shape has been checked, ready to be parsed into a type.
+/// A file that has passed the checks in `shape`, ready to be parsed into a type.
 pub(crate) struct CheckedShape<'s> {
     source: &'s Source,
     top: TopValue,
 }
 
 impl<'s> CheckedShape<'s> {
-    /// Checks the shape of `source`, and stores the value of the top-level key `key`.
+    /// Applies the checks in `shape` to `source`, and stores the value of the top-level key `key`.
     pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
         let top = shape::check(source, key);
         let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
@@ -124,7 +124,8 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// Moves this fault to the first name after a bracket, and also returns that name.
+    /// Moves this fault to the first scalar at or after its position, and also returns the text of
+    /// the scalar.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);

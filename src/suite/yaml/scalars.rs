@@ -59,7 +59,7 @@ impl Scanner<'_> {
         }
     }
 
-    /// Returns the first column of the current block.
+    /// Returns the minimum column of text in the current block.
     fn least_column(&self) -> usize {
         self.indents.last().map_or(0, |indent| indent + 1)
     }

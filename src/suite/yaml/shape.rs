@@ -1,13 +1,13 @@
-//! Checks rules for every suite file, independent of its keys: no duplicate keys, no merge keys,
-//! limited lists, finite numbers only.
+//! Checks rules that hold for all keys of a suite file: no duplicate keys, no merge keys, a maximum
+//! number of entries, and finite numbers.
 //!
 //! A separate pass is needed: a typed parser would report a duplicate key only after parsing its
 //! value, and a field of type `f64` accepts `.nan`.
-
 //!
-//! A refusal has three texts, but the error type of a deserializer holds one string, to which the
-//! YAML library adds a path and a position. Separators therefore mark the three texts. A file
-//! cannot forge separators, because sources with control characters are refused.
+//! The error for a refused value has three texts (message, label and help), but the error type of a
+//! deserializer holds one string. The YAML library adds a path and a position to this string.
+//! Separators therefore mark the three texts. A file cannot forge separators, because sources with
+//! control characters are refused.
 
 use super::{MAX_ENTRIES, Source};
 use serde::de::{self, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
@@ -29,7 +29,7 @@ pub(crate) fn check(source: &Source, key: &str) -> Result<TopValue, serde_yaml::
     Ok(found)
 }
 
-/// Deserialization seed that checks the shape of a value.
+/// Deserialization seed that checks the rules for a value.
 enum ShapeCheck<'k> {
     /// The whole file, and the key whose value is stored.
     Root { key: &'k str, found: &'k mut TopValue },
@@ -187,7 +187,7 @@ pub(crate) fn finite<E: de::Error>(value: f64, expected: &str) -> Result<f64, E>
 
 const FENCE: char = '\u{1f}';
 
-/// Returns an error that refuses a value during deserialization: message, label and help.
+/// Creates the error for a value that is refused during deserialization.
 ///
 /// `label` and `help` may be empty. [`read`](super::read()) shows the three texts unchanged, at the
 /// position of the innermost value being parsed.

@@ -84,7 +84,7 @@ impl Source {
         Ok(paths)
     }
 
-    /// Returns the name of the folder that contains a file, which is the group of a suite.
+    /// Returns the name of the folder that contains a file. This name is the group of the suite.
     pub fn group_of(file: &Path) -> String {
         let folder = file.parent().and_then(Path::file_name);
         folder.unwrap_or_default().to_string_lossy().into_owned()
@@ -143,7 +143,7 @@ fn bytes_of(path: &Path, name: &str) -> Result<Vec<u8>, Diagnostic> {
     limited(name, File::open(path).map_err(|error| unreadable(&error))?)
 }
 
-/// Reads all bytes up to the maximum. The size may be unknown in advance, or grow.
+/// Checks the maximum size while reading, because the file size may be unknown or grow.
 fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     let mut bytes = Vec::new();
     let read = reader.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
@@ -151,8 +151,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether the file is a named pipe, which may have no writer, so reading it may block. Pipes that
-/// the shell opens for a command have a writer.
+/// Whether the file is a named pipe. Reading a named pipe without a writer would block. Pipes that
+/// the shell opens for a command do not count, because they have a writer.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

@@ -32,7 +32,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     };
     let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
     let far = largest(&whole);
-    // In a stable step, forces do not reduce the distance to less than a quarter.
+    // In a stable step, at least a quarter of the distance `dt * fastest` remains despite forces.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
         return Some(Breach::new("step", wanted, format!("at most {far:e} m")));
@@ -108,7 +108,7 @@ pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breac
 
 /// Describes counters and sums that differ between two states with equal samples.
 fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
-    // The states are compared as text, because a NaN must equal an expected NaN.
+    // The states are compared as text, because NaN must count as equal to NaN.
     let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
     let ((a, b), (c, d)) = (text(wanted), text(seen));
     match (a == c, b == d) {

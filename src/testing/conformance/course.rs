@@ -1,5 +1,5 @@
-//! Checks of the initial state and of the course of a run: labels, weights, finite numbers,
-//! counters and sums.
+//! Checks of the initial state and of the later states of a run: labels (reference positions),
+//! weights, finite numbers, counters and sums.
 
 use super::record::{Breach, RunState, columns, largest};
 use crate::external::LevelProblem;
@@ -9,8 +9,8 @@ use crate::subject::Samples;
 /// Maximum relative rounding error of numbers passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the body volume and the sum of all sample weights. It is
-/// large because solvers may resolve the body's edge differently.
+/// Maximum relative difference between the body volume and the sum of all sample weights. The value
+/// is large because solvers may resolve the edge of the body differently.
 const RIM: f64 = 0.1;
 
 /// Returns breaches due to columns of wrong size and numbers that are not finite.
@@ -118,7 +118,8 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Returns breaches due to labels, weights or sizes that change, and numbers that are not finite.
+/// Returns breaches due to labels, weights or column sizes that change during the run, and due to
+/// numbers that are not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();

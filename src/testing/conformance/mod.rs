@@ -1,10 +1,9 @@
-//! Checks whether a solver conforms to the contract of [`Subject`](crate::subject::Subject), before
-//! any verdict.
+//! Checks whether a solver conforms to the contract of [`Subject`](crate::subject::Subject).
 //!
 //! ```text
-//! start    column sizes, labels, weights and motion before the first step
-//! course   order of labels, finite numbers, counters and sums over a few steps
+//! course   columns, labels, weights and motion at the start; counters and sums over a few steps
 //! again    repeated sampling, half-length step, new subject, resumed run
+//! record   recorded runs, and the type of a breach
 //! ```
 
 mod again;
@@ -21,8 +20,8 @@ use record::{RunState, record};
 
 const STEPS: usize = 6;
 
-/// Built-in suites for the checks, starting with the simplest. Their bodies move at the start,
-/// because a body at rest hides errors of the step length.
+/// Built-in suites for the checks, starting with the simplest. The bodies move at the start,
+/// because a body at rest would hide a wrong step length.
 const SUITES: [&str; 4] =
     ["vibrating-bar", "mms-periodic-bar-sin", "translating-body", "mms-axis-aligned-2d"];
 

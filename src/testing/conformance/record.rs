@@ -19,8 +19,8 @@ impl RunState {
     }
 }
 
-/// Advances the subject by `steps` steps of length `dt` (s) and appends the state after each, until
-/// a step fails.
+/// Advances the subject by `steps` steps of length `dt` (s), and appends the state after each step.
+/// Stops if a step fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
     steps: usize,

@@ -70,7 +70,7 @@ impl Course {
         sum.map(|sum| sum / all)
     }
 
-    /// Returns the largest distance between `wanted` and the vector of a point in state `k`.
+    /// Returns the largest difference between `wanted` and the vector of any point in state `k`.
     pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }

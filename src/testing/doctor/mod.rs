@@ -67,7 +67,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
     }
 }
 
-/// Name of the finding that a run did not complete.
+/// Name of the finding for a run that did not complete.
 const BROKE: &str = "does-not-get-through";
 
 fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {
@@ -94,7 +94,8 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// Returns the first examination with defects among those that `examination` depends on.
+/// Returns the first examination with defects on which `examination` depends, directly or through a
+/// skipped one.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

@@ -15,9 +15,9 @@ pub(super) struct Examined {
 
 /// Reason why an examination could not be completed.
 pub(super) enum Hindrance {
-    /// Missing capabilities, or the solver's own reason.
+    /// The solver lacks these capabilities, or refuses the problem for this reason.
     Lacks(String),
-    /// Message of a solver that did not complete a run.
+    /// The solver did not complete a run, and gave this message.
     Broke(String),
 }
 
@@ -50,8 +50,8 @@ impl Patient<'_> {
         }
     }
 
-    /// Returns the first scene that the solver supports, over all `dimensions`, and all `laws` in
-    /// each.
+    /// Returns the first scene that the solver supports. Tries all `laws` for the first of the
+    /// `dimensions`, then for the next one.
     pub(super) fn able(
         &self,
         dimensions: &[usize],

@@ -1,4 +1,4 @@
-//! Small scenes, written as suites and passed to the solver like suites.
+//! Small scenes. A scene is converted to the text of a suite, and the suite to a problem.
 
 use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds};
@@ -23,8 +23,8 @@ pub(super) const ANY: [&str; 7] =
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Stiffness factor of a soft body. It is negligible even at nodes whose mass is only a rounding
-/// error.
+/// Stiffness factor of a soft body. The resulting stiffness is negligible even at nodes whose mass
+/// is only a rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the lower and the higher face of a box for each axis.
@@ -93,8 +93,8 @@ impl BoxScene {
             poisson: 0.3,
             strength: 1e-4,
             dilation: 1.0 / 3.0,
-            // Must not be a power, product or ratio of the other numbers, so causes of wrong
-            // factors differ (see `fall::factors`).
+            // The density must not be a power, product or ratio of the other numbers. Each possible
+            // mistake then causes a different wrong factor (see `fall::factors`).
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -105,7 +105,6 @@ impl BoxScene {
         }
     }
 
-    /// Returns this scene with twice as many steps of half the length.
     pub(super) fn with_half_the_step(&self) -> Self {
         Self { dt: 0.5 * self.dt, steps: 2 * self.steps, ..self.clone() }
     }
@@ -138,8 +137,8 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// Converts the scene to other units of length, time and mass, given by the factors of their
-    /// numbers.
+    /// Converts the scene to other units: lengths, times and masses are multiplied by these
+    /// factors.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -218,7 +217,7 @@ impl BoxScene {
         )
     }
 
-    /// Converts the scene to a problem and its requirements. Samples are taken after every step.
+    /// Converts the scene to a problem and its requirements. The state is sampled after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
@@ -235,7 +234,8 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// Runs this crate's MPM with PIC and the named basis, to show averaging alone.
+    /// Runs this crate's MPM with PIC and the named basis, to measure the effect of averaging
+    /// alone.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }

@@ -1,4 +1,5 @@
-//! Tests of a suite: comparison with theory, report drift from the snapshot, and case run times.
+//! Tests of a suite: comparison with theory, comparison of the report with its snapshot, and run
+//! times of cases.
 
 use crate::external::SolverFactory;
 use crate::report;
@@ -45,7 +46,8 @@ impl Gate {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // Reports come last: each blocks its thread until all cases of its suite are complete.
+        // The report tests come last, because each one blocks a thread until all cases of the suite
+        // are complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
@@ -208,8 +210,8 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // A suite without expectations is ignored, because a passing test would look like a passing
-        // gate.
+        // Cases without expectations are ignored, because a passing test would suggest that an
+        // expectation is met.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };

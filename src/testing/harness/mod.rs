@@ -1,7 +1,7 @@
 //! Generates a test for each case of each suite in a folder.
 //!
-//! There are two independent gates. Comparisons with theory are asserted in plain Rust: no
-//! environment variable and no snapshot command can accept a failure. Report drift is checked by
+//! There are two independent kinds of check. Comparisons with theory are asserted in plain Rust: no
+//! environment variable and no snapshot command can accept a failure. Reports are compared with
 //! snapshots: `cargo insta review` shows changes and accepts them.
 
 mod gate;
@@ -52,9 +52,9 @@ impl SuiteFolder {
     }
 
     /// Tests a solver in place of the methods of the suites. The observed order is compared with
-    /// the suite's expectation for this solver, otherwise with the order that the solver states. A
-    /// case that needs a missing capability is ignored with the reason, and does not count as
-    /// passed.
+    /// the expectation of the suite for this solver. Without such an expectation, it is compared
+    /// with the order that the solver states. A case that needs a missing capability is ignored
+    /// with the reason, and does not count as passed.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
         // The tests live until the end of the process, and so must the solver.
@@ -79,7 +79,7 @@ impl SuiteFolder {
 
     /// Runs the tests with the command line of `cargo test` or nextest.
     pub fn main(self) -> ExitCode {
-        // A changed snapshot panics, and a backtrace does not help.
+        // A test with a changed snapshot panics, and a backtrace would not help.
         std::panic::set_hook(Box::new(|panic| eprintln!("{panic}")));
         if self.run(std::env::args_os()) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
     }

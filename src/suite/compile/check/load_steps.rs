@@ -9,7 +9,8 @@ use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Refuses suites that combine load steps with keys for time, or a quasi-static method with time.
+/// Refuses suites that combine load steps with keys for time, or a quasi-static method with time
+/// steps.
 pub(crate) fn refuse_time(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -77,7 +78,7 @@ pub(crate) fn refuse_time(
     }
 }
 
-/// Refuses a scene that load steps do not support.
+/// Refuses a scene with features that the quasi-static solver does not support.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

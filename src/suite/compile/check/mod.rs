@@ -91,7 +91,8 @@ pub(crate) fn refuse_law_unknown_to_fem(
     Ok(())
 }
 
-/// Refuses loads that do not support the study, and the FEM bar if it does not support all loads.
+/// Refuses loads that are not allowed in this study. Also refuses the FEM bar (the built-in 1-D
+/// FEM) if it does not implement all loads.
 pub(crate) fn refuse_foreign(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -109,7 +110,7 @@ pub(crate) fn refuse_foreign(
     Ok(())
 }
 
-/// Refuses the FEM bar, as method or reference, because it does not support `effect`.
+/// Refuses the FEM bar as a method or reference, because it does not implement `effect`.
 fn refuse_fem_without(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -150,8 +151,8 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
     }
 }
 
-/// Refuses bounds, in the expectation at `path`, on the drift of sums that the FEM bar does not
-/// compute.
+/// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
+/// or conserve.
 pub(crate) fn check_drift(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -1,4 +1,5 @@
-//! Checks that every level fits into memory, and that fixed faces have grid nodes.
+//! Checks that every level fits into memory, that fixed faces have grid nodes, and that the body
+//! and the sets contain particles.
 
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
@@ -11,7 +12,7 @@ use crate::suite::yaml::{Diagnostic, Path};
 /// Maximum number of particles per level, and of nodes per level.
 const MOST: f64 = 5e7;
 
-/// Maximum distance (cells) between a fixed face and the grid face that counts as rounding error.
+/// Maximum distance (cells) between a fixed face of the body and the grid face next to it.
 const ROUNDING: f64 = 1e-6;
 
 pub(crate) struct LevelPaths {
@@ -19,7 +20,8 @@ pub(crate) struct LevelPaths {
     pub(crate) dt: Path,
 }
 
-/// Refuses a level that is too large, or that has no nodes on a fixed face.
+/// Refuses a level that is too large, has no nodes on a fixed face, or has no particle in a set or
+/// a small body.
 pub(crate) fn refuse_unfit_levels(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -53,8 +55,8 @@ fn fits(
     sets(evaluator, path, scene, level)
 }
 
-/// Refuses a reference run on a fine grid if the grid is not a valid level, or if the particles at
-/// all instants together need too much memory.
+/// Refuses a reference run on an invalid fine grid, or with too many particles to store at all
+/// instants.
 pub(crate) fn fine_grid(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -72,7 +74,7 @@ pub(crate) fn fine_grid(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses a body with a free surface that is smaller than one particle volume.
+/// Refuses a round or polygonal body that is smaller than one particle volume.
 fn vacant(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -90,7 +92,7 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// Returns the name and the amount of a quantity that exceeds its limit.
+/// Returns the name (`nodes` or `particles`) and the number if a number exceeds [`MOST`].
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())
@@ -110,8 +112,9 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
     (scene.to[axis] - scene.from[axis]) * per_axis / level.h
 }
 
-/// Refuses grids whose last face is not on a fixed face of the body, because conditions apply to
-/// the nodes of that grid face. Also refuses periodic grids whose length is not the stated period.
+/// Refuses a grid whose high face does not coincide with a fixed face of the body, because the
+/// condition applies to the nodes on the grid face. Also refuses periodic grids whose length is not
+/// the stated period.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -16,8 +16,9 @@ struct StatedStep {
 }
 
 /// Checks that every level and the reference have valid time steps. If time is refined, the steps
-/// must decrease from level to level. Runs that are compared with a computed reference must share
-/// its instants without changing their step by more than the tolerance.
+/// must decrease from level to level. In a run that is compared with a computed reference, steps
+/// must end at the instants of the reference. This may change the time step by at most
+/// [`STEP_TOLERANCE`].
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -70,7 +71,7 @@ fn usable(
     })
 }
 
-/// Refuses a level with as many steps as the previous level, which can happen in a short run.
+/// Refuses a level whose stated or rounded time step is not smaller than on the previous level.
 fn finer(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -90,7 +91,8 @@ fn finer(
     Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
-/// Refuses instants that change the step of `case` by more than the tolerance.
+/// Refuses a number of instants that changes the time step of `case` by more than
+/// [`STEP_TOLERANCE`].
 fn as_wanted(
     evaluator: &Evaluator<'_>,
     path: &Path,

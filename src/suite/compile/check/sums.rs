@@ -1,5 +1,5 @@
-//! Checks that every method and the exact solution define the judged quantity if it is a sum over
-//! the body, such as the energy.
+//! If the error of a sum over the body (such as the energy) is measured, checks that every method
+//! and the exact solution define this sum.
 
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
@@ -12,8 +12,8 @@ use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// Returns the sum that the suite judges, with its exact value; `None` if the suite judges another
-/// quantity.
+/// Returns the sum whose error is measured, with its exact value; `None` if the suite measures
+/// another quantity.
 ///
 /// # Errors
 /// The reason why a method or the exact solution does not define the sum.
@@ -117,7 +117,7 @@ fn stored_energy(
     Ok(())
 }
 
-/// Refuses to judge an energy for methods whose force is not the derivative of an energy.
+/// Refuses the energy as measured sum for methods whose force is not the derivative of an energy.
 fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_averaged = |method: &MethodSpec| match method {
         MethodSpec::Mpm { volume: Some(volume), .. } => {
@@ -199,8 +199,8 @@ fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diag
     evaluator.diagnostic(path, &message)
 }
 
-/// Refuses a consistent mass matrix if a wall reaction is judged, because the reaction would
-/// include the inertia of other nodes.
+/// Refuses a consistent mass matrix if the error of a wall reaction is measured, because the
+/// reaction would include the inertia of nodes away from the wall.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_consistent = |method: &MethodSpec| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
@@ -212,7 +212,7 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     Err(evaluator.diagnostic(&path, message).with_help("use `lumped` to judge a reaction"))
 }
 
-/// Refuses the energy bound at `path` for a body whose law has no energy.
+/// Refuses the key at `path`, which needs the energy of the body, if the law has no energy.
 pub(crate) fn refuse_law_without_energy(
     evaluator: &Evaluator<'_>,
     path: &Path,

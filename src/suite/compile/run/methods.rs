@@ -36,7 +36,7 @@ impl MethodDraft {
     }
 }
 
-/// Returns the first part of the method's name, and its settings in the order of the name.
+/// Returns the first part of the name of `method`, and the settings that may follow, in order.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
         Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
@@ -251,8 +251,8 @@ fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds settings to equal names, and returns whether a name has changed. A new name may equal that
-/// of another method, so the caller repeats this step.
+/// Adds settings to equal names, and returns whether a name has changed. The caller repeats this,
+/// because a new name may equal the name of another method.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Compiles the run: levels, time steps, methods, and the cases as all combinations of list values.
+//! Compiles levels, time steps, methods and cases. Lists in the suite give one case for each
+//! combination of their values.
 
 pub(crate) mod methods;
 pub(crate) mod places;
@@ -22,8 +23,8 @@ const MOST_CASES: usize = 1000;
 
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// Compiles the ends of the runs. Returns for each end its text in case names and its value (s, or
-/// the number of load steps).
+/// Compiles the end times of the runs. Each one is returned as the text for case names and the
+/// value (s, or number of load steps).
 pub(crate) fn ends(
     evaluator: &Evaluator<'_>,
     run: &RunSpec,
@@ -139,7 +140,7 @@ struct Draft {
     against: Against,
 }
 
-/// Returns the solutions to compare with, each with its suffix in case names.
+/// Returns the solutions with which the cases are compared, each with a suffix for case names.
 fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     let truths = [
         plan.has_formulas().then_some((Against::Exact, "-vs-exact")),
@@ -287,8 +288,8 @@ fn stretched(plan: &ConvergencePlan) -> bool {
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
 }
 
-/// Returns the default law of an FEM case: the law of the material. The check `fem_support` has
-/// already refused materials without such a law.
+/// Returns the default law of an FEM case, which is the law of the material. Materials without an
+/// FEM law have already been refused.
 fn own_law(plan: &ConvergencePlan) -> EquationName {
     law_of_bar(&plan.scene.material).unwrap_or_default()
 }

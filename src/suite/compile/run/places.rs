@@ -7,11 +7,11 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum offset of a particle from its lattice, as a share of the spacing: halfway to the next
-/// particle.
+/// Maximum offset of a particle from its lattice point, as a share of the particle spacing: half
+/// the distance to its neighbour.
 const MOST: f64 = 0.5;
 
-/// Maximum random offset, as a share of the spacing, if a face carries a load. It keeps the
+/// Maximum random offset, as a share of the spacing, if a face carries a load. This keeps the
 /// particle layer at the face separate from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 

@@ -1,5 +1,5 @@
-//! Compiles the refinement plan. The key with a list is refined; time steps are stated or a share
-//! of the stable time step.
+//! Compiles the refinement plan. The refined key is the one with a list of values. Time steps are
+//! stated, or are a share of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -224,8 +224,8 @@ pub(crate) fn stable_share(
     }
 }
 
-/// Returns the step (s) as a formula of h: the stated step, or a preliminary value for an automatic
-/// step, which is computed when the particles exist.
+/// Returns the time step (s) as a formula of h. For an automatic step, this is a preliminary value:
+/// the final step is computed when the particles exist.
 pub(crate) fn step_formula(
     evaluator: &Evaluator<'_>,
     path: &Path,

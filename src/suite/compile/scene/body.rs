@@ -150,8 +150,8 @@ fn both_ends(
     Ok(())
 }
 
-/// Replaces the free faces of a body at rest by faces at rest. Refuses keys that fix, load or move
-/// the body, and a list of bodies. `path` is the map that contains the body.
+/// Sets the condition of free faces to [`FaceAtRest`], for a rigid body. Refuses a list of bodies,
+/// and keys that fix, load or move the body. `path` is the map that contains the body.
 fn settle(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -127,7 +127,6 @@ pub(crate) fn velocity(
         .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
 }
 
-/// Compiles the initial stress of the reference configuration.
 pub(crate) fn stress(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
@@ -156,7 +155,7 @@ pub(crate) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// Lists the stress components that a scene of this dimension can state.
+/// Lists the names of the stress components in this number of dimensions.
 fn known(dimension: usize) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();

@@ -66,7 +66,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
     Ok(())
 }
 
-/// Combines all `bodies` into one scene, which is the body itself if there is only one.
+/// Combines all `bodies` into one scene. If `several` is false, returns the only body.
 fn together(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -101,8 +101,8 @@ fn together(
     Ok(scene)
 }
 
-/// Makes the faces of a body free unless they are on the bounding box of all bodies, where the
-/// walls are.
+/// Frees the faces of a body that are not on the bounding box of all bodies, because walls exist
+/// only there.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;

@@ -8,7 +8,7 @@ use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Maximum volume, as a share of a box, that counts as rounding error.
+/// A set counts as empty if at most this share of its volume is in the body.
 const SLIVER: f64 = 1e-12;
 
 /// Compiles the particle sets. Their loads are compiled later.

@@ -23,7 +23,8 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect`, to one expectation for each of the `rows` of parameter values.
+/// Compiles entry `i` of `expect` to one expectation for each of the `rows`, which contain
+/// parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
@@ -43,7 +44,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // Evaluating the suite's own values first marks its parameters as used.
+    // This evaluation, with the parameter values of the suite, marks the parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
@@ -75,8 +76,8 @@ fn row(
     })
 }
 
-/// Refuses an entry without expectations. Also refuses a bound on a limit if the study determines
-/// no limit, and bounds on runs if it determines one.
+/// Refuses an entry without expectations. Also refuses bounds on single runs if the study
+/// determines a stability limit, and a bound on this limit otherwise.
 fn refuse_idle(
     evaluator: &Evaluator<'_>,
     path: &Path,

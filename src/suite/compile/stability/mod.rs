@@ -3,7 +3,7 @@
 //! ```text
 //! setup    parameter values -> the set-up of a run, its scales and bounds
 //! expect   the expectations
-//! requested   figures that need a measurement of their own
+//! requested   quantities that are measured only on request
 //! ```
 
 pub(crate) mod expect;
@@ -30,7 +30,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // Evaluating the suite's own values first marks its parameters as used.
+    // This evaluation, with the parameter values of the suite, marks the parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;

@@ -1,4 +1,5 @@
-//! Quantities that a run measures separately, only if a suite requests them.
+//! Determines whether a suite requests the null space of the grid or the energy ledger, which runs
+//! compute only on request.
 
 use crate::mpm::TransferKind;
 use crate::subject::PlaneState;
@@ -54,7 +55,7 @@ pub(crate) fn null_space(
 }
 
 /// Whether a requested quantity needs the energy ledger, which assigns energy changes to the stages
-/// of a step. Refuses several bodies.
+/// of a step. Refuses scenes and studies for which the ledger is not implemented.
 pub(crate) fn ledger(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -25,7 +25,7 @@ pub(crate) struct RunSetup {
     pub(crate) scene: Scene,
     pub(crate) lattice: LatticeEdits,
     pub(crate) level: LevelPlan,
-    /// Step lengths (s), used cyclically.
+    /// Step lengths (s), repeated cyclically.
     pub(crate) dt: Vec<f64>,
     /// Share of the stable time step for an automatic `dt`, which is computed once the particles
     /// exist.
@@ -181,7 +181,8 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
-/// Refuses a frozen body that is not stress-free and at rest, or on which a load acts.
+/// Refuses a frozen run of bodies that have an initial stress or motion, carry loads, or are in
+/// contact.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -204,14 +205,16 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
-/// Default maximum energy of a stable run, relative to the initial energy. It allows for the energy
-/// exchange between velocities and stresses in a leapfrog scheme just below its stability limit.
+/// Default maximum energy of a stable run, relative to the initial energy. The value allows for a
+/// leapfrog scheme just below its stability limit, in which energy is exchanged between velocities
+/// and stresses.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Default energy, relative to the initial energy, above which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Returns the scales of measured values and the energy bounds for runs of `scene`.
+/// Returns the values by which measured quantities are divided, and the energy bounds, for runs of
+/// `scene`.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -73,7 +73,7 @@ fn refuse_methods_of_other_bodies(
     Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
 }
 
-/// Refuses keys about the motion, because the body is at rest.
+/// Refuses quantities and keys that need a motion, because the body is at rest.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "the judged quantity needs a motion, but the body is `rigid`";

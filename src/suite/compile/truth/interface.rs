@@ -1,8 +1,8 @@
 //! Checks exact solutions of several bodies, and the conditions on their common faces.
 //!
-//! Neighbouring bodies are boxes along an axis: the high face of one and the low face of the next
-//! have the same extent, with or without a gap between them. Conditions for other faces and for
-//! rims are not implemented.
+//! Neighbouring bodies are boxes in a row along an axis. The high face of a box and the low face of
+//! the next box have the same extent; there may be a gap between them. Conditions between faces of
+//! different extent, or on round rims, are not implemented.
 
 use crate::exact::{Interface, Problem, Survey, Violation, meets};
 use crate::suite::evaluator::Evaluator;

@@ -1,4 +1,5 @@
-//! Compiles the exact solution or equilibrium of a suite, and checks that it solves its problem.
+//! Compiles the exact solution or equilibrium of a suite, and checks that it solves the problem of
+//! the suite.
 //!
 //! A stated equilibrium is compared with the state at the end of the run.
 
@@ -238,7 +239,8 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// Returns a face with its condition, which is the load on the face if the face is free.
+/// Returns a face with its condition. For a face with a load, this is the condition that the load
+/// imposes.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -302,7 +304,7 @@ fn refuse_equilibrium_with(
         let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
-    // A formula with t is an error, because t is not a variable here.
+    // This refuses formulas that contain t.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
@@ -354,7 +356,7 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Placeholder for a suite without exact solution, in which only conserved sums are judged.
+/// Placeholder for a suite without exact solution, in which only conserved sums are checked.
 pub(crate) struct Unknown;
 
 impl Truth for Unknown {
@@ -373,8 +375,8 @@ pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
     !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
 }
 
-/// Whether a same-method reference can be the only reference of a suite. A reference with shorter
-/// steps cannot, because it shows only the error of the time step.
+/// Whether a same-method reference may replace an exact solution. A reference with shorter steps
+/// may not, because it reveals only the error of the time step.
 pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
     matches!(same_method, Some(SameMethod::FineGrid(_)))
 }

@@ -5,8 +5,8 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::LinearisedSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Default tolerance of an exact solution (relative residual). It allows for rounding of second
-/// derivatives.
+/// Default tolerance of an exact solution (relative residual). The value allows for rounding errors
+/// of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Maximum tolerance that a suite may state.
@@ -39,8 +39,8 @@ pub(crate) fn linearised(
     Ok(Some(Linearised { tolerance, because }))
 }
 
-/// Returns the diagnostic about a violation in `problem`. It includes the residual of the law if
-/// the suite states, or could state, the key `linearised`.
+/// Returns the diagnostic about a violation in `problem`. The message includes the residual of the
+/// law if the suite states the key `linearised`, or could be corrected by it.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,

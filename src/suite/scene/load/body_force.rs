@@ -9,8 +9,8 @@ use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_ti
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of operations (with unrolled sums) of a formula that is precomputed for each
-/// position.
+/// Formulas with at most this number of operations (counted with unrolled sums) are precomputed for
+/// each position.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Force per unit mass (m/s2), formulas of the coordinates, t and the displacement.
@@ -101,7 +101,6 @@ impl SceneLoad for BodyForceLoad {
 }
 
 impl<const D: usize> BuildEffect<D> for BodyForceLoad {
-    /// Formulas with more than `MOST_OPERATIONS` operations are not precomputed.
     fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
         if self.depends_on_displacement() {
             return Ok(Box::new(self.of_displacement(site.particles)));

@@ -46,7 +46,7 @@ impl EffectName {
     /// Refuses a list in which an effect lacks another effect that it requires.
     ///
     /// # Errors
-    /// The effect whose requirement is missing, and a message that names both.
+    /// The effect whose requirement is missing, and a message with the names of both effects.
     pub fn combine(listed: &[Self]) -> Result<(), (Self, String)> {
         for &effect in listed {
             if let Some(needed) = effect.needs().iter().find(|needed| !listed.contains(needed)) {
@@ -119,7 +119,7 @@ pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
         LoadTarget::Body
     }
 
-    /// Returns the numbers for external solvers; empty if the load cannot be passed to them.
+    /// Returns the numbers for external solvers; empty if the protocol does not support the load.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }

@@ -22,7 +22,7 @@ pub(crate) struct StudyFacts {
 /// Keys of a load: one entry of `loads`.
 pub(crate) trait LoadKeys {
     /// Returns the YAML of an example load with strength `s` (zero: no effect) and the vector value
-    /// `vector`, on the face `right` or the set `some`. Tests of all loads use it.
+    /// `vector`, on the face `right` or the set `some`. The tests of all loads use this example.
     fn example(vector: &str) -> String
     where
         Self: Sized;
@@ -79,7 +79,7 @@ impl LoadEntry<'_> {
         self.scene.dimension()
     }
 
-    /// Refuses a second load of the same kind; `title` is the name in messages.
+    /// Refuses a second load of the same kind; `title` is the name of the load in messages.
     pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
         if self.scene.lists(self.effect) {
             return Err(self.evaluator.diagnostic(&self.path, &format!("{title} appears twice")));

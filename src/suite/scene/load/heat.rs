@@ -85,8 +85,8 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// Compiles the heat source. `T` is the temperature, so a source that uses `T` excludes a declared
-/// name `T`.
+/// Compiles the heat source. In the formula, `T` is the temperature. A formula with `T` is refused
+/// if the suite declares a name `T`.
 fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
     let evaluator = entry.evaluator;
     let mut variables = coordinates_and_time(entry.dimension());
@@ -143,7 +143,8 @@ impl<const D: usize> BuildEffect<D> for SceneHeat {
     }
 }
 
-/// Returns the initial temperature: stated in the scene, otherwise from the exact solution.
+/// Returns the initial temperature: from the scene if stated there, otherwise from the exact
+/// solution.
 fn initial<const D: usize>(
     problem: Option<&Conduction>,
     stated: Option<&Formula>,
@@ -200,8 +201,8 @@ fn faces(
     Ok(faces)
 }
 
-/// Refuses prescribed temperatures and heat fluxes on faces that are not on the grid face or do not
-/// stay there, because the condition applies to the nodes of the grid face.
+/// Refuses prescribed temperatures and heat fluxes on a face that does not stay on a grid face,
+/// because the condition applies to the nodes of the grid face.
 fn on_grid(
     entry: &LoadEntry<'_>,
     path: &Path,

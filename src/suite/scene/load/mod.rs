@@ -33,7 +33,8 @@ macro_rules! loads {
 
         impl EffectName {
             /// Returns an example entry of `loads` with this effect and the strength `s`, in
-            /// `dimension` dimensions. It acts on the body, the face `right` or the set `some`.
+            /// `dimension` dimensions. The effect acts on the body, the face `right` or the set
+            /// `some`.
             pub fn example(self, dimension: usize) -> String {
                 let vector = vec!["s*(1 + t)"; dimension].join(", ");
                 let vector = format!("[{vector}]");

@@ -1,4 +1,4 @@
-//! Tests of the YAML reader with a typical suite, and with mistakes in it.
+//! Tests of the YAML reader with a typical suite, and with mistakes in this suite.
 
 pub(crate) mod files;
 pub(crate) mod good;

@@ -100,7 +100,8 @@ proptest! {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
             match Source::from_text("any.yaml", text.as_str()) {
                 Err(diagnostic) => prop_assert!(refused_on_purpose(diagnostic.message()), "{diagnostic}"),
-                // `read` refuses a list or map as a key, which hides the keys after it.
+                // `read` stops at a list or map as a key, so the keys after this key cannot be
+                // located.
                 Ok(source) if read::<Value>(&source).is_err() => {}
                 Ok(source) => {
                     let mut all = Vec::new();

@@ -53,8 +53,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
 }
 
-/// Returns the largest difference of a column at the end of two runs, relative to its largest
-/// value.
+/// Returns the largest difference of a column at the end of two runs, relative to the largest value
+/// of the column.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
@@ -103,7 +103,7 @@ fn grouped_under_acceleration(
         let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
         for i in 0..kind.0 {
             stretch.gradient[i][i] = 0.1;
-            // Fast enough to make particles change cells.
+            // At this velocity, particles change cells.
             stretch.value[i] = 1.0;
         }
         scene.velocity = stretch;
@@ -187,8 +187,8 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
         size(minus(mean(course.last()), mean(1)))
     };
     let ratio = distance(half) / distance(whole);
-    // The ratio is 1/2 at constant speed and 1/4 at constant acceleration. The examination
-    // `translation` reports bodies that do not move.
+    // For half the step length, the ratio is 1/2 at constant speed and 1/4 at constant
+    // acceleration. The examination `translation` reports bodies that do not move.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

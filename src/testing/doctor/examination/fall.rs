@@ -17,7 +17,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Gravity (m/s2). It differs from 9.81, which may be a default of the solver.
+/// Gravity (m/s2). The value differs from 9.81, because a solver may use 9.81 by default.
 const GRAVITY: f64 = 3.7;
 
 /// Maximum relative difference between a measured value and the value that a suspected cause
@@ -46,7 +46,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(0.5 * end * end, g), d)
     );
     let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
-    // A defect of velocities explains wrong positions; a remark does not.
+    // Wrong velocities also cause wrong positions, so positions are examined only if the velocities
+    // have no defect.
     if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
         findings.extend(of_distance(patient, &course, g));
     }
@@ -177,7 +178,7 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     ("gravity-scaled", cause.to_owned())
 }
 
-/// Returns a finding if the positions differ from g t^2/2. The velocities must be correct.
+/// Returns a finding if the positions differ from g t^2/2 although the velocities are correct.
 fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let end = course.times[last];

@@ -70,7 +70,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             course = again;
         }
     }
-    // Wrong requests explain a run that fails.
+    // If the requests are wrong, they are the reported cause of a failed run.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
@@ -194,7 +194,7 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     })
 }
 
-/// Returns a finding if forces have a wrong factor or belong to other times.
+/// Returns a finding if forces have a wrong factor or are evaluated at wrong times.
 fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let (last, dt) = (course.last(), course.problem.dt);
     let end = course.times[last];
@@ -254,8 +254,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if a force that grows linearly with X does not accelerate each point
-/// accordingly in one step.
+/// Returns a finding if the velocities after one step do not grow linearly with X. The force in the
+/// run `course` grows linearly with X.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {
@@ -265,8 +265,8 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     }
     let (_, found, _) = line(&x, &v);
     let share = found / slope;
-    // The range allows for weights that smooth a linear field near the edge of the body, also with
-    // APIC and PIC.
+    // The range is wide because basis functions smooth a linear field near the edge of the body,
+    // also with APIC and PIC.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;

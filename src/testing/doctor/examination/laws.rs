@@ -25,14 +25,14 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Displacement gradient at the end of the run.
 const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -0.1, 0.15]];
 
-/// Stretch rate (1/s) in the examination of volumes.
+/// Stretch rate (1/s) in [`volumes`].
 const STRETCHED: f64 = 0.5;
 
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest one. It allows for the step error of laws
-/// in rate form.
+/// Maximum error of a component, relative to the largest one. The value allows for the time step
+/// error of laws in rate form.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
@@ -42,7 +42,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         needs.column = Some("stress");
     })?;
     let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
-    // All laws in the first supported dimension, and the first law in all dimensions.
+    // All laws run in the first supported number of dimensions, and the first law in all of them.
     let laws = FINITE.into_iter().map(|law| (first.dimension, law));
     let dimensions = [1, 2, 3].into_iter().map(|d| (d, first.law));
     let mut kinds: Vec<Kind> = laws.chain(dimensions).filter(|kind| is_able(*kind)).collect();
@@ -166,7 +166,7 @@ fn deformed(kind: Kind) -> BoxScene {
     BoxScene { displacement, ..scene }
 }
 
-/// Creates the field with this gradient that is zero at the centre of the body.
+/// Creates a field that is zero at the centre of the body and has the given gradient.
 fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
     let d = scene.dimension;
     let gradient = std::array::from_fn(|i| {
@@ -175,7 +175,8 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// Fits F in the middle of the body at the end, row by row, to displacements (least squares).
+/// Computes F in the middle of the body at the end of the run, row by row, by a least-squares fit
+/// to the displacements.
 pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
@@ -197,8 +198,8 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
     f
 }
 
-/// Returns the initial stress (Pa) and F of the problem, row by row, for a body with the
-/// deformation gradient `f`.
+/// Creates the problem of a body that starts with the deformation gradient `f`. Returns the initial
+/// stress (Pa) and F of the problem, row by row.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
     let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));

@@ -1,4 +1,5 @@
-//! Examination of a rigid body that fills a periodic axis and moves along it.
+//! Examinations of a body that fills a periodic axis: a rigid body that moves along the axis, and
+//! an elastic body whose ends press against each other.
 
 use super::translation::VELOCITY;
 use crate::testing::doctor::course::{AffineField, displacement, shown, velocity};
@@ -81,8 +82,8 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 /// Returns the share of momentum that the upper half of a body loses across the ends of a periodic
-/// axis. The initial velocity increases linearly along the axis, so the ends move towards each
-/// other.
+/// axis. The initial velocity increases linearly along the axis, so the ends collide across the
+/// period.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

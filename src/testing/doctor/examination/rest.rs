@@ -16,8 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Maximum deviation of points from their mean motion, relative to the mean, for a body that moves
-/// as a whole.
+/// The body counts as moving as a whole if points deviate from the mean motion by at most this
+/// share of the largest motion.
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

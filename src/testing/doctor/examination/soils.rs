@@ -2,10 +2,10 @@
 //! objectivity and the number of steps.
 //!
 //! The body is so heavy that no wave moves during the run. It therefore follows `v = L (X - X_c)`,
-//! and its deformation gradient grows from I to `I + L` in one second. The stress in its middle
-//! follows from the law along this path. The built-in solver computes the expected stress in a
-//! Total Lagrangian run, which represents the motion exactly. The measured motion determines the
-//! path, because averaging (PIC) and basis functions on a fixed grid change the motion.
+//! and its deformation gradient grows from I to `I + L` in one second. The stress in the middle of
+//! the body follows from the law along this path. The built-in solver computes the expected stress
+//! in a Total Lagrangian run, which represents the motion exactly. The measured motion determines
+//! the path, because averaging (PIC) and basis functions on a fixed grid change the motion.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -29,7 +29,8 @@ const LAWS: [&str; 2] = ["drucker_prager", "mohr_coulomb"];
 /// and the error is up to 0.016.
 const NEAR: f64 = 0.025;
 
-/// Maximum error with a rotation, which affine transfers change in their first step.
+/// Maximum error on the path with a rotation; larger than [`NEAR`], because affine transfers change
+/// a rotation in their first step.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
 /// The stress depends on the number of steps if the errors with one and with 20 steps have at most
@@ -49,7 +50,7 @@ const YOUNG: f64 = 15_000.0;
 /// compression.
 const POISSON: f64 = 0.2;
 
-/// Density (kg/m3). It is so large that waves travel only about 1e-8 cells in a second.
+/// Density (kg/m3). The density is so large that waves travel only about 1e-8 cells in a second.
 const DENSITY: f64 = 1e22;
 
 /// Displacement gradient at the end of a path of uniaxial compression.
@@ -82,8 +83,8 @@ impl Leg {
         !(self.relative_error() <= NEAR)
     }
 
-    /// Returns the largest difference between the stress errors of the two paths, relative to the
-    /// largest component.
+    /// Returns the largest difference between the stress errors of `self` and `other`, relative to
+    /// the largest expected component.
     fn distance_from(&self, other: &Self) -> f64 {
         let errors = |leg: &Self| -> Vec<f64> {
             leg.stress.iter().zip(&leg.expected).map(|(found, expected)| found - expected).collect()
@@ -115,7 +116,7 @@ impl Leg {
     }
 }
 
-/// All paths of one law; `None` for a path that the dimension does not have.
+/// All paths of one law; `None` for a path that does not exist in this number of dimensions.
 struct Legs {
     compression: Leg,
     one_step: Leg,
@@ -211,7 +212,7 @@ fn with_gradient(scene: &BoxScene, f: &[f64]) -> BoxScene {
     scene
 }
 
-/// Returns the mean stress (Pa) in the middle at the end, row after row.
+/// Returns the mean stress (Pa) in the middle of the body at the end of the run, row after row.
 fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     inside(course, scene, &course.states[course.last()].stress)
         .ok_or_else(|| Hindrance::Broke("the column `stress` is missing".to_owned()))
@@ -344,8 +345,8 @@ fn yield_surface(leg: &Leg, path: &str) -> SolverFinding {
     )
 }
 
-/// Whether the stress of a uniaxial strain path is on the yield surface, up to rounding of
-/// parameters. `None` in one dimension, where the lateral stress is unknown.
+/// Whether the measured stress of a uniaxial strain path is on the yield surface, with a tolerance
+/// for rounded parameters. `None` in one dimension, where the lateral stress is unknown.
 fn is_on_surface(leg: &Leg) -> Option<bool> {
     let d = leg.scene.dimension;
     if d == 1 {
@@ -365,7 +366,7 @@ fn is_on_surface(leg: &Leg) -> Option<bool> {
 }
 
 /// Computes the largest difference of a component, relative to the largest component of `expected`.
-/// It is infinite if a component is NaN.
+/// The result is infinite if a component is NaN.
 fn error(stress: &[f64], expected: &[f64]) -> f64 {
     let scale = expected.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
     let differences = stress.iter().zip(expected).map(|(a, b)| (a - b).abs());

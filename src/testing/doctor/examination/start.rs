@@ -22,15 +22,15 @@ pub(super) const EXAMINATION: Examination = Examination {
 };
 
 /// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Other
-/// deformations distribute the particles unevenly over cells, which reduces the force by a tenth
-/// with linear functions.
+/// deformations distribute the particles unevenly over cells. With linear functions, this reduces
+/// the force by a tenth.
 const SHEAR: f64 = 1.0;
 
 /// Initial stretch in one dimension.
 const STRETCH: f64 = 0.05;
 
-/// Maximum relative error of the force. It allows for approaching waves and small changes of the
-/// state.
+/// Maximum relative error of the force. The value allows for approaching waves and small changes of
+/// the state.
 const NEAR: f64 = 0.12;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -38,8 +38,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes. It uses
-    // a law that depends on F if possible.
+    // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes. The
+    // stretched body has a law that depends on F, if possible.
     if first.dimension > 1 {
         let law = scenes.last().map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law)));
@@ -69,7 +69,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 
 fn scene(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // The sheared lattice keeps a distance from cell faces.
+    // At this position, no particle of the sheared lattice is close to a cell face.
     let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
     if kind.0 == 1 {
@@ -82,8 +82,8 @@ fn scene(kind: Kind) -> BoxScene {
     scene.with_waves(TRAVEL, STEPS)
 }
 
-/// Creates a body stretched to 1.5 times its length, so three particles per cell and axis become
-/// two.
+/// Creates a body stretched to 1.5 times its length. The stretch reduces three particles per cell
+/// and axis to two.
 fn stretched(kind: Kind) -> BoxScene {
     let mut scene = scene(kind);
     scene.ppc = 3;

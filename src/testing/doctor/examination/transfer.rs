@@ -4,13 +4,14 @@
 //! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
 //! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
 //! rotation or a stretch about the centre C. The moment `M = sum m (X - C) x v` (rotation) or `M =
-//! sum m (X - C) . v` (stretch) measures its transfer.
+//! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
 //!
-//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. D is the second
-//! moment of the weights along an axis, 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines, and
-//! beta is the share of PIC. An affine transfer loses `1 - a` times as much if its matrix C is
-//! wrong by the factor a. It loses twice as much of a rotation if C is transposed, and nothing if C
-//! is correct (Jiang et al. 2015, eq. 8 to 11).
+//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. Here d is the number
+//! of axes along which v varies, and beta is the share of PIC. D is the second moment of the
+//! weights along an axis: 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines. An affine transfer
+//! (APIC) loses nothing if its affine matrix is correct (Jiang et al. 2015, eq. 8 to 11). If the
+//! matrix is wrong by the factor a, the transfer loses `1 - a` times as much as PIC. If the matrix
+//! is transposed, the transfer loses twice as much of a rotation as PIC.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
@@ -39,10 +40,10 @@ const RATE: f64 = 1e-4;
 /// Basis functions whose averaging loss is known.
 const BASES: [&str; 3] = ["linear", "quadratic_bspline", "cubic_bspline"];
 
-/// Maximum relative difference between a loss and the loss of a basis.
+/// Maximum relative difference between a measured loss and the predicted loss for a basis.
 const NEAR: f64 = 0.03;
 
-/// Loss (relative to h2 and the inertia) below which a transfer counts as conserving the moment.
+/// A transfer conserves the moment if its losses (in the unit of [`Losses`]) are below this value.
 const KEPT: f64 = 0.004;
 
 const STEPS: u64 = 5;
@@ -76,7 +77,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // Velocities in another order lose the whole moment in the first step, and nothing later.
+    // If velocities are in another order than points, the whole moment is lost in the first step,
+    // and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step, the velocities of a stretching body belong to other points";
         let finding = SolverFinding::defect(
@@ -102,8 +104,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines the initial velocity of a stretched body: whether the solver uses it, its layout, and
-/// whether it grows.
+/// Examines a stretching body: whether the solver uses the initial velocity, stores vectors point
+/// by point, and keeps the velocity from growing.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -193,8 +195,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
 }
 
-/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small` is
-/// a stretch of a body of an eighth of the size.
+/// Finds the cause of losses by comparing them with the averaging losses of each basis. `small`
+/// contains the losses in a stretch of a body with an eighth of the size.
 fn cause(
     stretch: Losses,
     rotation: Losses,
@@ -253,10 +255,10 @@ fn cause(
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));
     let is_averaging = match of_basis {
         Some(of_basis) => is_alike(of_basis.later, stretch.later),
-        // The factor allows for the decay of the averaging error in later steps.
+        // The factor 0.65 allows for the decay of the averaging error in later steps.
         None => stretch.later > 0.65 * stretch.first,
     };
-    // FLIP may replace a part of the averaging of any basis.
+    // The transfer may be a blend of PIC and FLIP, with any basis.
     let is_blend = averaging.iter().any(|l| {
         let share = stretch.first / l.first;
         let decay = 1.0 - share * (1.0 - l.later / l.first);

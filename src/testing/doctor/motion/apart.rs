@@ -1,4 +1,4 @@
-//! Causes of errors if the parts of a stress-free body move differently.
+//! Determines the cause if the parts of a stress-free body move differently.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -8,12 +8,11 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Distance from the body's edge (cells) within which basis functions involve nodes outside the
-/// body.
+/// Points up to this distance (cells) from the edge of the body use nodes outside the body.
 const RIM: f64 = 1.6;
 
-/// Returns a cause that is recognised even if the error is small: a position limit, light nodes or
-/// cell changes.
+/// Returns a cause that is recognised even if the error is small: a position limit, nodes with
+/// little mass, or cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
 }
@@ -45,9 +44,9 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     Ok(slowed.unwrap_or_else(|| weights(motion, low, high, (way, speed))))
 }
 
-/// Returns a finding if points slow down by different amounts, at rates that do not depend on the
-/// step length (non-uniform drag). Wrong weights would cost a fixed share of the speed per step.
-/// The body has no stiffness, so points exert no forces on each other.
+/// Returns a finding for non-uniform drag: points slow down at different rates, which do not depend
+/// on the step length. With wrong weights, points would lose a fixed share of the speed in each
+/// step. The body has no stiffness, so points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -57,8 +56,8 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
     // The losses are compared at the end of the first step, before they saturate. With half the
-    // step length, drag loses as much in this time, and wrong weights lose twice as much. The limit
-    // is halfway between 1 and 2.
+    // step length, the loss in this time is the same for drag, and doubled for wrong weights. The
+    // limit for the ratio is the geometric mean of 1 and 2.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -186,7 +185,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if the error begins only at the edge of the body.
+/// Returns a finding if only points at the edge of the body have an error at first.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = size(v) * course.times[course.last()];

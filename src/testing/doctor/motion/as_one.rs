@@ -1,4 +1,4 @@
-//! Causes of errors if a body keeps its shape but moves incorrectly.
+//! Determines the cause if a body keeps its shape but moves incorrectly.
 
 use super::seen::UniformMotion;
 use crate::testing::doctor::course::{
@@ -113,7 +113,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }))
 }
 
-/// Returns the remaining share of the speed in the direction of motion at each time.
+/// Returns the mean velocity in the expected direction at each time, relative to the expected
+/// speed.
 fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     shares_of(motion)
 }
@@ -124,14 +125,14 @@ fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
 }
 
-/// Returns a finding if displacements disagree with correct velocities.
+/// Returns a finding if displacements are wrong although the velocities are correct.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
     let mean = |k| course.mean(displacement, k);
     let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
     let (ahead, slope, off) = line(t, &ways);
-    // A constant part far below one step is rounding; another finding covers single precision.
+    // Smaller errors are rounding errors. Another finding reports rounding in single precision.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
     if off > NEAR * dt || !is_systematic {
         return None;
@@ -174,7 +175,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns the likely cause of a wrong factor of the displacement.
+/// Returns the likely cause if velocities or displacements are wrong by `factor`.
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
     if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {

@@ -20,7 +20,7 @@ use seen::UniformMotion;
 /// Maximum relative error of a motion that single precision can explain.
 const SINGLE: f64 = 1e-4;
 
-/// Examines whether `scene`, whose initial velocity is uniform, continues with this velocity.
+/// Examines whether the body in `scene` keeps its uniform initial velocity.
 pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hindrance> {
     let course = patient.run(scene)?;
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };

@@ -4,8 +4,8 @@ use crate::testing::doctor::course::{Course, displacement, minus, size, times, v
 use crate::testing::doctor::patient::Patient;
 use crate::testing::doctor::scene::BoxScene;
 
-/// Maximum deviation of the points' errors from their mean, relative to the mean, for a body that
-/// moves as a whole.
+/// The body counts as moving as a whole if the motions of points differ from the mean motion by at
+/// most this share of the mean error.
 const AS_ONE: f64 = 0.05;
 
 pub(super) struct UniformMotion<'a> {

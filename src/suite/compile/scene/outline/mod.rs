@@ -16,7 +16,7 @@ pub(crate) enum BodyShape<'a> {
     Box(&'a BoxSpec),
     /// A body with a free surface, such as a disk or a polygon.
     Free(Arc<dyn Outline>),
-    /// A quadrilateral, which is the bilinear map of a box.
+    /// A quadrilateral, with its bilinear map from a box.
     Mapped(Arc<dyn Outline>, Quadrilateral),
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn shape<'a>(
     }
 }
 
-/// Refuses conditions on rims, and loads on rims except those that round rims support.
+/// Refuses conditions on the rims of a body, and loads on rims unless they may act on round rims.
 pub(crate) fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -4,7 +4,7 @@ use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-/// Maximum number of corners of a polygon. It limits the run time, because every side is
+/// Maximum number of corners of a polygon. The limit bounds the run time, because every side is
 /// intersected with every lattice cell.
 const MOST: usize = 100;
 

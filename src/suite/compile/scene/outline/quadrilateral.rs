@@ -41,7 +41,7 @@ pub(crate) fn faces_are_sides(
 ) -> Result<(), Diagnostic> {
     let is_side = |name: &str| {
         let number = FACES.iter().position(|face| *face == name);
-        // A later check reports faces that do not exist in two dimensions.
+        // Faces that do not exist in two dimensions are reported by a later check.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
     let no_side = |at: &Path, face: &str, is_key: bool| {

@@ -28,8 +28,8 @@ pub struct SceneHeat {
     pub capacity: f64,
     /// Heat source (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t. By default it is that of the
-    /// exact solution.
+    /// Initial temperature (K), a formula of the coordinates and t. By default, the exact
+    /// temperature at t = 0 is used.
     pub initial: Option<Formula>,
     pub(crate) faces: Vec<ThermalFace>,
 }

@@ -16,7 +16,7 @@ use super::conditions;
 conditions! {
     /// Thermal condition on a face; a face that is not named is insulated.
     ThermalSpec: ThermalKeys;
-    /// No heat flows.
+    /// No heat flows through the face.
     Insulated = "insulated" is insulated::Insulated;
     /// Prescribed temperature (K).
     Temperature = "temperature" of temperature::TemperatureSpec;

@@ -6,20 +6,21 @@ use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
-/// Rate of stretch along the first axis (1/s). It is negative, because artificial viscosity acts in
-/// compression only. Strains stay below 1e-3.
+/// Rate of stretch along the first axis (1/s). The rate is negative, because artificial viscosity
+/// acts in compression only. Strains stay below 1e-3.
 pub(super) const STRETCH: f64 = -5e-3;
 /// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
 
-/// Half the width (cells) of the tube: the points around an axis whose momentum is measured.
+/// Half the width (cells) of the tube. The tube is the set of points near an axis whose momentum is
+/// measured.
 const TUBE: f64 = 2.0;
 
-/// Distance that waves travel during the run (cells). It is so short that waves from free faces do
-/// not affect the momentum of the tube.
+/// Distance that waves travel during the run (cells). The distance is so short that waves from free
+/// faces do not affect the momentum of the tube.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
-/// Number of steps. It is small, because averaging (PIC) spreads momentum in each step.
+/// Number of steps. The number is small, because averaging (PIC) spreads momentum in each step.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
@@ -31,10 +32,11 @@ pub(super) struct MeasuredModuli {
     pub(super) shear: [f64; 2],
     /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate.
     pub(super) viscosity: f64,
-    /// Momentum transferred by averaging, without stress, as a share of that transferred by stress;
-    /// at most 1.
+    /// Ratio of the momentum transferred by averaging to the momentum transferred by stress; at
+    /// most 1.
     pub(super) averaged_share: f64,
-    /// Momentum transferred by viscosity, as a share of that transferred by stress; at most 1.
+    /// Ratio of the momentum transferred by viscosity to the momentum transferred by stress; at
+    /// most 1.
     pub(super) viscous_share: f64,
 }
 
@@ -110,9 +112,10 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Computes the impulse (Pa s) at each time of the stress with normal i and force direction j. The
-/// impulse is the momentum transferred from the upper to the lower half of a tube along axis i,
-/// divided by the area of the tube. It depends only on velocities at reference positions.
+/// Computes the impulse (Pa s) of the stress component with normal i and force direction j, at each
+/// time. The impulse is the momentum transferred from the upper to the lower half of a tube along
+/// axis i, divided by the area of the tube. The calculation uses only velocities and reference
+/// positions.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -145,8 +148,8 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Maximum relative error of a column. It is large because the column may be one step old, and
-/// waves are near.
+/// Maximum relative error of a column. The value is large because the column may be one step old,
+/// and waves are near.
 pub(super) const NEAR: f64 = 0.2;
 
 /// Returns the growth of the column `stress` along the stretch, relative to its expected growth;
@@ -159,8 +162,8 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Returns F_00 - 1 from the column `deformation_gradient`, relative to its value in the motion;
-/// `None` without this column.
+/// Returns F_00 - 1 from the column `deformation_gradient`, relative to F_00 - 1 of the exact
+/// motion; `None` without this column.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;

@@ -1,15 +1,15 @@
 //! Examination of a body that stretches and shears: the stress is measured from the momentum flux
 //! through the middle.
 //!
-//! With an initial velocity `v = L (X - C)` the strain L t is uniform, and no net force acts
-//! inside, until waves arrive from the free faces. Momentum is transferred from one half to the
-//! other by `dP_j/dt = -sigma_ij A` through the middle plane with normal i. In a tube of points
-//! around axis i, the transfer can be computed exactly from velocities alone, for any basis
-//! functions.
+//! With an initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
+//! the free faces. Until then, there is no net force inside the body. Momentum is transferred from
+//! one half to the other by `dP_j/dt = -sigma_ij A` through the middle plane with normal i. The
+//! transfer is measured in a tube, which consists of the points near axis i. Velocities alone
+//! determine this transfer exactly, for any basis functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
-//! moduli    defects with characteristic moduli
+//! moduli    determines the defect that causes the measured moduli
 //! ```
 
 mod measure;
@@ -34,7 +34,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Examines each supported number of dimensions, until one has findings.
+/// Examines the solver in each supported number of dimensions. Stops after the first findings.
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
     let mut all = Examined::default();
@@ -59,7 +59,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Examines the body in tension. Returns a finding if the stress differs from that in compression.
+/// Examines the body in tension. Returns a finding if the stress differs from the stress in
+/// compression.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -129,7 +130,7 @@ fn examine_scene(
     Ok((examined, measured.averaged_share))
 }
 
-/// Findings that viscosity can cause as well.
+/// Names of findings that viscosity can also cause.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {

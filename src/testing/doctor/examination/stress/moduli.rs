@@ -8,7 +8,7 @@ use crate::testing::doctor::scene::BoxScene;
 /// Maximum difference between moduli, relative to the largest modulus.
 const NEAR: f64 = 0.03;
 
-/// Addition to [`NEAR`] if averaging transfers as much momentum as stress.
+/// Value added to [`NEAR`] if averaging transfers as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
 /// A defect: its name, the moduli that it causes (longitudinal, lateral, shear), its cause, and the
@@ -156,8 +156,8 @@ fn mistakes(scene: &BoxScene, lambda: f64, mu: f64) -> Vec<Mistake> {
     all
 }
 
-/// Returns the finding for moduli that all have a wrong `factor`. The modulus, the mass, the volume
-/// or the gradients are wrong; the column `stress` shows whether it is the modulus.
+/// Returns the finding for moduli that are all wrong by the same `factor`. The columns `stress` and
+/// `deformation_gradient` show whether the modulus, the gradients, or the mass or volume is wrong.
 fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> SolverFinding {
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if is(-1.0) {
@@ -230,7 +230,8 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &cause, look_at)
 }
 
-/// Returns acceleration factors with known causes; no two factors are equal.
+/// Returns the factors by which known mistakes change accelerations, each with the mistake. No two
+/// factors are equal.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

@@ -1,4 +1,4 @@
-//! Determines findings on walls from the results of their runs.
+//! Determines the defect of walls from measured forces and motions.
 
 use super::measure::{SUNK, TRAVEL, Wall};
 use crate::testing::doctor::course::shown;
@@ -10,37 +10,38 @@ use crate::testing::doctor::scene::FACES;
 /// over the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Maximum relative force of a wall from which the body can separate or along which it can slide.
+/// Wall forces up to this value, relative to the expected force, count as zero: the body separates
+/// from the wall or slides along it.
 const NONE: f64 = 0.2;
 
-/// Maximum relative force of a missing wall.
+/// A wall is missing if its forces are at most this value, relative to the expected force.
 const ABSENT: f64 = 0.1;
 
 /// Maximum relative difference between forces of walls that are mirror images, or that differ only
 /// in their tangential condition.
 const UNEVEN: f64 = 0.05;
 
-/// Minimum displacement through a missing wall, relative to the displacement of a free body while a
-/// wave crosses one cell.
+/// Maximum displacement through a wall with a correct force, relative to the displacement of a free
+/// body while a wave crosses one cell.
 const THROUGH: f64 = 0.8;
 
 /// Maximum relative error of the force under gravity. Averaging (PIC) with cubic functions has an
 /// error of 0.15.
 const SMOOTH: f64 = 0.2;
 
-/// Maximum missing part of a wall force under gravity, as a share of the weight of a cell.
+/// The wall force under gravity may be too small by this share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// Maximum excess of a wall force under gravity, as a share of the weight of a cell. Averaging
-/// (PIC) has an excess of 0.14.
+/// The wall force under gravity may be too large by this share of the weight of a cell. With
+/// averaging (PIC), it is too large by 0.14.
 const CARRIED: f64 = 0.4;
 
-/// Maximum error of displacements in a uniform stretch. Correct clients with quadratic functions
-/// that are modified at the wall have up to 0.04; functions truncated at the wall have 0.07 or
-/// more.
+/// Maximum error of displacements in a uniform stretch. A correct solver with quadratic functions
+/// that are modified at the wall has an error of up to 0.04. Functions that are truncated at the
+/// wall cause an error of 0.07 or more.
 const STRETCH: f64 = 0.05;
 
-/// Kinds of findings; each may explain the kinds after it.
+/// Names of findings in order of priority: a finding may be the cause of those after it.
 const KINDS: [&str; 11] = [
     "position-limited",
     "wall-holds-acceleration-only",
@@ -55,13 +56,13 @@ const KINDS: [&str; 11] = [
     "wall-breaks-linear-fields",
 ];
 
-/// Returns the defect that explains all others, with the faces that show it, or a remark if there
-/// is no defect.
+/// Returns the defect with the highest priority, with all faces that have this defect. Without a
+/// defect, returns a remark, if any.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_kind(walls, of_wall).or_else(|| uneven(walls)).or_else(|| first_kind(walls, of_stretch))
 }
 
-/// Returns the first finding in the order of [`KINDS`], with the faces that show it.
+/// Returns the first finding in the order of [`KINDS`], with all faces that have this finding.
 fn first_kind(
     walls: &[Wall],
     judge: impl Fn(&Wall) -> Option<SolverFinding>,
@@ -80,8 +81,8 @@ fn first_kind(
     Some(finding)
 }
 
-/// Returns a finding if the forces of two equivalent walls differ: opposite faces with one
-/// condition, or one face with two conditions if nothing moves along the face.
+/// Returns a finding if two walls that should exert equal forces do not. These are walls on
+/// opposite faces with equal conditions, and two runs with different conditions on the same face.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -174,7 +175,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
         ));
     }
     let is_smooth = |falling: f64| (falling - 1.0).abs() <= SMOOTH;
-    // A wall that carries more than the weight of its own nodes acts inside the body.
+    // A force above the expected force plus [`CARRIED`] indicates a wall inside the body.
     let is_inside = wall.offset.is_some_and(|offset| !(offset <= CARRIED));
     let is_even = wall.along.is_none_or(|along| is_near(along) || along.abs() <= NONE);
     if !(thrown().all(is_near) && is_even && !is_inside && wall.falling.is_none_or(is_smooth)) {
@@ -215,7 +216,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
 /// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // Averaging (PIC) also softens the wall, but smaller steps increase that effect.
+    // With averaging (PIC) the body also sinks, but smaller steps make it sink more.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
     // The wall fixes its nodes correctly but does not carry their weight (half a cell).
     let is_missing =
@@ -239,8 +240,8 @@ fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     None
 }
 
-/// Returns a finding if the column `stress` does not show the wall force. Points in a wrong order
-/// are visible only where the stress is not uniform.
+/// Returns a finding if the column `stress` disagrees with the correct wall force. Stress at the
+/// wall differs from stress elsewhere, so this also detects a wrong order of points.
 fn of_column(wall: &Wall) -> Option<SolverFinding> {
     let column = wall.column.filter(|column| !THROWN.contains(column))?;
     Some(SolverFinding::defect(

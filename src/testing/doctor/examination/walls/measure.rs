@@ -7,7 +7,7 @@ use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
 /// Length of the bar (cells).
 const CELLS: f64 = 16.0;
-/// Distance that waves travel during a run (cells). It is less than half the bar.
+/// Distance that waves travel during a run (cells); less than half the length of the bar.
 pub(super) const TRAVEL: f64 = 7.0;
 
 /// Number of steps; waves travel a quarter of a cell per step.
@@ -18,7 +18,6 @@ const SPEED: f64 = 1e-3;
 
 /// Distance that waves travel during the run of the stretched bar (cells).
 const STRETCH_TRAVEL: f64 = 4.0;
-/// Number of steps of the stretched bar.
 const STRETCH_STEPS: u64 = 16;
 /// Strain rate of the stretched bar, multiplied by the time in which a wave crosses a cell.
 const STRETCH_RATE: f64 = 1e-4;
@@ -26,8 +25,8 @@ const STRETCH_RATE: f64 = 1e-4;
 /// Gravity (m/s2).
 const GRAVITY: f64 = 1e-3;
 
-/// Minimum displacement into a wall for which the run is repeated with half the step, in the unit
-/// of [`Wall::sinking`].
+/// If the body sinks into the wall by more than this value (in the unit of [`Wall::sinking`]), the
+/// run is repeated with half the step length.
 pub(super) const SUNK: f64 = 0.1;
 
 /// Results of the runs for one wall; `None` for a quantity that no run measures.
@@ -46,8 +45,8 @@ pub(super) struct Wall {
     /// Error of the force under gravity that does not change with time, relative to the weight of
     /// one cell.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, relative to that of a free body while a wave crosses one
-    /// cell.
+    /// Displacement through the wall, relative to the displacement of a free body while a wave
+    /// crosses one cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to the product of velocity and step length.
     pub(super) jump: Option<f64>,
@@ -128,7 +127,7 @@ pub(super) fn walls_across(
     let sides = [false, true].map(|high| BarEnd { axis, high });
     let fall = falls.then(|| &courses[courses.len() - 1]);
     let sunk = fall.map(|course| sides.map(|side| sinking(side, course)));
-    // Only a body that sinks into the wall is run again.
+    // The run is repeated only if the body sinks into a wall.
     let halved = match sunk {
         Some(sunk) if sunk.iter().any(|sunk| !(sunk.abs() <= SUNK)) => {
             Some(patient.run_all(&[falling.with_half_the_step()])?)
@@ -137,7 +136,8 @@ pub(super) fn walls_across(
     };
     Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        // The first run pushes the high wall and pulls the low wall; the second the reverse.
+        // In the first run the body pushes the high wall and pulls the low wall; in the second run,
+        // the reverse.
         let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
         let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
         let run_along = if axis == 0 { 2 } else { 1 };
@@ -180,8 +180,8 @@ pub(super) fn walls_across(
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
 /// uniformly until a wave arrives from its free end. A method reproduces this motion if its basis
-/// functions represent a linear velocity up to the wall. They do not if nodes behind the wall are
-/// fixed at zero, because the exact velocity there has the opposite sign.
+/// functions represent a linear velocity up to the wall. This fails if nodes behind the wall have
+/// zero velocity, because the linear velocity has the opposite sign there.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -224,12 +224,12 @@ fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     scene.with_waves(STRETCH_TRAVEL, STRETCH_STEPS)
 }
 
-/// Creates a broad body between two `fixed` walls normal to `axis`. It moves along the walls with
-/// the speed `c/1000` (m/s), and the run ends before waves have crossed it.
+/// Creates a broad body between two `fixed` walls normal to `axis`. The body moves along the walls
+/// with the speed `c/1000` (m/s), and the run ends before waves have crossed the body.
 fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     let mut scene = bar(kind, axis, "fixed");
     let other = (axis + 1) % kind.0;
-    // Full length along the walls, half the length between them.
+    // The body has the full length along the walls, and half the length from wall to wall.
     scene.body.1[axis] = scene.body.0[axis] + 0.5 * CELLS * H;
     scene.grid.1[axis] = scene.body.1[axis];
     scene.body.1[other] = scene.body.0[other] + CELLS * H;
@@ -309,8 +309,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Returns the displacement (m) along the axis at the wall at the end. It is extrapolated by a
-    /// line through the points less than two cells from the wall.
+    /// Returns the displacement (m) along the axis at the wall at the end. The displacement is
+    /// extrapolated by a line through the points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {

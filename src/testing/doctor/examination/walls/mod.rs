@@ -78,7 +78,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         measured.push(format!("sliding along a roller: {}", sliding.measured));
     }
     let mut findings: Vec<SolverFinding> = finding(&walls).into_iter().collect();
-    // A wall that moves or is missing also causes non-uniform sliding.
+    // Non-uniform sliding is reported last, because a moving or missing wall also causes it.
     if findings.is_empty() {
         findings.extend(sliding.findings);
     }
