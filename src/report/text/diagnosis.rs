@@ -157,9 +157,13 @@ fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
         TableColumn::<&ChangedRun>::text("order", "observed order", |run| {
             run.order.map(|order| order.shown())
         }),
-        TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
-            let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
-            Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })
-        }),
+        TableColumn::<&ChangedRun>::text(
+            "error/before",
+            "finest error, relative to that before",
+            |run| {
+                let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
+                Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })
+            },
+        ),
     ]
 }

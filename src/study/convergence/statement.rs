@@ -24,7 +24,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
             push(
                 &mut rows,
                 "equilibrium",
-                "under the loads at the end; errors are taken there only",
+                "under the final loads, errors at the end of the run only",
             );
         }
         push(&mut rows, "amplitude", &amplitude(problem));
@@ -121,7 +121,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let dt = steps.join(", ");
     let dt = plan.rule.map_or(format!("{dt} s"), |share| {
         let share = shown(share);
-        format!("{share} of the stable time step, case by case and level by level")
+        format!("{share} times the stable time step of each case and level")
     });
     if study.steps == StepKind::Time {
         push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));

@@ -151,7 +151,7 @@ impl Method {
                 ("basis", basis.name()),
                 ("temperature", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
-                ("in time", "forward Euler"),
+                ("time integration", "forward Euler"),
             ]),
             Self::Fem { element, mass, law, start, sampling } => owned(vec![
                 ("element", element.name()),
