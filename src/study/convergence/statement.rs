@@ -44,8 +44,8 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "judged", &judged(plan));
     }
     if let Some(within) = &plan.within {
-        let text = format!("the particles with X in {}", within.words());
-        push(&mut rows, "errors over", &text);
+        let text = format!("X in {}", within.words());
+        push(&mut rows, "judged particles", &text);
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
@@ -81,7 +81,7 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
                 StepKind::Load => format!("the same method on {cells} cells"),
             };
             format!(
-                "{method}: an error of order 2 on the finest level is known to about 1/{:.0}",
+                "{method} (its error is about 1/{:.0} of that of the finest level at order 2)",
                 ratio * ratio
             )
         }
@@ -150,7 +150,7 @@ fn placed(scatter: &LatticeOffsets) -> String {
     let perturbed = (*perturb > 0.0)
         .then(|| format!("moved at random by up to {} (seed {seed})", shown(*perturb)));
     let both: Vec<String> = [shifted, perturbed].into_iter().flatten().collect();
-    format!("{} of their spacing", both.join(" and "))
+    format!("{} times their spacing", both.join(" and "))
 }
 
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {

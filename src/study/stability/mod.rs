@@ -138,7 +138,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     push("sweep", format!("{} = {}", plan.swept, values.join(", ")));
     if let Some((name, from, to)) = &plan.sought {
         push(
-            "unknown",
+            "search",
             format!("the largest stable {name}, from {} to {}", shown(*from), shown(*to)),
         );
     }
@@ -161,7 +161,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
         }
     }
     if setup.frozen {
-        push("configuration", "frozen: no step moves a particle or its domain".to_owned());
+        push("configuration", "frozen, steps move neither particles nor domains".to_owned());
     }
     if setup.perturb > 0.0 {
         push(

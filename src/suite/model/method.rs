@@ -158,7 +158,7 @@ impl Method {
                 ("mass matrix", mass.name()),
                 ("law", law.name()),
                 ("start", start.name()),
-                ("error taken", sampling.name()),
+                ("error points", sampling.name()),
             ]),
             // The factory of an external solver provides its settings.
             Self::External { .. } => Vec::new(),
