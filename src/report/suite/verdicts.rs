@@ -98,7 +98,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
             let failed = level.run.failure.is_some();
             Some(if failed { "failed".to_owned() } else { scientific(level.error) })
         }),
-        CaseColumn::text("floor", "axis whose error a floor is", |case| {
+        CaseColumn::text("floor", "axis that causes a floor", |case| {
             Some(case.convergence()?.floor.as_ref()?.cause()?.name())
         })
         .flush_left(),
