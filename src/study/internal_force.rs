@@ -35,7 +35,7 @@ impl CaseRunner for ForceRunner<'_> {
 
 fn rows(plan: &ForcePlan) -> Rows {
     let mut rows = Rows::new();
-    push(&mut rows, "cells", &format!("two of size {} m, {} particles each", plan.cell, plan.ppc));
+    push(&mut rows, "cells", &format!("2 of size {} m, {} particles in each", plan.cell, plan.ppc));
     push(&mut rows, "particle volume", &format!("{} m", plan.volume));
     push(&mut rows, "stress", &format!("{} Pa, uniform", plan.stress));
     push(&mut rows, "prediction", &format!("{} N", plan.prediction.source()));

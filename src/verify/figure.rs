@@ -174,17 +174,17 @@ macro_rules! run_figures {
 
 run_figures! {
     /// Largest energy, divided by the energy at the start.
-    Energy = "energy", "largest energy", |trial| trial.energy;
+    Energy = "energy", "largest/initial energy", |trial| trial.energy;
     /// Energy at the end, divided by the energy at the start.
-    EnergyKept = "energy_kept", "energy kept", |trial| trial.energy_kept;
+    EnergyKept = "energy_kept", "final/initial energy", |trial| trial.energy_kept;
     /// Kinetic energy at the end, divided by that at the start.
-    KineticKept = "kinetic_kept", "kinetic kept", |trial| trial.kinetic_kept;
+    KineticKept = "kinetic_kept", "final/initial kinetic energy", |trial| trial.kinetic_kept;
     /// Largest relative change of the momentum.
-    Momentum = "momentum", "momentum", |trial| trial.momentum;
+    Momentum = "momentum", "momentum drift", |trial| trial.momentum;
     /// Largest relative change of the angular momentum.
-    AngularMomentum = "angular_momentum", "angular mom.", |trial| trial.angular_momentum;
+    AngularMomentum = "angular_momentum", "angular momentum drift", |trial| trial.angular_momentum;
     /// Smallest determinant J of the deformation gradient during the run.
-    LeastJ = "least_j", "least J", |trial| trial.least_j;
+    LeastJ = "least_j", "min J", |trial| trial.least_j;
     /// Largest speed during the run, divided by the wave speed.
     Speed = "speed", "largest speed/c", |trial| trial.speed;
     /// Kinetic energy at the end in the null space of the map to the grid, divided by the largest
@@ -201,7 +201,7 @@ run_figures! {
     /// Largest stress at the end, divided by the modulus.
     Stress = "stress", "stress/M", |trial| trial.stress;
     /// Largest displacement (m) at the end.
-    Displacement = "displacement", "displacement", |trial| trial.displacement;
+    Displacement = "displacement", "displacement (m)", |trial| trial.displacement;
     /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
     /// Difference between the sum of the entries of the energy ledger and the change of the energy,

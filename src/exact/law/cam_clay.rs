@@ -203,7 +203,7 @@ fn bound(law: &CamClayLaw) -> f64 {
 
 impl ConstitutiveLaw for CamClayLaw {
     const NAME: &'static str = "cam_clay";
-    const EQUATION: &'static str = "modified Cam-clay in uniaxial compression that never reverses, \
+    const EQUATION: &'static str = "modified Cam-clay in monotonic uniaxial compression, \
                                     rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
                                     q^2/M^2 + p (p - pc) <= 0, d eps_e = kappa dp/p";
     const HAS_HISTORY: bool = true;

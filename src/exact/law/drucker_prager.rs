@@ -46,7 +46,7 @@ impl DruckerPragerLaw {
 
 impl UniaxialPlasticity for DruckerPragerLaw {
     const MATERIAL: &'static str = "drucker_prager";
-    const TEXT: &'static str = "Drucker-Prager in uniaxial strain that never reverses, \
+    const TEXT: &'static str = "Drucker-Prager in monotonic uniaxial strain, \
                                 rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
                                 tau = L tr(eps_e) I + 2 mu eps_e, sqrt(J2) + eta p <= k";
 

@@ -64,7 +64,7 @@ impl MohrCoulombLaw {
 
 impl UniaxialPlasticity for MohrCoulombLaw {
     const MATERIAL: &'static str = "mohr_coulomb";
-    const TEXT: &'static str = "Mohr-Coulomb in uniaxial strain that never reverses, \
+    const TEXT: &'static str = "Mohr-Coulomb in monotonic uniaxial strain, \
                                 rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
                                 tau = L tr(eps_e) I + 2 mu eps_e, \
                                 (t1 - t3) + (t1 + t3) sin(phi) <= 2 c cos(phi)";

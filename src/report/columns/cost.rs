@@ -104,7 +104,7 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
         TableColumn::<Reached>::json("work", "work for the error", |(reach, _)| {
             reach.work().map(number)
         }),
-        TableColumn::<Reached>::json("at_most", "whether less may do", |(reach, _)| {
+        TableColumn::<Reached>::json("at_most", "whether less work may be enough", |(reach, _)| {
             matches!(reach, Reach::Already { .. })
         }),
         TableColumn::<Reached>::json("times", "times the least work", |(_, times)| {

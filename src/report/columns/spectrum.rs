@@ -94,7 +94,7 @@ pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
         figure(
             "cells per wavelength for a phase error of 1 %",
             "cells_for_one_percent",
-            "cells per wavelength from which on the predicted phase error is below 1 %",
+            "cells per wavelength above which the predicted phase error is below 1 %",
             |value| format!("{value:.2}"),
             |row| row.cells_for_one_percent,
         ),

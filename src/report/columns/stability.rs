@@ -114,7 +114,7 @@ fn run(trial: &Trial) -> Value {
         RunFigure::ALL.iter().filter(is_measured).map(|one| figure(*one)).collect();
     let columns = [
         verdict(),
-        TrialColumn::json("why", "why it did not come to its end", |trial| trial.why.clone()),
+        TrialColumn::json("why", "reason why the run stopped early", |trial| trial.why.clone()),
         TrialColumn::json("figures", "all figures", |trial| json_object(&figures, trial)),
     ];
     json_object(&columns, trial)

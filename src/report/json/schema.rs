@@ -16,9 +16,9 @@ pub fn report_schema() -> String {
         ("source", text(), "where the problem comes from"),
         ("problem", text(), "fingerprint of the statement, in hexadecimal digits"),
         ("statement", list(list(text())), "the problem, as rows of name and value"),
-        ("passed", flag(), "whether every case came as expected"),
-        ("cases", list(case()), "its cases, in the order of the suite"),
-        ("cost", list(ranking()), "methods by the work that they take, for each problem"),
+        ("passed", flag(), "whether every case had the expected result"),
+        ("cases", list(case()), "cases, in the order of the suite"),
+        ("cost", list(ranking()), "methods ranked by work, for each problem"),
     ]);
     let schema = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -33,7 +33,7 @@ pub fn report_schema() -> String {
             "version": {"type": "string", "description": "version of mpm-verify"},
             "commit": {
                 "type": ["string", "null"],
-                "description": "the commit that is tested, where a CI service says so",
+                "description": "tested commit, if a CI service provides it",
             },
             "suites": list(json!({"$ref": "#/$defs/suite"})),
         },
@@ -51,19 +51,19 @@ fn case() -> Value {
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),
-        ("subject", text(), "the solver: `mpm`, `fem`, or one of another program"),
-        ("settings", list(list(text())), "its method, as rows of name and value"),
+        ("subject", text(), "the solver: `mpm`, `fem`, or an external program"),
+        ("settings", list(list(text())), "method, as rows of name and value"),
         ("because", text(), "the reason of the expectation"),
         ("verdict", verdicts, "the verdict; suites write it with `_` for spaces and hyphens"),
-        ("expected", or_null(text()), "the expectation; null where nothing is expected"),
-        ("result", json!({"enum": CaseOutcome::RESULTS}), "the result in a word"),
-        ("passed", flag(), "whether the case ran and came as expected"),
-        ("lacks", list(text()), "what the case needs and its solver lacks"),
-        ("reason", text(), "figures that led to the verdict"),
+        ("expected", or_null(text()), "the expectation; null if nothing is expected"),
+        ("result", json!({"enum": CaseOutcome::RESULTS}), "short name of the result"),
+        ("passed", flag(), "whether the case ran and had the expected result"),
+        ("lacks", list(text()), "features that the case needs and its solver lacks"),
+        ("reason", text(), "measured values that led to the verdict"),
         ("unmet", list(text()), "expectations that are not met"),
-        ("profile", or_null(profile()), "what one step takes on the coarsest level"),
+        ("profile", or_null(profile()), "cost of one step on the coarsest level"),
         ("axis", or_null(json!({"enum": axes})), "what is refined"),
-        ("formal_order", or_null(number()), "order of theory"),
+        ("formal_order", or_null(number()), "theoretical order"),
         ("judge", or_null(judge()), "the judged error"),
         ("observed_order", or_null(interval()), "the order, with its 95 % interval"),
         ("floor", or_null(floor()), "the finest error with another spacing halved"),
@@ -96,7 +96,7 @@ fn profile() -> Value {
     ]);
     let column = object([
         ("name", text(), "name of the column"),
-        ("of", json!({"enum": ["particle", "node"]}), "what has an entry"),
+        ("of", json!({"enum": ["particle", "node"]}), "owner of an entry"),
         ("entries", whole(), "number of entries"),
         ("bytes", whole(), "bytes of an entry"),
     ]);
@@ -114,11 +114,11 @@ fn floor() -> Value {
     let causes: Vec<&str> = FloorCause::ALL.iter().map(|cause| cause.name()).collect();
     let probe = object([
         ("axis", text(), "spacing that is halved"),
-        ("error", or_null(number()), "finest error with it halved"),
-        ("failure", or_null(text()), "why there is none"),
+        ("error", or_null(number()), "finest error with this spacing halved"),
+        ("failure", or_null(text()), "reason why this error is missing"),
     ]);
     object([
-        ("cause", or_null(json!({"enum": causes})), "axis whose error the floor is"),
+        ("cause", or_null(json!({"enum": causes})), "axis that causes the floor"),
         ("error", number(), "finest error"),
         ("probes", list(probe), "runs with one spacing halved"),
     ])
@@ -146,8 +146,8 @@ fn gradient_study() -> Value {
     let states: Vec<&str> = GradientState::ALL.iter().map(|state| state.name()).collect();
     let sweep = object([
         ("change", number(), "change of the functional over the interval"),
-        ("share", number(), "sum of trapezia of the derivative, over the change"),
-        ("jumps", list(number()), "jumps of the functional, over the change"),
+        ("share", number(), "trapezoidal sum of the derivative, divided by the change"),
+        ("jumps", list(number()), "jumps of the functional, divided by the change"),
     ]);
     object([
         ("functional", text(), "the functional that is differentiated"),
@@ -166,7 +166,7 @@ fn gradient_study() -> Value {
 fn ranking() -> Value {
     let methods = row(&cost::json_columns(&Ranking::new(String::new(), 1.0, &[], Vec::new())));
     object([
-        ("problem", text(), "end of the run, and the solution to compare with"),
+        ("problem", text(), "end of the run, and the solution that errors refer to"),
         ("size", number(), "divisor of errors"),
         ("work", text(), "unit of the work"),
         ("targets", list(number()), "errors whose work is compared"),

@@ -98,14 +98,14 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
             let failed = level.run.failure.is_some();
             Some(if failed { "failed".to_owned() } else { scientific(level.error) })
         }),
-        CaseColumn::text("floor", "axis whose error a floor is", |case| {
+        CaseColumn::text("floor", "axis that causes a floor", |case| {
             Some(case.convergence()?.floor.as_ref()?.cause()?.name())
         })
         .flush_left(),
-        CaseColumn::text("for 1e-3", "work over that of the cheapest", |case| {
+        CaseColumn::text("for 1e-3", "work divided by that of the cheapest method", |case| {
             cost(case, rankings).map(|times| format!("{times:.2} x"))
         }),
-        CaseColumn::text("observed", "figures of other studies", |case| {
+        CaseColumn::text("observed", "measured values of other studies", |case| {
             case.convergence().is_none().then(|| case.reason.clone())
         })
         .flush_left(),

@@ -35,18 +35,20 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
         let work = columns::reach_text(row.reaches[k]);
-        Some(format!("for {target:e}: {}, {work} {TRANSFERS}", row.method.name))
+        Some(format!("{target:e}: {}, {work} {TRANSFERS}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    (!best.is_empty()).then(|| format!("{}; errors {}", best.join("; "), relative(ranking)))
+    let errors = relative(ranking);
+    (!best.is_empty())
+        .then(|| format!("for a relative error of {}; errors are {errors}", best.join("; of ")))
 }
 
 /// States the value by which the errors of a ranking are divided.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
-        return "as judged, relative to the scale of the suite".to_owned();
+        return "divided by the `scale` of the suite".to_owned();
     }
-    format!("relative to {}, the largest exact value", short(ranking.size))
+    format!("divided by {}, the largest exact value", short(ranking.size))
 }
 
 /// Returns the report of a timed suite.
@@ -67,12 +69,12 @@ pub fn timed(timed: &TimedSuite) -> String {
         }
     }
     if by_seconds.is_empty() {
-        text += "\n  no case has levels enough, and an exact size, to rank\n";
+        text += "\n  no case has both enough levels and an exact size to be ranked\n";
     }
     text
 }
 
-const SECONDS: &str = "of the steps alone, one thread, median of repeats that take turns";
+const SECONDS: &str = "steps only, on one thread, median of interleaved repeats";
 
 fn row(key: &str, value: &str) -> String {
     format!("  {key:17} {value}\n")
@@ -84,15 +86,15 @@ fn lines(lines: &[String]) -> String {
 
 pub(crate) fn machine(machine: &Machine) -> String {
     let cores = if machine.cores == 1 { "core" } else { "cores" };
-    let load = machine.load.map_or("load not known".to_owned(), |[before, after]| {
+    let load = machine.load.map_or("load unknown".to_owned(), |[before, after]| {
         format!("load {before:.2} before, {after:.2} after")
     });
     let noise = machine.fixed_loop.map_or(String::new(), |timing| {
         let (spread, looks) = (100.0 * timing.spread(), timing.repeats);
-        format!("; a fixed loop spreads by {spread:.1} % between quartiles ({looks} looks)")
+        format!("; times of a fixed loop differ by {spread:.1} % between quartiles ({looks} runs)")
     });
-    let waited = machine.waited.map_or("waiting for a core counts".to_owned(), |share| {
-        format!("{:.0} % of the time waiting for a core, left out", 100.0 * share)
+    let waited = machine.waited.map_or("times include waiting for a core".to_owned(), |share| {
+        format!("{:.0} % of the time was spent waiting for a core, and is excluded", 100.0 * share)
     });
     row("machine", &format!("{} {cores}, {load}", machine.cores))
         + &row("noise", &format!("{waited}{noise}"))

@@ -78,8 +78,8 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
             "With {change} the order from {range} is {with} (before: {before}), and {error}."
         ),
         Evidence::Raised => format!(
-            "With {change} the order from {range} is {with} (before: {before}), which is not yet \
-             that of theory."
+            "With {change} the order from {range} is {with} (before: {before}), which does not yet \
+             agree with theory."
         ),
         Evidence::Lowered => format!(
             "With {change} {error}. The order from {range} is then {with}, so there is another cause."
@@ -143,7 +143,7 @@ fn unknown_cause(found: &Diagnosis) -> String {
         );
     }
     format!(
-        "No change of one thing restores the order from {range}, or removes a quarter of the finest \
+        "No single change restores the order from {range}, or removes a quarter of the finest \
          error. The cause is none of those that `diagnose` tests."
     )
 }
@@ -157,9 +157,13 @@ fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
         TableColumn::<&ChangedRun>::text("order", "observed order", |run| {
             run.order.map(|order| order.shown())
         }),
-        TableColumn::<&ChangedRun>::text("error/before", "finest error over that before", |run| {
-            let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
-            Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })
-        }),
+        TableColumn::<&ChangedRun>::text(
+            "error/before",
+            "finest error, relative to that before",
+            |run| {
+                let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
+                Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })
+            },
+        ),
     ]
 }

@@ -175,7 +175,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
     by_case(
         lines,
-        "relative drift, the largest of all levels",
+        "largest relative drift of all levels",
         &asked,
         sums.into_iter().map(level::largest_drift),
     );

@@ -65,10 +65,10 @@ fn memory(profile: &Profile, holder: Holder) -> String {
     texts.concat()
 }
 
-const HOW_TO_READ: &str = "For each dimension: a row for each method and what its scenes list, \
-    with the bytes of a particle and of a node, the bytes that are kept where something acts only, \
-    and how often a step visits a particle; then the columns behind the bytes, and the passes of a \
-    step. A suite's report says which effects its scene lists.";
+const HOW_TO_READ: &str = "For each dimension, the first table has one row for each method and set of \
+    effects: the bytes of a particle and of a node, the further bytes where an effect acts, and the \
+    number of times that a step visits a particle. The tables that follow list the columns behind \
+    these bytes and the passes of a step. The report of a suite lists the effects of its scene.";
 
 /// Returns the report of the profiles of all cases.
 pub fn profiles(outcomes: &[SuiteOutcome]) -> String {

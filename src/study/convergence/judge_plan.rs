@@ -161,7 +161,10 @@ const COARSE: usize = 8;
 pub(crate) fn error_scale(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> ErrorScale {
     ErrorScale {
         problem: match case.load_steps(plan) {
-            Some(count) => format!("in {count} load steps, compared with {}", case.against.words()),
+            Some(count) => {
+                let plural = if count == 1 { "" } else { "s" };
+                format!("in {count} load step{plural}, compared with {}", case.against.words())
+            }
             None => format!("until t = {} s, compared with {}", case.until, case.against.words()),
         },
         size: size(plan, case, truth),

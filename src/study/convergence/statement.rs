@@ -24,7 +24,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
             push(
                 &mut rows,
                 "equilibrium",
-                "under the loads at the end; errors are taken there only",
+                "under the final loads, errors at the end of the run only",
             );
         }
         push(&mut rows, "amplitude", &amplitude(problem));
@@ -44,8 +44,8 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "judged", &judged(plan));
     }
     if let Some(within) = &plan.within {
-        let text = format!("the particles with X in {}", within.words());
-        push(&mut rows, "errors over", &text);
+        let text = format!("X in {}", within.words());
+        push(&mut rows, "judged particles", &text);
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
     rows
@@ -81,7 +81,7 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
                 StepKind::Load => format!("the same method on {cells} cells"),
             };
             format!(
-                "{method}: an error of order 2 on the finest level is known to about 1/{:.0}",
+                "{method} (its error is about 1/{:.0} of that of the finest level at order 2)",
                 ratio * ratio
             )
         }
@@ -121,7 +121,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let dt = steps.join(", ");
     let dt = plan.rule.map_or(format!("{dt} s"), |share| {
         let share = shown(share);
-        format!("{share} of the stable time step, case by case and level by level")
+        format!("{share} times the stable time step of each case and level")
     });
     if study.steps == StepKind::Time {
         push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
@@ -150,7 +150,7 @@ fn placed(scatter: &LatticeOffsets) -> String {
     let perturbed = (*perturb > 0.0)
         .then(|| format!("moved at random by up to {} (seed {seed})", shown(*perturb)));
     let both: Vec<String> = [shifted, perturbed].into_iter().flatten().collect();
-    format!("{} of their spacing", both.join(" and "))
+    format!("{} times their spacing", both.join(" and "))
 }
 
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {

@@ -77,7 +77,7 @@ fn bodies(scene: &Scene, rows: &mut Rows) {
     match (scene.contact, scene.bodies.len()) {
         (Some(mu), _) => push(rows, "contact", &format!("coefficient of friction {mu}")),
         (None, 0 | 1) => {}
-        (None, _) => push(rows, "contact", "none: the bodies share one velocity field"),
+        (None, _) => push(rows, "contact", "none, the bodies share one velocity field"),
     }
 }
 
@@ -96,7 +96,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     let across = match scene.plane {
         PlaneState::Strain => "",
         PlaneState::Stress => "stress, sigma_33 = 0",
-        PlaneState::Axisymmetric => "axisymmetric, X is the radius; sums are those of one radian",
+        PlaneState::Axisymmetric => "axisymmetric, X is the radius, sums are per radian",
     };
     push(rows, "plane", across);
     for (number, face) in scene.faces.iter().enumerate() {
@@ -127,7 +127,8 @@ fn initial_stress(scene: &Scene) -> String {
         return components;
     }
     let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
-    format!("S0 of {components} Pa, P + {}", if is_finite { "F S0" } else { "S0" })
+    let term = if is_finite { "F S0" } else { "S0" };
+    format!("S0 with {components} Pa, which adds {term} to P")
 }
 
 /// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.

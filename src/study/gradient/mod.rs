@@ -134,7 +134,7 @@ fn rows(plan: &GradientPlan) -> Rows {
     for one in &plan.parameters {
         let follows = match one.velocity_factor {
             _ if one.parameter == GradientParameter::InitialVelocity => "",
-            factor if factor != 0.0 => ", which the initial velocity follows",
+            factor if factor != 0.0 => ", on which the initial velocity depends",
             _ => "",
         };
         let (name, value) = (&one.name, shown(one.motion.value));

@@ -135,10 +135,10 @@ pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
 fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     let mut push = |key: &str, value: String| push(rows, key, &value);
     let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
-    push("values", format!("of {}: {}", plan.swept, values.join(", ")));
+    push("sweep", format!("{} = {}", plan.swept, values.join(", ")));
     if let Some((name, from, to)) = &plan.sought {
         push(
-            "unknown",
+            "search",
             format!("the largest stable {name}, from {} to {}", shown(*from), shown(*to)),
         );
     }
@@ -152,7 +152,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     };
     push("run", format!("{} steps{full}", setup.steps));
     if let Some(share) = setup.rule {
-        push("dt", format!("{} of the stable time step", shown(share)));
+        push("dt", format!("{} times the stable time step", shown(share)));
     }
     if let (Some(first), Some(last)) = (setup.dt.first(), setup.dt.last()) {
         let turns = setup.dt.len() / 2;
@@ -161,7 +161,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
         }
     }
     if setup.frozen {
-        push("configuration", "frozen: no step moves a particle or its domain".to_owned());
+        push("configuration", "frozen, steps move neither particles nor domains".to_owned());
     }
     if setup.perturb > 0.0 {
         push(
@@ -172,7 +172,7 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     push(
         "verdicts",
         format!(
-            "stable: energy up to {:e} times that at the start; unstable: beyond {:e}",
+            "stable up to {:e} times the initial energy, unstable above {:e} times",
             setup.scales.stable_below, setup.scales.unstable_above
         ),
     );

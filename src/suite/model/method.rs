@@ -151,14 +151,14 @@ impl Method {
                 ("basis", basis.name()),
                 ("temperature", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
-                ("in time", "forward Euler"),
+                ("time integration", "forward Euler"),
             ]),
             Self::Fem { element, mass, law, start, sampling } => owned(vec![
                 ("element", element.name()),
                 ("mass matrix", mass.name()),
                 ("law", law.name()),
                 ("start", start.name()),
-                ("error taken", sampling.name()),
+                ("error points", sampling.name()),
             ]),
             // The factory of an external solver provides its settings.
             Self::External { .. } => Vec::new(),

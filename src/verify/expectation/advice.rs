@@ -50,7 +50,7 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
         let (formal, seen) = (range(study.formal_order), order.shown());
         if !is_inside(&order, study.formal_order) {
-            advice.push(format!("the order {seen} meets {formal} only just, and is not proposed"));
+            advice.push(format!("the order {seen} barely meets {formal}, and is not proposed"));
         }
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);

@@ -62,7 +62,10 @@ impl Sweep {
             [one] => format!("a jump of {one}"),
             all => format!("{} jumps: {}", all.len(), all.join(" ")),
         };
-        format!("the sweep has the share {:.4} and {jumps}", self.share)
+        format!(
+            "over the sweep the integrated derivative is {:.4} times the change, with {jumps}",
+            self.share
+        )
     }
 }
 

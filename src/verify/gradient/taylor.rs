@@ -123,7 +123,7 @@ impl Taylor {
             return (GradientState::Smooth, format!("Taylor order 2 on {} levels", longest + 1));
         }
         if agrees && spread <= SPREAD {
-            let reason = "the Taylor remainder has no order, as that of a function with kinks or \
+            let reason = "the Taylor remainder has no order, as for a function with kinks or \
                           rounding; the derivative agrees with the central differences";
             return (GradientState::AtRounding, reason.to_owned());
         }

@@ -118,7 +118,7 @@ impl TrialMonitor {
             return self.ended(subject, Stability::Failed, Some(why), step);
         }
         let why = format!(
-            "the energy is {:.1e} times that at the start (step {step}, t = {t:.4e} s)",
+            "the energy is {:.1e} times its initial value (step {step}, t = {t:.4e} s)",
             self.energy
         );
         self.ended(subject, Stability::Unstable, Some(why), step)

@@ -76,24 +76,26 @@ impl Floor {
 
     /// States the result and its measured errors in a sentence.
     pub fn sentence(&self) -> String {
-        let of = |axis: Axis| format!("the error is that of the {}", axis.noun());
+        let of = |axis: Axis| format!("the main cause of the error is the {}", axis.noun());
         let finding = match self.cause() {
             Some(FloorCause::Time) => of(Axis::Time),
             Some(FloorCause::Space) => of(Axis::Space),
             Some(FloorCause::Particles) => of(Axis::Particles),
-            Some(FloorCause::Nothing) => "no finer axis lowers the error by a quarter".to_owned(),
-            None => "the cause of the error is not known".to_owned(),
+            Some(FloorCause::Nothing) => {
+                "no finer spacing lowers the error by a quarter".to_owned()
+            }
+            None => "the cause of the error is unknown".to_owned(),
         };
         let probe = |(k, probe): (usize, &Probe)| {
-            let halved = format!("half the {}", probe.axis.noun());
+            let axis = probe.axis.noun();
             match &probe.error {
                 Ok(error) if k == 0 => format!(
-                    "with {halved} the error changes from {} to {}",
+                    "halving the {axis} changes the error from {} to {}",
                     format_number(self.error),
                     format_number(*error)
                 ),
-                Ok(error) => format!("with {halved} to {}", format_number(*error)),
-                Err(reason) => format!("with {halved} the run fails ({reason})"),
+                Ok(error) => format!("halving the {axis} changes it to {}", format_number(*error)),
+                Err(reason) => format!("with half the {axis} the run fails ({reason})"),
             }
         };
         // Failed probes are listed last, so the measured errors are listed together.
@@ -141,12 +143,12 @@ mod tests {
     fn sentences() {
         assert_eq!(
             floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
-            "on the finest level the error is that of the time step: with half the time step the \
-             error changes from 1 to 0.5, with half the particle spacing to 1"
+            "on the finest level the main cause of the error is the time step: halving the time step \
+             changes the error from 1 to 0.5, halving the particle spacing changes it to 1"
         );
         assert_eq!(
             floor(1.0, &[(Space, Err("J"))]).sentence(),
-            "on the finest level the cause of the error is not known: with half the cell size the run \
+            "on the finest level the cause of the error is unknown: with half the cell size the run \
              fails (J)"
         );
     }

@@ -57,7 +57,7 @@ impl Reason {
         match self {
             Self::Failed(diagnostic) => diagnostic.clone(),
             Self::TooFew { usable } => {
-                format!("{usable} usable levels, a claim needs {FEWEST_LEVELS}")
+                format!("{usable} usable levels, but an order needs {FEWEST_LEVELS}")
             }
             Self::Oscillatory => oscillation(levels),
             Self::Divergent { from, to } => {
@@ -103,9 +103,9 @@ fn floor(levels: &[Level], axis: Axis) -> String {
     let name = axis.symbol();
     let (h, low, high) = (format_number(h), format_number(low), format_number(high));
     if low == high {
-        format!("the error stays at {low} from {name} = {h} on")
+        format!("the error stays at {low} for {name} <= {h}")
     } else {
-        format!("the error stays between {low} and {high} from {name} = {h} on")
+        format!("the error stays between {low} and {high} for {name} <= {h}")
     }
 }
 
@@ -116,6 +116,6 @@ fn against(verdict: Verdict, range: (f64, f64), overlaps: bool) -> String {
         Verdict::Converging => format!("within [{low}, {high}]"),
         Verdict::TooGood => format!("above [{low}, {high}]{undecided}"),
         Verdict::TooLow => format!("below [{low}, {high}]{undecided}"),
-        _ => format!("but the interval sticks out of [{low}, {high}]"),
+        _ => format!("but the interval extends beyond [{low}, {high}]"),
     }
 }

@@ -74,7 +74,7 @@ fn the_axis_that_was_not_refined_is_named() {
         case["floor"]["probes"].as_array().expect("a list").iter().map(|p| &p["axis"]).collect();
     assert_eq!(axes, ["particles", "space"]);
     let reason = case["reason"].as_str().expect("words");
-    assert_contains(reason, &["the error is that of the cell size"]);
+    assert_contains(reason, &["the main cause of the error is the cell size"]);
 }
 
 #[test]

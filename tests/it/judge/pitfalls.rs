@@ -111,7 +111,7 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert!((judgement.order.unwrap().value - 2.0).abs() < 0.1);
     assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
-    assert!(judgement.reason.contains("sticks out"));
+    assert!(judgement.reason.contains("extends beyond"));
 }
 
 /// An order outside the range, whose interval overlaps the range, is undecided.

@@ -187,7 +187,7 @@ impl LoadedFace {
     pub(crate) fn row(self, load: &str, placement: Placement) -> (String, String) {
         let place = match placement {
             Placement::Particles => "",
-            Placement::Surface => ", put at the surface",
+            Placement::Surface => ", applied at the surface",
         };
         (self.name.to_owned(), format!("{load}{place}"))
     }

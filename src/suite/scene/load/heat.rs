@@ -107,7 +107,8 @@ impl SceneLoad for SceneHeat {
         let (k, c) = (self.conductivity, self.capacity);
         let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];
         texts.extend(self.source.iter().map(|source| format!("source {} W/kg", source.source())));
-        texts.extend(self.initial.iter().map(|initial| format!("from {} K on", initial.source())));
+        texts
+            .extend(self.initial.iter().map(|initial| format!("initially {} K", initial.source())));
         let faces = self
             .faces
             .iter()

@@ -68,7 +68,7 @@ impl SceneLoad for LocalDampingLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        let text = format!("{} of the force out of balance", shown(self.0));
+        let text = format!("{} times the out-of-balance force", shown(self.0));
         vec![("local damping".to_owned(), text)]
     }
 

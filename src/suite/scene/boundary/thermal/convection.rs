@@ -49,7 +49,7 @@ impl ThermalCondition for Convection {
 impl HeatCondition for Convection {
     fn row(&self) -> Option<String> {
         let Self { coefficient, ambient } = self;
-        Some(format!("convection, {coefficient} W/(m2 K) from {} K", ambient.source()))
+        Some(format!("convection, {coefficient} W/(m2 K), ambient {} K", ambient.source()))
     }
 }
 

@@ -35,7 +35,7 @@ impl ThermalCondition for GivenFlux {
 
 impl HeatCondition for GivenFlux {
     fn row(&self) -> Option<String> {
-        Some(format!("heat enters, {} W/m2", self.0.source()))
+        Some(format!("heat flux {} W/m2 into the body", self.0.source()))
     }
 }
 
