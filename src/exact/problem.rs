@@ -337,7 +337,8 @@ impl Problem {
     }
 }
 
-/// Maximum number of stored `f64` (32 MiB); the largest built-in suite stores three quarters.
+/// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of this
+/// number.
 const MOST: usize = 1 << 22;
 
 /// Cache of forces by positions and time, filled by the first run that needs them. If the cache is

@@ -73,8 +73,8 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// Rounding error of Div P, relative to the modulus times the largest second derivative. Needed
-/// because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
+/// Rounding error of Div P, relative to the modulus times the largest second derivative. The check
+/// allows this error because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the

@@ -54,8 +54,8 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// Creates a patch of the whole box around the time `t` (s). The time interval is a part of the
-    /// run from 0 to `until` (s), at most `longest` (s) long.
+    /// Creates a patch that covers the whole box and a time interval around `t` (s). The interval
+    /// is a part of the run from 0 to `until` (s), at most `longest` (s) long.
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();

@@ -142,7 +142,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Numbers per batch. With so many numbers, decoding an instruction costs little compared with the
+/// Number of values per batch. At this size, decoding an instruction costs little compared with the
 /// operations.
 const MANY: usize = 8;
 
@@ -153,16 +153,16 @@ const MANY: usize = 8;
 pub struct NumberBatch([f64; MANY]);
 
 impl NumberBatch {
-    /// Numbers per batch.
+    /// Number of values per batch.
     pub const LEN: usize = MANY;
 
-    /// Creates a batch; `number` returns the number of each lane.
+    /// Creates a batch; `number` returns the value of each lane.
     #[inline]
     pub fn new(number: impl FnMut(usize) -> f64) -> Self {
         Self(std::array::from_fn(number))
     }
 
-    /// Returns the number of one lane.
+    /// Returns the value of one lane.
     ///
     /// # Panics
     /// If `lane` is not below [`NumberBatch::LEN`].

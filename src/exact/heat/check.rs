@@ -287,7 +287,8 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     events.into_iter().map(point).collect()
 }
 
-/// The largest magnitudes of a temperature and of its equation's terms; NaN if any is NaN.
+/// The largest magnitudes of a temperature and of the terms of the heat equation; NaN if any is
+/// NaN.
 pub(super) struct HeatMagnitudes {
     pub(super) value: f64,
     /// Difference between highest and lowest temperature (K).

@@ -23,7 +23,7 @@ pub struct HeatFace {
 }
 
 /// An initial-boundary-value problem of heat in a box,
-/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature, which must be checked.
+/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its stated temperature.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).
@@ -38,7 +38,8 @@ pub struct Conduction {
     pub capacity: f64,
     /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates; `None`: that of the exact solution.
+    /// Initial temperature (K), a formula of the coordinates. If `None`, the run starts from the
+    /// exact temperature.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
@@ -66,7 +67,8 @@ impl Conduction {
         (motion, self.temperature.derivatives(label, t))
     }
 
-    /// Computes the source that the temperature needs, `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
+    /// Computes the source that the exact temperature requires,
+    /// `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
     pub(super) fn balance(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
         self.capacity * now.rate
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density

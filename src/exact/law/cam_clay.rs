@@ -129,8 +129,9 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Computes the state at the ratio whose distance from the K0 line has decreased by the factor
-    /// `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
+    /// Computes the state after the distance between `eta` and the ratio of the K0 line has
+    /// decreased by the factor `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after
+    /// yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);

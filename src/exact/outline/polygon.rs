@@ -16,8 +16,8 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// Creates the polygon with these corners (m), in either orientation; `kind` is a name in
-    /// suites.
+    /// Creates the polygon with these corners (m), in either orientation; `kind` is the name of the
+    /// shape in suite files.
     ///
     /// # Errors
     /// Indices of two sides that cross, or that touch other than at a common corner. Side i begins
@@ -183,8 +183,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The square root gives a uniform distribution: the area on one side of a line grows with
-        // the square of the distance.
+        // The square root makes the distribution uniform, because the area of a triangle up to a
+        // distance from its corner grows with the square of the distance.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 

@@ -2,8 +2,8 @@
 //! the work needed to reach an error.
 //!
 //! Between two levels of the converging part an error may be interpolated. On other levels a small
-//! error may be accidental: the error may change sign, or fluctuate on a floor. The next finer grid
-//! may not confirm it.
+//! error may be accidental: the error may change sign, or fluctuate on a floor. The error on the
+//! next finer grid may be larger.
 
 use std::ops::Range;
 

@@ -27,13 +27,13 @@ pub(super) struct Declaration {
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
-    /// body of length L (m); NaN if unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy of the
+    /// quantity, for a body of the given length (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
-    /// Whether only moving bodies have the quantity; heat conduction does not.
+    /// Whether the quantity is defined only for moving bodies, not for heat conduction.
     pub(super) is_of_motion: bool,
     pub(super) needs_deformation_gradient: bool,
     /// Declaration of a sum over the body; `None` for a field, which has values at labels.
@@ -258,7 +258,7 @@ fn root_of_ratio(now: f64, reference: f64) -> f64 {
     if reference == 0.0 { 0.0 } else { (now / reference).sqrt() }
 }
 
-/// Returns second moments, and their sum as the size that errors are relative to.
+/// Returns second moments, and their sum, by which errors are divided.
 pub(super) fn moments(values: [f64; 3]) -> ([f64; 3], f64) {
     (values, values.iter().sum())
 }

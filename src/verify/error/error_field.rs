@@ -7,7 +7,7 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of a plane body, as many as a drawing can show.
+/// Number of parts along the longer side of a plane body. A drawing could not show more parts.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 

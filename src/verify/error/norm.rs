@@ -28,9 +28,9 @@ named! {
         L1 = "l1",
         /// RMS, weighted by volume, at the end.
         L2 = "l2",
-        /// Largest at the end.
+        /// Largest error length at the end.
         Linf = "linf",
-        /// RMS, weighted by mass, at the end: for a density that varies over the body.
+        /// RMS, weighted by mass, at the end. Suitable for a density that varies over the body.
         MassL2 = "mass_l2",
         /// Largest RMS over the instants.
         MaxRms = "max_rms",
@@ -38,7 +38,7 @@ named! {
         MaxL1 = "max_l1",
         /// Largest L2 over the instants.
         MaxL2 = "max_l2",
-        /// Largest over labels and instants.
+        /// Largest error length over labels and instants.
         MaxLinf = "max_linf",
         /// Largest mass-weighted RMS over the instants.
         MaxMassL2 = "max_mass_l2",

@@ -87,9 +87,9 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Computes a Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates
-/// `sorted`, or over all if there are fewer. Returns the index of the first coordinate used, and
-/// the weights.
+/// Computes the weights of the Lagrange interpolation at `x`. The interpolation uses the `count`
+/// nearest of the ascending coordinates `sorted`, or all if there are fewer. Also returns the index
+/// of the first coordinate used.
 pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);

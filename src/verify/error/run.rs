@@ -47,9 +47,9 @@ impl Comparison<'_> {
 /// suffice, because an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` through `clock`. At every instant, measures the error of `subject` against
-/// `truth` at its reference labels. Also records the velocity of the label nearest to the observed
-/// point.
+/// Advances `subject` over all steps of `clock`. At every instant, measures the error of `subject`
+/// against `truth` at its reference labels. Also records the velocity of the label nearest to the
+/// observed point.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,

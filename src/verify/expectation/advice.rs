@@ -33,7 +33,7 @@ pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome
     study.levels.iter().filter(|level| level.usable)
 }
 
-/// Half-width of the interval of an order above which more levels are suggested.
+/// Half-width of the confidence interval of an order above which more levels are suggested.
 const WIDE: f64 = 0.03;
 
 /// Lists reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.

@@ -17,8 +17,8 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. Other processors and settings add in
-/// another order and have other rounding errors.
+/// Minimum ratio of a proposed bound to the measured drift. A different processor or setting may
+/// add in a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.
@@ -95,7 +95,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// Returns the expected verdict or order, if another run would meet it too.
+/// Returns the verdict or order to propose; `None` if another run might not meet it.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {

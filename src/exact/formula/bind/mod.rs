@@ -78,8 +78,9 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. A loop processes chains of left operands, which may be as
-    /// long as the source. The nesting depth of the parser limits recursion.
+    /// Compiles a node and its children. Chains of left operands may be as long as the source, so a
+    /// loop processes them. The depth of recursion is limited by the nesting depth that the parser
+    /// accepts.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
