@@ -17,7 +17,7 @@ pub struct SuiteOutcome {
     pub suite: String,
     /// Name of the folder of the suite file.
     pub group: String,
-    /// Headline: the one-line title of the suite.
+    /// One-line title of the suite.
     pub title: String,
     /// Literature reference for the problem.
     pub source: String,
@@ -120,7 +120,8 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
-    /// Whether the case has been tested: it applies to the solver and is not exempt from the gate.
+    /// Whether the case has been tested: it applies to the solver, and `run --gate` does not exempt
+    /// it.
     pub fn is_tested(&self) -> bool {
         self.lacks.is_empty() && self.exemption.is_none()
     }
@@ -140,7 +141,7 @@ impl CaseOutcome {
         ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
 
     /// Returns the result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a`
-    /// if the solver lacks a capability. With a gate also `not gated` and `excepted`.
+    /// if the solver lacks a capability. With `run --gate` also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";

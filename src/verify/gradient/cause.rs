@@ -2,7 +2,7 @@
 
 use super::ValueCheck;
 
-/// Maximum relative difference between a derivative and a number that explains it.
+/// Maximum relative difference at which two numbers count as equal.
 const ALIKE: f64 = 1e-3;
 
 /// Fraction of a central difference below which a derivative counts as zero.
@@ -42,7 +42,8 @@ pub struct GradientEvidence {
 
 impl GradientEvidence {
     /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if no
-    /// result in `self` explains the derivative. `value` is the check of the reported value.
+    /// result in `self` explains the derivative. `value` is the check of the reported value of the
+    /// functional.
     pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
         if !value.agrees() {
             let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;

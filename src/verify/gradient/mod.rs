@@ -28,9 +28,9 @@ named! {
         Jumps = "jumps",
         /// The derivative is correct, and the function is linear in the parameter.
         Linear = "linear",
-        /// Rounding hides the remainder: no verdict.
+        /// Rounding errors hide the remainder, so the derivative cannot be judged.
         AtRounding = "at_rounding",
-        /// The derivative is not that of the function.
+        /// The reported derivative is not the derivative of the function.
         Wrong = "wrong",
     }
 }

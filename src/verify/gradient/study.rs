@@ -128,8 +128,8 @@ pub struct GradientTerms {
 }
 
 impl GradientTerms {
-    /// Returns the requirements of the gate on a solver with this formal order: any state except
-    /// `wrong`, and the order.
+    /// Returns the requirements of `run --gate` on a solver with this formal order: any state
+    /// except `wrong`, and the order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }

@@ -8,7 +8,7 @@
 //!   all shorter windows together. It is small compared with the 5 % of the confidence interval, so
 //!   the selection hardly affects the coverage of the interval.
 //! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
-//!   side, and the departure grows outwards. An outlier among good levels is therefore kept. It
+//!   side, and the departure grows outwards. An outlier among good levels is therefore kept, and
 //!   widens the interval.
 //! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
 //!   is then `at floor`.
