@@ -1,5 +1,5 @@
-//! Lists the materials and effects, one line each. Two modules have a file for each material and
-//! for most effects; both modules declare these files from the lists here.
+//! Lists the materials and effects, one line each. The modules of materials, laws, loads and
+//! effects declare their files from these lists.
 
 /// Calls the macro `declare` with every material. A line
 ///

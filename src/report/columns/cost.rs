@@ -95,8 +95,8 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Whether and where a method reaches a target error, and its work divided by the minimum work of
-/// all methods.
+/// Work and spacing at which a method reaches a target error, and this work divided by the minimum
+/// work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {

@@ -1,4 +1,4 @@
-//! The history plot: curves over linear axes, such as a velocity over time.
+//! The history plot: curves with linear axes, such as a velocity over time.
 
 use super::plot::frame::{KEY, Legend, LegendEntry};
 use super::plot::frame::{Plot, Titles};
@@ -8,7 +8,7 @@ use super::plot::scale::{Pad, Scale};
 use super::plot::style::{EXACT, Look, look};
 use super::plot::svg::{Pt, SvgElement};
 
-/// Curves over linear axes.
+/// Curves with linear axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryPlot {
     /// Title above the frame.

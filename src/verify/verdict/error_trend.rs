@@ -1,5 +1,5 @@
-//! Shapes of an error series that exclude an order. They are recognised from error ratios only, so
-//! the units of the error and of `h` have no effect.
+//! Detects divergence, floors and oscillation in a series of errors. The rules use only error
+//! ratios, so the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 

@@ -25,7 +25,7 @@ pub(crate) enum Reason {
         change: f64,
     },
     /// The order is compared with the expected range. `overlaps` is true if the order is outside
-    /// the range but its interval overlaps it.
+    /// the range but its interval overlaps the range.
     Against {
         verdict: Verdict,
         range: (f64, f64),
