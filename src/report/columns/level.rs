@@ -83,8 +83,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns two columns: the largest error at the end, unless it equals the judged error, and its
-/// order.
+/// Returns the columns of the largest error at the end and of its order. An error that equals the
+/// judged error is shown as a dash.
 pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
     let heading = if is_primary { "linf at end" } else { "linf of displacement at end" };
     let about = "order of linf between the next coarser level and this one";

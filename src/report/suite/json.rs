@@ -75,7 +75,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// Returns the tested commit, if a CI service states it.
+/// Returns the tested commit, if a CI service sets it as an environment variable.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)

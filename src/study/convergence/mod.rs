@@ -73,7 +73,8 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // Runners of all suites exist until the gate ends. Shared forces are therefore freed early.
+        // The runners of all suites exist until the last suite ends. Shared forces are therefore
+        // freed early.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())

@@ -91,8 +91,8 @@ impl Truth for Reference {
     }
 }
 
-/// Number of interpolation points per axis. The interpolation then has order 6, more than any
-/// method.
+/// Number of interpolation points per axis. The interpolation then has order 6, which is higher
+/// than the order of any method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a particle lattice at the start and at every instant.
