@@ -20,7 +20,8 @@ const CLOSER: f64 = 0.5;
 /// coarse levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error that counts as large as the solution, as a fraction of the largest exact value.
+/// Minimum error that is considered as large as the solution, as a fraction of the largest exact
+/// value.
 const WHOLE: f64 = 0.1;
 
 /// Maximum ratio of the largest to the smallest error for which the errors count as independent of

@@ -183,7 +183,8 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// Finds a jump of the lowest-order derivative that jumps, up to the second order.
+/// Finds a jump of the displacement or of its derivatives up to the second order. If several
+/// derivatives jump, the result belongs to the one of lowest order.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
