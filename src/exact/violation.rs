@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A violated condition of the stated solution, with position, time and difference.
+/// A condition that an exact solution violates, with position, time and difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
     /// The violation, as a clause such as "boundary condition u_X = 0 is violated".

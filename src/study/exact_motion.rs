@@ -1,7 +1,7 @@
 //! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
 //! Extremes are computed at regular points of the body and the run. The points and times of a
-//! `Survey`, which resolve a narrow pulse, are included.
+//! `Survey` are included, because these resolve narrow pulses.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;

@@ -21,7 +21,7 @@ const MOST_SPREAD: f64 = 0.1;
 named! {
     /// Reason why a level does not count for the observed order.
     pub enum Exclusion {
-        /// Particles change their cell, which the theory of the method does not cover.
+        /// Particles change their cell. The theory of the method does not cover such changes.
         Crossings = "crossings",
         /// The error lies below the bound of rounding errors.
         Rounding = "rounding",

@@ -231,7 +231,8 @@ run_figures! {
     /// Energy (J) gained as nodal velocities are mapped to particles.
     GridToParticle = "grid_to_particle", "grid to particle (J)",
         |trial| ledger_entry(trial, LedgerStage::GridToParticle);
-    /// Energy (J) gained because particles keep velocities that differ from the mapped ones.
+    /// Energy (J) gained because particle velocities differ from the velocities mapped from the
+    /// grid.
     ParticleVelocity = "particle_velocity", "particle velocity (J)",
         |trial| ledger_entry(trial, LedgerStage::ParticleVelocity);
     /// Energy (J) gained by effects on the velocities of particles.
@@ -254,13 +255,14 @@ impl RunFigure {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
 
-    /// Whether the value concerns the null space of the map to the grid, which is computed only on
-    /// request.
+    /// Whether the value concerns the null space of the map to the grid. Such values are computed
+    /// only on request.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 
-    /// Whether the value is part of the energy ledger, which is recorded only on request.
+    /// Whether the value is part of the energy ledger, the energy change by each stage of a step.
+    /// The ledger is recorded only on request.
     pub fn is_of_ledger(self) -> bool {
         self as usize >= Self::LedgerGap as usize
     }

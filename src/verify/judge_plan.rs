@@ -45,7 +45,7 @@ pub struct JudgePlan<'a> {
     pub observed_at: Option<&'a [f64]>,
     /// Conserved sums whose drift is reported for a case without expectations.
     pub sums: Vec<Conserved>,
-    /// Expectation of the suite, if it states one.
+    /// Expectation of the suite, if any.
     pub expectation: Option<&'a Expectation>,
     /// Treatment of an external solver's case by `run --gate`; `None` without `--gate`.
     pub gating: Option<&'a Gating>,

@@ -1,7 +1,7 @@
 //! Runs levels again with other settings if the verdict depends on the results.
 //!
-//! - To find the cause of a floor, the finest level runs again with half the spacing on another
-//!   axis.
+//! - To find why the error has stopped decreasing (an error floor), the finest level runs again
+//!   with half the spacing on another axis.
 //! - Some suites have one time step on all levels. This step limits the error of a solver that is
 //!   accurate in space: the order or the error stops decreasing. If an external solver then misses
 //!   the requirement of `run --gate`, its levels run again with shorter steps, to check whether

@@ -1,6 +1,6 @@
 //! The formula language of suites.
 //!
-//! Suites state numbers and exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
+//! Suites contain numbers and exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
 //! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula is processed in three stages:
 //!
 //! 1. [`Expr::parse`] turns text into a syntax tree, without resolving names.

@@ -17,7 +17,7 @@ macro_rules! elementary {
 
 /// A number type over which formulas can be evaluated.
 ///
-/// `f64` has inherent methods with these names, which take precedence and call the platform's
+/// The inherent methods of `f64` with these names take precedence, and call the platform's
 /// mathematical library. For bit-identical results on all platforms, call the trait methods in code
 /// generic over `Number`, or as `Number::sin(x)`.
 pub trait Number:
@@ -230,8 +230,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// Returns the value of the first lane. Formulas branch only on the index of a sum, which is
-    /// equal in all lanes.
+    /// Returns the value of the first lane. This suffices because formulas branch only on the index
+    /// of a sum, which is equal in all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

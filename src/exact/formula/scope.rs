@@ -15,7 +15,7 @@ pub struct Scope {
     tables: BTreeMap<String, Tabulated>,
     /// Names defined as expressions of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
-    /// The free variable of formulas, which functions and definitions may use as well.
+    /// The free variable of formulas. Functions and definitions may use this variable as well.
     free: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Scope {
         Self::default()
     }
 
-    /// Declares a constant, which is a parameter of the suite.
+    /// Declares a constant, such as a parameter of a suite.
     ///
     /// # Errors
     /// When `name` is invalid or taken, or when `value` is not finite.
@@ -52,8 +52,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares `name` as the free variable, which functions and definitions may use as well.
-    /// Formulas are then bound with `name` among their variables.
+    /// Declares `name` as the free variable. Functions and definitions may use this variable as
+    /// well. Formulas are then bound with `name` among their variables.
     ///
     /// # Errors
     /// When `name` is invalid or taken.

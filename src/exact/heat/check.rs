@@ -66,7 +66,7 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Without a stated value, the initial temperature must only be finite.
+        // If no initial temperature is prescribed, the exact one must only be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X) is violated".to_owned();
         worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
@@ -330,7 +330,7 @@ impl HeatMagnitudes {
     }
 }
 
-/// Returns the heat source (W/kg) that the temperature needs, and the stated source.
+/// Returns the heat source (W/kg) that the exact temperature requires, and the prescribed source.
 pub(super) fn needed_and_stated(
     problem: &Conduction,
     (event, motion, now): &HeatPoint,

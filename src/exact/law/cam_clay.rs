@@ -13,7 +13,7 @@
 //! ```
 //!
 //! C has one root below -M, one above M, and one in between. The root in between is the constant
-//! ratio of the K0 line, which the path approaches. Partial fractions give `ln p`.
+//! ratio of the K0 line. The path approaches this line. Partial fractions give `ln p`.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;

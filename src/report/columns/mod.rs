@@ -36,7 +36,7 @@ impl Cell {
         Self::new(None::<String>, json)
     }
 
-    /// Creates a cell with a name or a count, which is equal in text and JSON.
+    /// Creates a cell with a name or a count. The value is equal in text and JSON.
     pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
         Self::new(value.clone(), value)
     }

@@ -214,7 +214,8 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Statement rows about levels and outputs, which are compared separately from the problem.
+/// Names of statement rows about levels and outputs. These are compared separately from the
+/// problem.
 const OF_LEVELS: [&str; 7] =
     ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
 

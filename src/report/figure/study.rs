@@ -90,7 +90,8 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Returns the index of a case in its suite, which determines its colour in all figures.
+/// Returns the index of a case in its suite. The index determines the colour of the case in all
+/// figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }

@@ -197,7 +197,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// Runs the method of the case with a smaller spacing, which gives the reference of the case.
+    /// Runs the method of the case with a smaller spacing, to obtain the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {

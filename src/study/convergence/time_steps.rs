@@ -49,7 +49,7 @@ pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A time step that the suite states needs no prediction.
+            // A time step that the suite contains needs no prediction.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -106,8 +106,8 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
 /// Number of power iterations in the prediction of an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Number of power iterations in the first prediction for a stated time step. Each iteration costs
-/// as much as a step.
+/// Number of power iterations in the first prediction for a time step from the suite. Each
+/// iteration costs as much as a step.
 const FEW: u32 = 6;
 
 /// Fraction of the first predicted limit above which a step is compared with a second prediction.

@@ -94,7 +94,7 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
 }
 
 /// Returns the ratio of the coarsest cell size to the length over which the exact solution changes,
-/// and a sentence that states both.
+/// and a sentence that contains both.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;

@@ -95,8 +95,8 @@ pub fn under_on(
     })
 }
 
-/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the stated law or
-/// no law, or if the results depend on the law.
+/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the law of the
+/// plan or no law, or if the results depend on the law.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -114,8 +114,8 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
 }
 
 /// Returns the value of a parameter of the replacing law: the value of the same parameter in the
-/// stated law, if there is one. Otherwise a positive parameter gets the stiffness of the stated
-/// law, so the time step remains stable, and other parameters get a fixed valid value.
+/// law `own`, if there is one. Otherwise a positive parameter gets the stiffness of `own`, so the
+/// time step remains stable, and other parameters get a fixed valid value.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);

@@ -36,7 +36,7 @@ impl<'a> Preflight<'a> {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Returns the cases with an expected order, which is stated or theoretical.
+    /// Returns the cases with an expected order, from the suite or from theory.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),

@@ -22,9 +22,9 @@ const INTERVALS: usize = 4;
 /// does not count.
 const AWAY: f64 = 1e-3;
 
-/// Warns if a body without dissipation does not start in its stated equilibrium, because the body
-/// then oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and
-/// the finding is a note.
+/// Warns if a body without dissipation does not start in its equilibrium, because the body then
+/// oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and the
+/// finding is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {

@@ -12,8 +12,9 @@
 //! The interval of an interpolated error has only the second term, for the distance to the nearer
 //! level.
 //!
-//! No error is predicted for finer levels if the errors do not converge or end in a floor. The same
-//! holds if the order falls at the end, which is the first sign of a floor.
+//! No error is predicted for finer levels if the errors do not converge or have stopped decreasing
+//! (a floor). The same holds if the order falls at the end, because a falling order is the first
+//! sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -88,8 +89,8 @@ impl PredictedError {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // If the observed order on coarse grids is above the formal order, finer grids are not
-            // expected to keep it.
+            // If the observed order on coarse grids is above the formal order, the excess is not
+            // expected to continue on finer grids.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {

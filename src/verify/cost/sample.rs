@@ -2,8 +2,8 @@
 //! the work needed to reach an error.
 //!
 //! Between two levels of the converging part an error may be interpolated. On other levels a small
-//! error may be accidental: the error may change sign, or fluctuate on a floor. The error on the
-//! next finer grid may be larger.
+//! error may be accidental: the error may change sign, or fluctuate after it has stopped
+//! decreasing. The error on the next finer grid may be larger.
 
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ const LEAST_ORDER: f64 = 0.2;
 const FEWEST: usize = 3;
 
 /// Minimum ratio of an error to the error of the previous level for which the error counts as
-/// growing. Smaller changes are fluctuations on a floor.
+/// growing. Smaller changes are fluctuations of an error that has stopped decreasing.
 const GROWS: f64 = 1.25;
 
 /// A range of neighbouring levels over which the error decreases.

@@ -51,7 +51,7 @@ impl NormName {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
     }
 
-    /// Whether the norm is weighted by masses, which only some subjects report.
+    /// Whether the norm is weighted by masses. Only some subjects report masses.
     pub(crate) fn is_by_mass(self) -> bool {
         matches!(self, Self::MassL2 | Self::MaxMassL2)
     }
@@ -195,11 +195,11 @@ pub struct ErrorScale {
     /// the same problem are compared.
     pub problem: String,
     /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
-    /// error: the largest exact magnitude, or NaN if there is none. If the suite states a scale,
+    /// error: the largest exact magnitude, or NaN if there is none. If the suite gives a scale,
     /// that scale is already applied, and the divisor is 1.
     pub size: f64,
-    /// Exponent g of the work, which grows like spacing^-g: the number of refined axes of the body,
-    /// plus the exponent of the number of steps.
+    /// Exponent g in work ~ spacing^-g: the number of refined axes of the body, plus the exponent
+    /// of the number of steps.
     pub growth: f64,
 }
 

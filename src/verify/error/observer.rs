@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Velocity at one label over a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Reference position of the observed label (m), which is the label nearest to the requested
-    /// point.
+    /// Reference position (m) of the observed label, the one nearest to the requested point.
     pub label: Vec<f64>,
     /// Time (s), and first velocity component of the subject and of the exact solution (m/s), at
     /// t = 0 and at each instant.

@@ -211,7 +211,7 @@ impl<'a> RunMonitor<'a> {
         keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
     }
 
-    /// Creates the result of a failed run, which has a reason and no errors.
+    /// Creates the result of a failed run, with the reason of the failure and without errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);

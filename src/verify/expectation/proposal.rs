@@ -1,4 +1,4 @@
-//! Proposes expectations for a suite that states none, based on runs of the suite.
+//! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! Theory has priority: if the observed order agrees with the formal one, the formal order is
 //! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
@@ -48,7 +48,8 @@ pub struct ProposedKey {
 pub struct Proposal {
     /// Keys other than `case` and `because`.
     pub keys: Vec<ProposedKey>,
-    /// Reason, which the author of the suite must complete if theory gives none.
+    /// Reason for the expectation. If theory gives none, the author of the suite must complete the
+    /// text.
     pub because: String,
     /// Verdict and measured values of the run.
     pub seen: String,

@@ -29,7 +29,7 @@ impl GradientEntry {
     }
 }
 
-/// Results of runs without derivatives, which are compared with a wrong derivative.
+/// Results of runs without derivatives, for comparison with a wrong derivative.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientEvidence {
     /// Entries of the reported gradient, on the level where parameters are perturbed.

@@ -2,10 +2,10 @@
 
 use super::GradientState;
 
-/// Exponent of the smallest perturbation, which is the parameter times 2^-exponent.
+/// Exponent k of the smallest perturbation, the parameter times 2^-k.
 pub const LAST_LEVEL: u32 = 16;
 
-/// Exponent of the largest perturbation, which is the parameter times 2^-exponent.
+/// Exponent k of the largest perturbation, the parameter times 2^-k.
 pub const FIRST_LEVEL: u32 = 4;
 
 /// Range of the order of the remainder for a correct derivative of a smooth function.

@@ -1,5 +1,5 @@
-//! Detects divergence, floors and oscillation in a series of errors. The rules use only error
-//! ratios, so the units of the error and of `h` have no effect.
+//! Detects divergence, oscillation and floors (errors that stop decreasing) in a series of errors.
+//! The rules use only error ratios, so the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
@@ -10,7 +10,7 @@ use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 /// floor.
 const LEAST_GROWTH: f64 = LN_2;
 
-/// Maximum range of ln(error) on a floor: a factor of two, which allows round-off noise of -+ 30 %.
+/// Maximum range of ln(error) on a floor: a factor of two, to allow round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
 /// Minimum theoretical decrease over the levels of a floor: the formal order would halve the error.

@@ -2,8 +2,8 @@
 //!
 //! 1. Is every level valid, and the hypothesis testable? Otherwise `failed`.
 //! 2. Are there four usable levels? Otherwise `too few levels`.
-//! 3. Does the error oscillate, grow, or stop at a floor? `oscillatory`, `divergent` or `at floor`,
-//!    by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
+//! 3. Does the error oscillate, grow, or stop decreasing (a floor)? `oscillatory`, `divergent` or
+//!    `at floor`, by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
 //! 4. Which levels are asymptotic? See [`window`]. If the window excludes levels at the fine end,
 //!    the verdict is `at floor`.
 //! 5. Has the order settled over these levels? A wide interval or a drift is `pre-asymptotic`.
@@ -166,7 +166,7 @@ impl JudgedSeries {
         })
     }
 
-    /// Detects a floor by an error of zero, which is at or below round-off.
+    /// Detects a floor from an error of zero, because such an error is at or below round-off.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);

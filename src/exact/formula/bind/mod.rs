@@ -302,7 +302,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(self.settle(start, at, terms))
     }
 
-    /// Compiles the body of a sum, which runs once per term.
+    /// Compiles the body of a sum. The body runs once per term.
     fn term(
         &mut self,
         frame: &mut Frame<'a>,
@@ -319,7 +319,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(term)
     }
 
-    /// Returns the value of a bound of a sum, which must be a constant integer.
+    /// Returns the value of a sum bound. The bound must be a constant integer.
     fn bound(
         &mut self,
         frame: &mut Frame<'a>,

@@ -143,7 +143,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             edge.hatching(3.0, &mut group);
         }
         "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
-        // The direction of the prescribed motion is stated as text.
+        // The direction of the prescribed motion is written as text.
         "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
         _ => {}
     }
