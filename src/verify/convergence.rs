@@ -36,7 +36,7 @@ pub struct Convergence {
     pub scale: Option<f64>,
     /// Scale for comparing errors and work between cases.
     pub error_scale: ErrorScale,
-    /// Whether errors are measured against an exact solution or a reference.
+    /// Whether there is an exact solution or a reference against which errors are measured.
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,

@@ -32,7 +32,7 @@ pub struct JudgePlan<'a> {
     pub scale: Option<f64>,
     /// Scale for comparing errors and work between cases.
     pub error_scale: ErrorScale,
-    /// Whether errors are measured against an exact solution or a reference.
+    /// Whether there is an exact solution or a reference against which errors are measured.
     pub is_compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,

@@ -1,4 +1,4 @@
-//! Positions and times at which conditions are checked, distributed over space-time boxes.
+//! Events: positions and times at which conditions are checked, distributed over space-time boxes.
 
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;

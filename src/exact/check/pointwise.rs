@@ -1,6 +1,7 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! On rims of a body that is not a box, P n = 0, or P n = -p J F^-T n under a pressure p.
+//! On a rim, the boundary of a body that is not a box, P n = 0 or, under a pressure p, P n = -p J
+//! F^-T n.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 

@@ -138,7 +138,8 @@ pub(crate) struct Raster {
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and its derivative.
+/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and the derivative of
+/// this factor.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
     pub(crate) at: f64,

@@ -24,7 +24,7 @@ pub struct Hoisted<T> {
     /// The variables: the most recently added coordinates, and the current time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// Inputs of the remaining steps: values stored for the time, then those for one position.
+    /// Inputs of the steps that depend on both: values stored for the time, then for one position.
     inputs: Vec<T>,
     /// Values stored for each position, one position after another.
     kept: Vec<T>,

@@ -1,4 +1,5 @@
-//! Declarations of the judged quantities: values at labels, and sums over the body or its walls.
+//! Declarations of the judged quantities: values at labels (points, identified by their reference
+//! positions), and sums over the body or its walls.
 //!
 //! Errors of sums are relative to a size that is zero only for a body at rest. The size of an
 //! energy is its value; the size of a vector is the sum of the lengths of its terms. An energy is

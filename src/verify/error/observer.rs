@@ -1,4 +1,5 @@
-//! Records the velocity at one label over time. Also interpolates the displacement at a point.
+//! Records the velocity at one label (a point, identified by its reference position) over time, and
+//! interpolates the displacement at a point.
 
 use crate::exact::Truth;
 use crate::subject::Samples;

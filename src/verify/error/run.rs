@@ -24,7 +24,7 @@ pub struct Comparison<'a> {
     pub of: Quantity,
     /// Exact value of the judged quantity, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
-    /// Box to which errors are restricted; `None`: errors over the whole body.
+    /// Box to which errors are restricted; `None` for the whole body.
     pub within: Option<&'a JudgedBox>,
     /// Reference position (m) of the observed point, if any.
     pub observe: Option<&'a [f64]>,

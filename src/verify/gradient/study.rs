@@ -6,7 +6,7 @@ use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
 
-/// Maximum difference between the observed order of the derivative and the formal order.
+/// Maximum difference between the observed order of the derivative error and the formal order.
 const ORDER: f64 = 0.15;
 
 /// Maximum difference between the order over the two finest levels and the formal order.
