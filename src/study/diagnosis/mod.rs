@@ -73,7 +73,8 @@ const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
 
 /// Diagnoses case number `index` of a suite. The predicted time of all changed runs is limited to a
 /// budget (s). With `solver`, `suite` must come from [`under`](crate::study::under). `None` if
-/// there is no order to explain: another kind of study, no exact solution, or too few levels.
+/// there is no order to explain: another kind of study, neither an exact solution nor a reference,
+/// or too few levels.
 ///
 /// # Errors
 /// The reason why the case itself cannot run.
