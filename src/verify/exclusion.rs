@@ -45,8 +45,8 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
 /// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
-/// worst case all rounding errors are equal. Their sum is then `N spacing/sqrt 12` in the RMS norm,
-/// and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
+/// worst case all rounding errors are equal. Their sum after N steps is then `N spacing/sqrt 12` in
+/// the RMS norm, and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {

@@ -9,7 +9,8 @@ use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Arguments: exact solution, number of dimensions, labels (m), time (s), and the output.
+/// Function that writes exact values at all labels. Its arguments are the exact solution, the
+/// number of dimensions, labels (m), time (s), and the output.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
 /// Properties of a judged quantity, except its name.
@@ -43,7 +44,7 @@ pub(super) struct Declaration {
 
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
-    /// How the value of a subject is computed; components above the dimension are zero.
+    /// How the value of a subject is computed; components beyond the dimension are zero.
     pub(super) computed: ComputedSum,
     /// Exact value per unit of volume or area.
     pub(super) density: SumDensity,

@@ -1,4 +1,4 @@
-//! Finds the probable mistake in a wrong derivative by comparing it with runs without derivatives.
+//! Finds the probable mistake in a wrong derivative by comparison with runs without derivatives.
 
 use super::ValueCheck;
 
