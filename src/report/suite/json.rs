@@ -53,10 +53,10 @@
 //! both ends of its 95 % interval. For a law without an energy the drift of `energy` is `"nan"`.
 //! `stable_time_step` (s) is present if the time step is automatic, or if a given time step is
 //! longer than the stable one. `profile` is the cost of one step on the coarsest level, if the
-//! subject reports it (MPM): its `passes` in order, the particles that each part of them `visits`,
-//! and the `columns` of memory, with the `bytes` of one entry. `floor` contains the error of the
-//! finest level with another spacing halved, if such a run exists. Its `cause` is one of the axes,
-//! or `none`, or null if the cause could not be determined.
+//! subject reports it (MPM): its `passes` in order, the number of particles that each part of these
+//! passes `visits`, and the `columns` of memory, with the `bytes` of one entry. `floor` contains
+//! the error of the finest level with another spacing halved, if such a run exists. Its `cause` is
+//! one of the axes, or `none`, or null if the cause could not be determined.
 //!
 //! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
 //! lists the keys of rows.
