@@ -140,12 +140,12 @@ impl Scope {
             .help("a name is made of ASCII letters, digits and `_`, no digit first"))
     }
 
-    /// Returns the declared tables, in alphabetical order.
+    /// Returns the names of the declared tables, in alphabetical order.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         self.tables.keys().map(String::as_str)
     }
 
-    /// Returns the declared constants, in alphabetical order.
+    /// Returns names and values of the declared constants, in alphabetical order.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         self.constants.iter().map(|(name, value)| (name.as_str(), *value))
     }

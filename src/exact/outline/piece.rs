@@ -47,7 +47,7 @@ impl Piece {
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
-        // A piece that degenerates to a line has an area from rounding only.
+        // The area of a piece that degenerates to a line is a rounding error.
         if !(root > ROUNDING * (xx + yy)) {
             let half = 0.5 * self.volume.sqrt();
             return [half, 0.0, 0.0, half];

@@ -4,8 +4,8 @@
 //! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
 //! one cell. It is predicted before a run and constant during the run, because an order requires
 //! one step for each level. With linear basis functions the stability limit may decrease when
-//! particles move (suite `tiny-nodal-mass`). As a margin for this, an automatic step is a fraction
-//! of the stable step.
+//! particles move (suite `tiny-nodal-mass`). An automatic step is therefore a fraction of the
+//! stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -118,7 +118,7 @@ const NEAR: f64 = 0.6;
 type Stepped = (LevelPlan, Option<f64>);
 
 /// Cache of the stable time steps (s) of a study, with the inputs of the prediction as keys.
-/// Methods with equal inputs share one prediction. So do levels that differ only in their step.
+/// Methods with equal inputs, and levels that differ only in their time step, share one prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 

@@ -25,7 +25,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Whether error and work of the level are valid; false if one of them is NaN.
+    /// Whether the level is usable, its run did not fail, and error and work are valid numbers.
     pub fn counts(&self) -> bool {
         let sound = self.error >= 0.0 && self.error.is_finite();
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
@@ -170,8 +170,9 @@ pub enum Reach {
         /// Interpolated spacing.
         spacing: f64,
     },
-    /// The coarsest level of the converging part already reaches the error. The work of this level
-    /// is an upper bound.
+    /// The coarsest level already reaches the error. This is the coarsest of all valid levels if
+    /// all of them reach the error, otherwise the coarsest of the converging part. The work of this
+    /// level is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,
