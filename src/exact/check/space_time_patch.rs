@@ -1,4 +1,5 @@
-//! Space-time patches with a bump function as test function, and their midpoint-rule points.
+//! Space-time patches, with a bump function as test function and with the points of the midpoint
+//! rule.
 
 use super::event::Event;
 use crate::exact::random::Random;

@@ -26,8 +26,7 @@ pub struct HistoryPlot {
 pub struct Curve {
     /// Name in the legend. A curve without a name has no legend entry.
     pub name: String,
-    /// Index of the curve's colour. A method has the same colour in all figures of a suite; the
-    /// exact solution has a separate colour.
+    /// Index of the curve's colour. The exact solution has a separate colour.
     pub look: usize,
     /// The points in drawing order. A point that is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,

@@ -28,8 +28,8 @@ const WHOLE: f64 = 0.1;
 /// the cells.
 const CONSTANT: f64 = 1.5;
 
-/// A level is too coarse if the ratio of its cell size to the length scale of the solution is
-/// larger.
+/// A level is too coarse if its cell size exceeds this fraction of the length scale of the
+/// solution.
 const COARSE: f64 = 0.5;
 
 /// Checks whether coarse levels do not resolve the exact solution. This is the cause if the order

@@ -31,7 +31,7 @@ pub(crate) struct Body<'a> {
     pub(crate) heat: Option<&'a Conduction>,
     /// Whether the particles store F even if neither law nor basis uses it.
     pub(crate) keeps_deformation: bool,
-    /// Particles to move or add, relative to the lattice.
+    /// Changes to the lattice of particles: particles are moved or added.
     pub(crate) lattice: LatticeEdits,
 }
 

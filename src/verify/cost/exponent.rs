@@ -18,7 +18,7 @@ const FEWEST: usize = 3;
 /// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between observed and theoretical growth of work at which they count
+/// Maximum relative difference between observed and theoretical growth of work at which both count
 /// as equal.
 const SAME: f64 = 0.02;
 

@@ -12,8 +12,7 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum distance of an order from the middle of a range, as a fraction of the half-width of the
-/// range.
+/// Maximum width of the observed interval, as a fraction of the half-width of the default range.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.

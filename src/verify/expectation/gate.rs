@@ -170,7 +170,7 @@ impl Requirement {
     }
 
     /// Whether the 95 % interval of the order reaches the lowest accepted order. It must also
-    /// exclude zero and orders that are lower by 0.5.
+    /// exclude orders that are lower by 0.5 or by half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };

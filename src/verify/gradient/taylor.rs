@@ -170,7 +170,8 @@ fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
     order.is_some_and(|order| range.0 <= order && order <= range.1)
 }
 
-/// Whether the orders for the smallest perturbations above the rounding error are in a range.
+/// Whether the orders for the smallest perturbations are in a range. Perturbations whose remainder
+/// is a rounding error are ignored.
 fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     let end = orders.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
     let start = end.saturating_sub(LEVELS - 1);

@@ -28,7 +28,8 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 /// the orders of two methods.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// Maximum half-width relative to the order, for high orders. At order 2 it equals [`SETTLED`].
+/// Maximum half-width relative to the order, for high orders. At order 2 the half-width equals
+/// [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
 /// Minimum change of the order along the window that counts as a drift: the width of the default
