@@ -115,9 +115,9 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
 }
 
 /// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration
-/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If all
-/// off-diagonal components of F and their derivatives are zero, R is the identity. The result is
-/// NaN if [`MOST_TERMS`] iterations do not suffice.
+/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R is the
+/// identity if all off-diagonal components of F and their derivatives are zero and the diagonal is
+/// positive. The result is NaN if [`MOST_TERMS`] iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);

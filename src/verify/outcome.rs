@@ -48,7 +48,7 @@ impl SuiteOutcome {
 pub struct CaseOutcome {
     /// Name of the case, unique in its suite.
     pub case: String,
-    /// Kind of solver: `mpm` or `fem`.
+    /// Kind of solver, such as `mpm`, `fem` or `external`.
     pub subject: &'static str,
     /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
     pub settings: Vec<(String, String)>,
@@ -186,7 +186,7 @@ impl CaseOutcome {
         Self { verdict, reason, unmet, ..self }
     }
 
-    /// Converts the outcome to that of a case that the gate does not judge, for `reason`.
+    /// Converts the outcome to that of a case that `run --gate` does not judge, for `reason`.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
@@ -225,7 +225,7 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that its solver's author excepts from the gate.
+    /// Converts the outcome to that of a case that its solver's author excepts from `run --gate`.
     #[must_use]
     pub(crate) fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));

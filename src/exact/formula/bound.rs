@@ -81,8 +81,7 @@ impl Formula {
         &self.source
     }
 
-    /// Returns the constants and functions of the scope that the formula uses, directly or through
-    /// functions.
+    /// Returns the names of the scope that the formula uses, directly or through functions.
     pub fn uses(&self) -> &BTreeSet<String> {
         &self.uses
     }
