@@ -1,4 +1,4 @@
-//! First-order correction of a linearised motion: the linear response to the residual of its law.
+//! First-order correction of a linearised motion: the linear response to the residual of the law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
 //! residual tractions on faces. The true motion is u + d, where to first order
@@ -254,7 +254,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 impl Problem {
     /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
-    /// for motions that vary along several axes, for bodies with a rim and for several bodies.
+    /// unless the motion varies along exactly one axis of one box in plane strain, 1D or 3D,
+    /// without heat. Also returns `None` if the computation is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

@@ -22,8 +22,8 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// Collects violations and stores the one that is largest relative to its tolerance. Of similar
-/// violations it stores the first.
+/// Collects violations and stores the one that is largest relative to its tolerance. A violation
+/// replaces the stored one if it is 1 % larger, or ten times larger for another condition.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 

@@ -200,7 +200,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, solved for the source s.
+/// Checks the heat equation `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`: compares the source s
+/// that it requires with the prescribed source.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -212,7 +213,8 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the heat balance on random patches. Fields far below the `largest` are ignored.
+/// Checks the heat balance on random patches. Terms of the balance that are far below the `largest`
+/// are ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,
@@ -300,7 +302,7 @@ pub(super) struct HeatMagnitudes {
     pub(super) inflow: f64,
     /// Divergence of the heat flow (W/m^D).
     pub(super) divergence: f64,
-    /// Sum of all terms of the heat equation (W/kg).
+    /// Sum of the magnitudes of all terms of the heat equation (W/kg).
     pub(super) terms: f64,
 }
 

@@ -254,7 +254,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// Returns the cell of an error; empty without a reference solution.
+    /// Returns the cell of an error: a dash without an exact or reference solution.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())

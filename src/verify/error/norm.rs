@@ -76,7 +76,7 @@ impl Norms {
     /// Norms of an error that is zero everywhere.
     pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0, mass_l2: Some(0.0) };
 
-    /// Norms without a measurement: all NaN.
+    /// Norms without a measurement: NaN, and no `mass_l2`.
     pub const NONE: Self =
         Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_l2: None };
 
