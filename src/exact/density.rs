@@ -191,8 +191,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor leaves a
-    /// residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor, or a uniform
+    /// density, leaves a residual.
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");

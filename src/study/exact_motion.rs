@@ -139,9 +139,9 @@ impl Linearisation {
     /// Computes residual and error of the solution of `problem` after a time `t` (s), if it is
     /// linearised. `motion` contains the extremes of the problem.
     ///
-    /// For motions along one axis the error is the root mean square of the first correction, if
-    /// this correction is available ([`Problem::first_correction`]). For other motions the error is
-    /// estimated from the residual, within about a factor of ten:
+    /// The error is the root mean square of the first correction, if this is available
+    /// ([`Problem::first_correction`]). Otherwise the error is estimated from the residual, within
+    /// about a factor of ten:
     ///
     /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
     /// is therefore a force 2 r a per unit mass. The error due to this force is r a t^2 at first.

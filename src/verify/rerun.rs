@@ -2,10 +2,10 @@
 //!
 //! - To find why the error has stopped decreasing (an error floor), the finest level runs again
 //!   with half the spacing on another axis.
-//! - Some suites have one time step on all levels. This step limits the error of a solver that is
-//!   accurate in space: the order or the error stops decreasing. If an external solver then misses
-//!   the requirement of `run --gate`, its levels run again with shorter steps, to check whether
-//!   these restore the order.
+//! - Some suites have one time step on all levels. Its error dominates in a solver that is
+//!   accurate in space: the error stops decreasing, or the order is too low. If an external solver
+//!   then misses the requirement of `run --gate`, its levels run again with shorter steps, to check
+//!   whether these restore the order.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -73,7 +73,8 @@ const LEAST_FALL: f64 = 0.05;
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
-/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor.
+/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor, if
+/// this level failed, or if spacings cannot be halved.
 ///
 /// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(

@@ -119,7 +119,7 @@ impl Number for f64 {
     }
 }
 
-/// Converts `exponent` to an integer, if its value is an integer.
+/// Converts `exponent` to an `i32`, if its value is an integer in this range.
 #[inline]
 pub(super) fn whole(exponent: f64) -> Option<i32> {
     let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);

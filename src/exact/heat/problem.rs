@@ -23,7 +23,7 @@ pub struct HeatFace {
 }
 
 /// An initial-boundary-value problem of heat in a box,
-/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and the temperature that is said to solve it.
+/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).

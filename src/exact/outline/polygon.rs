@@ -6,7 +6,7 @@ use crate::exact::random::Random;
 /// Number of random candidates for a patch; the one furthest from all sides is used.
 const CANDIDATES: usize = 8;
 
-/// A simple polygon, whose sides neither cross nor touch.
+/// A simple polygon: its sides meet only at its corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     kind: &'static str,
@@ -333,8 +333,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line removes no area. If rounding hides all ears, the largest
-        // triangle is removed; the sum of signed areas remains correct.
+        // A corner on a straight line is removed first; this removes no area. If rounding hides all
+        // ears, the largest triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

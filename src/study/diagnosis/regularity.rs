@@ -16,7 +16,7 @@ const STEEP: f64 = 0.5;
 const BELOW: f64 = 0.5;
 
 /// Returns the maximum order that a method of order `p` can reach if the derivative of order `jump`
-/// of the solution is discontinuous; `None` for a sum over the body.
+/// of the solution is discontinuous; `None` for a temperature or a sum over the body.
 ///
 /// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)). Each continuous
 /// derivative multiplies the error by this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In

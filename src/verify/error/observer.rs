@@ -51,8 +51,8 @@ const NEAR: usize = 4;
 
 /// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic
 /// Lagrange interpolation on each axis. This compares the same point on every level. Each axis
-/// contributes the four labels around the point, or all labels if it has fewer. `None` if no
-/// lattice surrounds the point.
+/// contributes the four labels around the point, or all labels if it has fewer. `None` if the
+/// labels near the point do not form a lattice.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {

@@ -203,8 +203,9 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Returns the errors over the judged part of the body at time `t` (s); `None` for quantities
-    /// without values at labels.
+    /// Returns the errors over the judged part of the body at time `t` (s); for a sum over the
+    /// body, the errors of the displacement. `None` if the errors are not stored or cannot be
+    /// computed.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         let judged = || judged_samples(self.comparison, &self.samples);

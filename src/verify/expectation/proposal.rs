@@ -165,8 +165,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposes bounds on the conserved sums. Bounds on mass are attributed to theory, because in every
-/// method the mass is fixed to the particles.
+/// Proposes bounds on the conserved sums. A bound on mass alone is attributed to theory, because in
+/// every method the mass is fixed to the particles.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));

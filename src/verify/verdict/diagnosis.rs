@@ -5,8 +5,8 @@ use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// A change that does not restore the order is reported only if it reduces the finest error to this
-/// fraction or less.
+/// A change that neither restores nor raises the order is reported only if it reduces the finest
+/// error to this fraction or less.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -38,7 +38,7 @@ pub enum Evidence {
 pub struct ChangedRun {
     /// The change, as text.
     pub change: String,
-    /// Cause that is inferred if the change restores the order or reduces the error.
+    /// Cause that is inferred if the change restores or raises the order, or reduces the error.
     pub cause: &'static str,
     /// Modification of the suite that restores the order.
     pub remedy: &'static str,
@@ -164,8 +164,8 @@ impl Diagnosis {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// Returns the causes, starting with the most likely one. If a run or a level restores the
-    /// theoretical order, the exact solution is not the cause.
+    /// Returns the causes, starting with the most likely one. If a run restores the theoretical
+    /// order, the exact solution is not a cause.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {

@@ -34,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// States the reason as a sentence, with the order over the window if there is one.
+    /// Returns the reason as a sentence, with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],
