@@ -1,5 +1,5 @@
-//! A wave in a body that is fixed on all faces, in one, two and three dimensions, with a
-//! manufactured force.
+//! Tests of the check of exact solutions. Most of them use a wave in a body that is fixed on all
+//! faces, in one, two and three dimensions, with a manufactured force.
 
 use super::formula::{Expr, Formula, Scope};
 use super::linearised::Linearised;

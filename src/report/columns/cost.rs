@@ -157,7 +157,7 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// Prints the observed and the expected number with enough decimals to distinguish them.
+/// Formats the observed and the expected number with enough decimals to distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")

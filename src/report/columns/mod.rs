@@ -198,7 +198,7 @@ pub(crate) fn grouped<K: PartialEq, V>(
     groups
 }
 
-/// Removes duplicates, in order of first occurrence.
+/// Returns the distinct values in order of first occurrence.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     grouped(values.into_iter().map(|value| (value, ())))
         .into_iter()

@@ -28,7 +28,7 @@ pub struct Map {
 /// One field of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapField {
-    /// Value that determines the colour; white for `None` or a value that is not finite.
+    /// Value that determines the colour; the paper colour for `None` or a value that is not finite.
     pub value: Option<f64>,
     /// Text printed in the field.
     pub text: String,

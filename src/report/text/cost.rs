@@ -41,7 +41,7 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
     (!best.is_empty()).then(|| format!("{}; errors {}", best.join("; "), relative(ranking)))
 }
 
-/// States the value by which the errors of a ranking are divided.
+/// Describes the value by which the errors of a ranking are divided.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "as judged, relative to the scale of the suite".to_owned();

@@ -35,8 +35,7 @@ named! {
     }
 }
 
-/// Two values of the functional. The solver reports one with the gradient. The other is computed
-/// from the state of a run without derivatives.
+/// Two values of the functional that must agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueCheck {
     /// Value reported with the gradient.
