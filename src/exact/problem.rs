@@ -23,8 +23,7 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or another outline, and the motion that is said to
-/// solve it.
+/// An initial-boundary-value problem on a box or another outline, and its exact solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Lowest corner of the body or its bounding box (m).

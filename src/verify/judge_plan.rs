@@ -43,7 +43,7 @@ pub struct JudgePlan<'a> {
     pub position_spacing: Option<f64>,
     /// Reference position (m) of the observed point.
     pub observed_at: Option<&'a [f64]>,
-    /// Conserved sums whose drift is reported for a case without expectations.
+    /// Conserved sums whose drift is reported for a case without an expectation.
     pub sums: Vec<Conserved>,
     /// Expectation of the suite, if any.
     pub expectation: Option<&'a Expectation>,

@@ -45,7 +45,7 @@ fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
-/// Returns the conserved sums whose drift is reported for a case without bounds on drifts.
+/// Returns the conserved sums whose drift is reported for a case without an expectation.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
     let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();

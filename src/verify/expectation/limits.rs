@@ -1,4 +1,4 @@
-//! Bounds on measured values, for expectations without an order. One level is sufficient.
+//! Bounds on measured values. Without an expected order, one level is sufficient.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
