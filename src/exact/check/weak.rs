@@ -154,12 +154,12 @@ impl Sums {
         }
     }
 
-    /// Returns the difference of gain and loss, relative to the sum of all terms.
+    /// Returns the difference of gain and loss, relative to the sum of the magnitudes of all terms.
     fn imbalance(&self) -> f64 {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
 
-    /// Whether gain and loss differ by at most a `share` of the sum of all terms.
+    /// Whether gain and loss differ by at most a `share` of the sum of the magnitudes of all terms.
     fn imbalance_within(&self, share: f64) -> bool {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }

@@ -1,5 +1,5 @@
-//! Runs a convergence study: runs every level of every case, measures the error, and judges the
-//! case.
+//! Runs every level of every case of a convergence study, measures the errors, and judges the
+//! cases.
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
@@ -284,7 +284,7 @@ impl CaseRuns<'_, '_> {
         Ok(LevelOutcome { spread, ..outcome })
     }
 
-    /// Returns the quantities that a run compares with the exact solution.
+    /// Returns the settings of the comparison of a run with the exact solution.
     fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);

@@ -40,9 +40,8 @@ impl TimeStep {
     }
 }
 
-/// Computes the time steps of all cases and levels of `suite`. Empty for a study without steps, or
-/// with steps that are chosen during the run. Levels whose set-up fails are excluded; their run
-/// reports the reason.
+/// Computes the time steps of all cases and levels of `suite`. Empty for other kinds of study than
+/// a convergence study. Levels whose set-up fails are excluded; their run reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();

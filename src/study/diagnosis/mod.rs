@@ -11,8 +11,8 @@
 //!
 //! The finest levels run again with one change at a time (one factor at a time, as in the isolating
 //! runs of Roy 2005, J. Comput. Phys. 205, 131). A change reveals the cause if it restores the
-//! order. If no change does, the one with the largest decrease of the finest error is reported. The
-//! `because` texts of the suite are not used.
+//! order. If no change does, one that raises the order is reported, or else the one with the
+//! largest decrease of the finest error. The `because` texts of the suite are not used.
 
 mod levels;
 mod probes;

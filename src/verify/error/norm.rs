@@ -104,8 +104,8 @@ impl Norms {
     /// by label. `weights` contains one weight for each label.
     ///
     /// A norm is not finite if an error or weight is not finite. All norms are NaN if there are no
-    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all are
-    /// zero.
+    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all
+    /// weights are zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();
