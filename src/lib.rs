@@ -37,7 +37,7 @@
 //! The modules, in the order of the data flow:
 //!
 //! ```text
-//! suite    checks the file, and reports each error with its line; inserts the stated solution
+//! suite    checks the file, and reports each error with its line; inserts the given solution
 //!          into the equation of motion
 //! study    makes one case per combination of listed values; sets up and runs the solvers
 //! verify   computes errors on every level, compares observed and formal order, gives a verdict

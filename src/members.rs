@@ -1,5 +1,5 @@
-//! Lists the materials and effects, one line each. Two modules have a file for each material and
-//! for most effects; both modules declare these files from the lists here.
+//! Lists the materials and effects, one line each. The modules of materials, laws, loads and
+//! effects declare their files from these lists.
 
 /// Calls the macro `declare` with every material. A line
 ///
@@ -8,7 +8,7 @@
 /// gives the name of the material in suites; its file and type in `mpm/material`, with the
 /// parameter keys in the argument order of `new`; and the file and type of its law in `exact/law`,
 /// whose `new` takes the same arguments. `#[serde(default)]` before a key makes it optional, with
-/// default zero. Suites cannot state an exact solution for a material without `truth`.
+/// default zero. Suites cannot contain an exact solution for a material without `truth`.
 macro_rules! each_material {
     ($declare:ident) => {
         $declare! {
@@ -71,12 +71,12 @@ macro_rules! each_effect {
             /// A damping force against the motion, proportional to the unbalanced force.
             LocalDamping = "local_damping" => local_damping::LocalDampingSpec,
                 effect local_damping::LocalDamping;
-            /// A viscous pressure against compression, which smooths shocks.
+            /// A viscous pressure against compression. It smooths shocks.
             ArtificialViscosity = "artificial_viscosity" => artificial_viscosity::ViscositySpec,
                 effect artificial_viscosity::ArtificialViscosity;
             /// A traction on a face of the body, carried by the layer of particles at that face.
             Traction = "traction" => traction::TractionSpec, effect traction::Traction;
-            /// A pressure on a face of the body, which follows the face.
+            /// A pressure on a face of the body. It follows the moving face.
             Pressure = "pressure" => pressure::PressureSpec, effect pressure::Pressure;
             /// A total force on a set of particles.
             SetForce = "force" => set_force::SetForceSpec, effect set_force::SetForce;

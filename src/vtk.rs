@@ -46,7 +46,7 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     file.written("UnstructuredGrid", "")
 }
 
-/// Adds its tensor rank to each field of a body. The number of components determines the rank.
+/// Pairs each field of a body with its tensor rank, which the number of components determines.
 pub(crate) fn ranked(d: usize, fields: Vec<StateField>) -> Vec<(TensorRank, StateField)> {
     fields.into_iter().map(|field| (TensorRank::of(&field, d), field)).collect()
 }
@@ -104,8 +104,8 @@ impl VtkFile {
         self.xml += "</PointData>\n</Piece>\n";
     }
 
-    /// Appends numbers. Vectors are extended to three components and tensors to nine; components
-    /// above the dimension are zero.
+    /// Appends numbers. Vectors are extended to three components and tensors to nine; the
+    /// additional components are zero.
     fn numbers(&mut self, name: &str, (rank, d): (TensorRank, usize), numbers: &[f64]) {
         let (rows, deep, wide) = match rank {
             TensorRank::Scalar => (1, 1, 1),

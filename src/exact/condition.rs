@@ -25,8 +25,7 @@ pub trait FacePoint {
     /// Evaluates a formula of the coordinates and t at this point and time.
     fn value(&self, formula: &Formula) -> f64;
 
-    /// Returns `J F^-T n`, the current area vector per reference area, which is n for small
-    /// strains.
+    /// Returns `J F^-T n`, the current area vector per reference area. For small strains this is n.
     fn present_area(&self) -> [f64; 3];
 
     /// Requires `u_i = 0`; `what` describes the face in messages.

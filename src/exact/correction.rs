@@ -1,11 +1,11 @@
-//! First-order correction of a linearised motion: the linear response to the residual of its law.
+//! First-order correction of a linearised motion: the linear response to the residual of the law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
 //! residual tractions on faces. The true motion is u + d, where to first order
 //! `rho0 d_tt = M d_XX + r`. The boundary conditions are d = 0 on held faces, and the residual
-//! traction on other faces. The correction d is computed along the only axis along which the motion
-//! varies. Motions use linear elements, a lumped mass matrix and central differences in time;
-//! bodies at rest use integration.
+//! traction on other faces. The motion must vary along one axis only, and d is computed along this
+//! axis. For a moving body, d is computed with linear elements, a lumped mass matrix and central
+//! differences in time. For a body at rest, d is computed by integration.
 
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
@@ -254,7 +254,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 impl Problem {
     /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
-    /// for motions that vary along several axes, for bodies with a rim and for several bodies.
+    /// unless the motion varies along exactly one axis of one box in plane strain, 1D or 3D,
+    /// without heat. Also returns `None` if the computation is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

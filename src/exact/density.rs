@@ -20,8 +20,8 @@ const NODES: usize = 33;
 /// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
-/// Densities below this share of the largest density count as zero, because 1 - X^2 - Y^2 is not
-/// exactly zero on the rim of a disk.
+/// Densities below this share of the largest density count as zero, because of rounding errors: 1 -
+/// X^2 - Y^2 is not exactly zero on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
 /// A position in the body where the density is not positive.
@@ -191,8 +191,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor leaves a
-    /// residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor, or a uniform
+    /// density, leaves a residual.
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -265,7 +265,8 @@ pub(super) mod tests {
         assert_relative_eq!(kinetic + stored, 0.261_799_388, max_relative = 1e-8);
     }
 
-    /// Checks d/dX and d/dY of X^2 Y. A rounded density below zero has zero value and slope.
+    /// Checks d/dX and d/dY of X^2 Y. A density that is negative by rounding has zero value and
+    /// slope.
     #[test]
     fn slopes_are_those_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };

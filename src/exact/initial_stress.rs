@@ -13,8 +13,8 @@ use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
 /// Initial stress S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
 pub struct InitialStress {
-    /// Row, column and value of each stated component, where the value is a formula of the
-    /// coordinates and row <= column. Other components are zero.
+    /// Row, column and formula of each given component, with row <= column. The formulas depend on
+    /// the coordinates. Other components are zero.
     components: Vec<(usize, usize, Formula)>,
 }
 
@@ -30,7 +30,7 @@ impl InitialStress {
         self.components.is_empty()
     }
 
-    /// Returns row, column and formula of each stated component.
+    /// Returns row, column and formula of each given component.
     pub fn components(&self) -> &[(usize, usize, Formula)] {
         &self.components
     }
@@ -159,7 +159,7 @@ mod tests {
         Problem { initial_stress, ..held(dimension) }
     }
 
-    /// The manufactured force contains Div(F S0), which the weak form checks independently.
+    /// The manufactured force contains Div(F S0). The weak form checks this term independently.
     #[rstest]
     fn a_manufactured_force_balances_it(#[values(1, 2, 3)] dimension: usize) {
         let (problem, bare) = (prestressed(dimension), held(dimension));

@@ -11,7 +11,8 @@ pub struct Linearised {
     pub because: String,
 }
 
-/// Returns a residual `left` divided by `size`, in the same unit; 0 if the residual is 0.
+/// Returns the magnitude of a residual `left`, divided by `size` of the same unit; 0 if `left` is
+/// 0.
 pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }
@@ -47,7 +48,8 @@ mod tests {
         }
     }
 
-    /// A linear law leaves only rounding errors. A violated condition without the law gives NaN.
+    /// A linear law leaves only rounding errors. A violated condition that does not involve the law
+    /// gives NaN.
     #[test]
     fn the_residual_is_that_of_the_law() {
         let wave = "sin(pi*X)*cos(pi*t)/50";

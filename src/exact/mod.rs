@@ -1,6 +1,6 @@
 //! Exact solutions, and the check that they solve their problems.
 //!
-//! A suite states its solution as formulas ([`formula`]) and its continuum problem as a
+//! A suite gives its solution as formulas ([`formula`]). Its continuum problem becomes a
 //! [`Problem`]. [`check`](Problem::check) substitutes the formulas into the problem before any
 //! solver runs. The module imports no solver.
 

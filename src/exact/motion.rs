@@ -4,8 +4,8 @@ use super::formula::{Formula, Hoisted, Jet, Number, NumberBatch, Slope};
 use super::truth::Truth;
 use crate::dimension::with_dimension;
 
-/// A displacement field u(X, t) with one formula for each component. Each formula depends on the
-/// reference coordinates (one per component) and t, in this order.
+/// A displacement field u(X, t) with one formula for each component. The variables of each formula
+/// are the reference coordinates (one per component), followed by t.
 #[derive(Debug, Clone)]
 pub struct Motion {
     components: Vec<Formula>,
@@ -64,7 +64,8 @@ impl Motion {
         with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// Prepares the motion at `labels`. Terms that do not depend on time are computed in this call.
+    /// Prepares the evaluation of the motion at the reference positions `labels` (m). This call
+    /// computes the terms that do not depend on time.
     pub fn at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Jet<{ D + 1 }>>(labels, Jet::variable))
@@ -107,8 +108,9 @@ pub trait Places: Send {
     /// Sets the time to `t` (s).
     fn set_time(&mut self, t: f64);
 
-    /// Writes the derivatives at the position with this index in `labels`, bit-identical to those
-    /// of [`Motion::derivatives`]. Components on missing axes are not written. Does not allocate.
+    /// Writes the derivatives at the position with index `place`, in the order of the positions in
+    /// [`Motion::at_places`]. The values are bit-identical to those of [`Motion::derivatives`].
+    /// Components on missing axes are not written. Does not allocate.
     fn derivatives(&mut self, place: usize, into: &mut Derivatives);
 }
 

@@ -23,7 +23,7 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or another outline, and its stated solution.
+/// An initial-boundary-value problem on a box or another outline, and its exact solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Lowest corner of the body or its bounding box (m).
@@ -32,7 +32,7 @@ pub struct Problem {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box. Only boxes have faces.
     pub outline: Option<Arc<dyn Outline>>,
-    /// Problems of the individual bodies, which are boxes; empty if there is one body.
+    /// Problems of the individual bodies, all boxes; empty if there is one body.
     pub bodies: Vec<Self>,
     /// Plane state of a two-dimensional body.
     pub plane: PlaneState,
@@ -52,18 +52,18 @@ pub struct Problem {
     pub heat: Option<Conduction>,
     /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Whether initial conditions that are not stated are those of the motion; otherwise they are
+    /// Whether the motion gives the initial conditions that are not prescribed. If false, these are
     /// zero.
     pub follows_motion: bool,
     /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
-    /// Initial displacement (m), formulas of the coordinates and t (= 0); empty if not stated.
+    /// Prescribed initial displacement (m), formulas of the coordinates and t (= 0); may be empty.
     pub initial_displacement: Vec<Formula>,
-    /// Initial velocity (m/s), formulas of the coordinates and t (= 0); empty if not stated.
+    /// Prescribed initial velocity (m/s), formulas of the coordinates and t (= 0); may be empty.
     pub initial_velocity: Vec<Formula>,
     /// End of the run (s).
     pub until: f64,
-    /// The stated solution, which [`Problem::check`] verifies.
+    /// The motion that [`Problem::check`] verifies.
     pub motion: Motion,
     /// Maximum residual of a condition, relative to its terms.
     pub tolerance: f64,
@@ -168,20 +168,20 @@ impl Problem {
         self.uniform(i, t) + self.placed(i, label, t, u)
     }
 
-    /// Returns component i of the stated forces that are uniform in space (m/s2).
+    /// Returns component i of the prescribed forces that are uniform in space (m/s2).
     pub(super) fn uniform(&self, i: usize, t: f64) -> f64 {
         let uniform = self.terms.iter().filter(|term| term.is_uniform());
         uniform.fold(0.0, |sum, term| sum + term.stated(i, &[], t, &[0.0; 3]))
     }
 
-    /// Returns component i of the stated forces (m/s2) that depend on position or on the
+    /// Returns component i of the prescribed forces (m/s2) that depend on position or on the
     /// displacement `u` (m).
     pub(super) fn placed(&self, i: usize, label: &[f64], t: f64, u: &[f64; 3]) -> f64 {
         let placed = self.terms.iter().filter(|term| !term.is_uniform());
         placed.fold(0.0, |sum, term| sum + term.stated(i, label, t, u))
     }
 
-    /// Returns component i of the forces that oppose the motion (m/s2); `stated` is the stated
+    /// Returns component i of the forces that oppose the motion (m/s2); `stated` is the prescribed
     /// force (m/s2).
     pub(super) fn resistance(
         &self,
@@ -327,7 +327,7 @@ impl Problem {
         [(piola[0][0] - piola[2][2]) / radius, piola[1][0] / radius, 0.0]
     }
 
-    /// Returns the circumference per angle (m/rad) at `label`, which is 1 unless the body is one of
+    /// Returns the circumference per angle (m/rad) at `label`, or 1 if the body is not a body of
     /// revolution. Also returns the hoop stress (Pa) in each component of the equation of motion.
     pub(super) fn ring(&self, label: &[f64], piola: &Tensor<f64>) -> (f64, [f64; 3]) {
         match self.plane {
@@ -337,7 +337,8 @@ impl Problem {
     }
 }
 
-/// Maximum number of stored `f64` (32 MiB); the largest built-in suite stores three quarters.
+/// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of this
+/// number.
 const MOST: usize = 1 << 22;
 
 /// Cache of forces by positions and time, filled by the first run that needs them. If the cache is

@@ -1,6 +1,7 @@
 //! Reproducible random points: a suite is checked at the same positions on every machine.
 
-/// `SplitMix64` (Steele, Lea & Flood 2014), which is sufficient for scattering check points.
+/// The random number generator `SplitMix64` (Steele, Lea & Flood 2014). Its quality is sufficient
+/// for scattering check points.
 #[derive(Debug, Clone)]
 pub struct Random(u64);
 

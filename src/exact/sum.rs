@@ -5,7 +5,7 @@ use super::gauss::points;
 use super::motion::Derivatives;
 use super::problem::Problem;
 
-/// Up to three components of a sum, and the size to which an error of the sum is relative.
+/// Up to three components of a sum, and the scale by which errors of the sum are divided.
 type ValueAndSize = ([f64; 3], f64);
 
 /// Returns a quantity per unit of reference volume or face area, and the scale of its errors.
@@ -114,7 +114,7 @@ pub enum SumError {
     /// The sum is zero at all times, so relative errors are undefined.
     #[error("is zero at all times")]
     Zero,
-    /// The maximum number of quadrature points does not reach the tolerance.
+    /// The quadrature error exceeds the tolerance even with the maximum number of points.
     #[error(
         "cannot be integrated to {TOLERANCE:e} with {MOST_POINTS} points: the motion is not smooth \
          enough"

@@ -2,8 +2,8 @@
 
 use super::formula::Number;
 
-/// Stress or gradient in D dimensions. Components on missing axes are zero, which means plane or
-/// uniaxial strain.
+/// Stress or displacement gradient in D dimensions. With D < 3, a gradient describes plane or
+/// uniaxial strain: its components along the other axes are zero.
 pub(super) type Tensor<T, const D: usize = 3> = [[T; D]; D];
 
 /// Maximum number of terms in [`log_strain`] and of iterations in [`rotation`]. Sufficient for
@@ -88,8 +88,8 @@ pub(super) fn product<T: Number, const D: usize>(
 /// The strain follows from `tanh(eps) = X = (b - I)(b + I)^-1` by the series of the inverse
 /// function, `X + X^3/3 + X^5/5 + ...` (Higham 2008, *Functions of Matrices*, section 11.4). This
 /// avoids eigenvalues, which are not differentiable where they coincide. The result is NaN if
-/// [`MOST_TERMS`] terms do not suffice. If the shear and its derivatives vanish, the strains are
-/// logarithms, which is faster.
+/// [`MOST_TERMS`] terms do not suffice. If all off-diagonal components of F and their derivatives
+/// are zero, `eps_ii = ln F_ii` is used because it is faster.
 pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) {
         return tensor(|i, j| if i == j { Number::ln(f[i][i]) } else { T::from(0.0) });
@@ -105,7 +105,6 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
     let (mut power, mut strain) = (x, x);
     for k in 1..=MOST_TERMS {
         power = product(&power, &square);
-        // This test also bounds the derivative of the remainder, relative to X.
         if size(&power) <= 1e-17 * size(&x) {
             return strain;
         }
@@ -116,9 +115,9 @@ pub(super) fn log_strain<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<
 }
 
 /// Computes the rotation R of the polar decomposition `F = R U` by Newton's iteration
-/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). If the
-/// shear and its derivatives vanish, R is the identity. The result is NaN if [`MOST_TERMS`]
-/// iterations do not suffice.
+/// `R <- (R + R^-T)/2`, starting at F (Higham 2008, *Functions of Matrices*, section 8.3). R is the
+/// identity if all off-diagonal components of F and their derivatives are zero and the diagonal is
+/// positive. The result is NaN if [`MOST_TERMS`] iterations do not suffice.
 pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T, D> {
     if !is_sheared(f) && (0..D).all(|i| f[i][i].value() > 0.0) {
         return tensor(unit);

@@ -7,30 +7,30 @@ use std::fmt::Debug;
 /// The terms of a load in the equation of motion, `rho0 u_tt = Div P + rho0 b`, and in the check of
 /// an exact solution. Each load implements only the methods it needs.
 pub trait Term: Debug + Send + Sync {
-    /// Returns component i of the stated force per unit mass (m/s2) at the position `label` (m) and
-    /// time `t` (s), for the displacement `u` (m).
+    /// Returns component i of the prescribed force per unit mass (m/s2) at the position `label` (m)
+    /// and time `t` (s), for the displacement `u` (m).
     fn stated(&self, _i: usize, _label: &[f64], _t: f64, _u: &[f64; 3]) -> f64 {
         0.0
     }
 
-    /// Whether the stated force depends neither on position nor on displacement. Such a force is
-    /// evaluated once per time.
+    /// Whether the prescribed force depends neither on position nor on displacement. Such a force
+    /// is evaluated once per time.
     fn is_uniform(&self) -> bool {
         false
     }
 
-    /// Whether the stated force depends on neither position, displacement nor time.
+    /// Whether the prescribed force is independent of position, displacement and time.
     fn is_constant(&self) -> bool {
         false
     }
 
-    /// Whether the stated force depends on the displacement.
+    /// Whether the prescribed force depends on the displacement.
     fn depends_on_displacement(&self) -> bool {
         false
     }
 
-    /// Whether the equation is checked in terms of the force: the stated b is compared with the b
-    /// that the motion requires.
+    /// Whether the load is a body force b. The check then compares b with the body force that the
+    /// motion requires.
     fn is_body_force(&self) -> bool {
         false
     }

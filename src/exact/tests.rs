@@ -1,5 +1,5 @@
-//! A wave in a body that is fixed on all faces, in one, two and three dimensions, with a
-//! manufactured force.
+//! Tests of the check of exact solutions. Most of them use a wave in a body that is fixed on all
+//! faces, in one, two and three dimensions, with a manufactured force.
 
 use super::formula::{Expr, Formula, Scope};
 use super::linearised::Linearised;
@@ -364,8 +364,8 @@ fn damping_is_a_force_in_the_equation_of_motion() {
     assert!(made.manufactured_force(&[0.3], 0.2)[0].abs() < 1e-12);
 }
 
-/// The first half period of a bar with c = 1. Local damping raises the frequency on the way out to
-/// `pi sqrt(1.6)`, and halves it on the way back.
+/// Moves a bar with c = 1 through its first half period. Local damping of 0.6 gives the angular
+/// frequency `pi sqrt(1.6)` on the way out and `pi sqrt(0.4)` on the way back.
 #[test]
 fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
     let swing = |out: &str, back: &str| {

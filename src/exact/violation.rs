@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A violated condition of the stated solution, with position, time and difference.
+/// A condition that an exact solution violates, with position, time and difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
     /// The violation, as a clause such as "boundary condition u_X = 0 is violated".
@@ -22,7 +22,8 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// The violation that is largest relative to its tolerance; the first of similar violations.
+/// Collects violations and stores the one that is largest relative to its tolerance. A violation
+/// replaces the stored one if it is 1 % larger, or ten times larger for another condition.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 
@@ -67,7 +68,7 @@ impl fmt::Display for Violation {
         let Some(expected) = self.expected else {
             return write!(f, "found {found:.6e}{gap}{}", self.unit);
         };
-        // Six digits, or more if six do not show the difference.
+        // Write six digits, or more if the values agree to six digits.
         let differs = |n: &usize| format!("{expected:.n$e}") != format!("{found:.n$e}");
         let digits = match (6..17).find(differs) {
             Some(6) | None => 6,

@@ -20,12 +20,13 @@ pub(crate) const KINDS: [&dyn StudyReport; 5] =
 pub(crate) trait StudyReport: Sync {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
 
-    /// Returns the remarks on one case that no table contains.
+    /// Returns remarks on one case, about results that no table shows.
     fn remarks(&self, _case: &CaseOutcome) -> Vec<String> {
         Vec::new()
     }
 
-    /// Returns the JSON keys of one case; the values are null if the case is of another kind.
+    /// Returns the JSON members of one case. Their values are null if the case belongs to another
+    /// kind of study.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure>;
@@ -76,7 +77,8 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-/// Returns remarks about steps that are too long, failed runs, and causes of floors.
+/// Returns remarks about time steps above the stable step, about failed runs, and about the causes
+/// of error floors.
 fn remarks(study: &Convergence) -> Vec<String> {
     let too_long = study.levels.iter().filter(|level| level.is_too_long());
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();

@@ -1,7 +1,7 @@
 //! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
 //! Extremes are computed at regular points of the body and the run. The points and times of a
-//! `Survey`, which resolve a narrow pulse, are included.
+//! `Survey` are included, because these resolve narrow pulses.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
@@ -139,9 +139,9 @@ impl Linearisation {
     /// Computes residual and error of the solution of `problem` after a time `t` (s), if it is
     /// linearised. `motion` contains the extremes of the problem.
     ///
-    /// For motions along one axis the error is the root mean square of the first correction, if
-    /// this correction is available ([`Problem::first_correction`]). For other motions the error is
-    /// estimated from the residual, within about a factor of ten:
+    /// The error is the root mean square of the first correction, if this is available
+    /// ([`Problem::first_correction`]). Otherwise the error is estimated from the residual, within
+    /// about a factor of ten:
     ///
     /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
     /// is therefore a force 2 r a per unit mass. The error due to this force is r a t^2 at first.

@@ -66,7 +66,7 @@ pub(crate) trait CaseRunner: Send + Sync {
     }
 
     /// Passes the most informative run of a case to the callback: the first run that failed or
-    /// grew, or the last run if there is none.
+    /// whose energy grew, otherwise the last run.
     ///
     /// # Errors
     /// The errors of the callback, or the reason why there is no such run.

@@ -1,7 +1,7 @@
 //! Studies run and judge the cases of a suite.
 //!
 //! ```text
-//! setup            converts the model, which contains names, to subjects
+//! setup            creates subjects from the names in the model
 //! convergence      errors over a refinement plan, and their verdict
 //! internal_force   the internal force on a node while a particle crosses it
 //! gradient         derivatives that a differentiable solver reports

@@ -96,8 +96,8 @@ impl<'a> Runner<'a> {
     }
 
     /// Runs a case again and passes its particles and grid over time to `write`, as files for
-    /// ParaView. The level (or row) is the first one that failed or grew in `outcome`. If there is
-    /// none, it is the finest level (or last row).
+    /// ParaView. The level (or row) is the first one that failed in `outcome` or whose energy grew,
+    /// otherwise the finest level (or last row).
     ///
     /// # Errors
     /// [`SeriesError`] if the case has no run to write, or `write` returns an error.

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Relative phase error for which reports state the number of cells per wavelength.
+/// Relative phase error for which reports contain the number of cells per wavelength.
 const ONE_PERCENT: f64 = 0.01;
 
 fn needs(plan: &SpectrumPlan) -> ProblemNeeds {

@@ -137,7 +137,7 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
     files
 }
 
-/// Returns fields of the particles of all bodies that solvers do not store: u and the errors.
+/// Returns the particle fields that solvers do not store, u and the errors, for all bodies.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };

@@ -25,14 +25,14 @@ pub struct CaseJudgement {
     pub reason: String,
     /// Expectations that are not met.
     pub unmet: Vec<String>,
-    /// Reason why the gate has no requirement for the case; `None` if it has one.
+    /// Reason why `run --gate` requires nothing of the case; `None` if it requires something.
     pub exemption: Option<String>,
     /// Levels, orders and measured values.
     pub study: Convergence,
 }
 
 /// Judges a case. `reruns` runs levels again to find the cause of an error floor, or with shorter
-/// time steps for the gate.
+/// time steps for `run --gate`.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
     mut levels: Vec<LevelOutcome>,
@@ -167,8 +167,7 @@ fn headline(
         return (verdict.to_string(), format!("{reason}; {figures}"));
     }
     let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
-    // The judgement compares the order with an expected one. This case has none, so only the order
-    // is stated.
+    // This case has no expected order, so the reason contains only the observed order.
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),

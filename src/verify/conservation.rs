@@ -19,7 +19,7 @@ named! {
         Momentum = "momentum",
         /// Angular momentum about the origin; undefined in 1-D.
         AngularMomentum = "angular_momentum",
-        /// Kinetic energy, which is conserved only in a motion without stress.
+        /// Kinetic energy. It is conserved only in a motion without stress.
         KineticEnergy = "kinetic_energy",
         /// Gain of kinetic energy since the start. The gain must be zero if the body only stores
         /// energy in stress and releases it.

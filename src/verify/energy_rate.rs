@@ -4,8 +4,8 @@
 //! independent observations, and a line fitted to all of them would have too narrow an interval.
 //! Instead the run is divided into ten parts of equal length, and ln E is averaged over each part
 //! (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3). A
-//! line is fitted to the ten means. Its slope is the rate, d ln E/dt (1/s), and its interval
-//! follows from Student's t.
+//! line is fitted to the ten means. The slope is the rate, d ln E/dt (1/s), and the interval of the
+//! slope follows from Student's t.
 //!
 //! The interval contains the rate with a probability of 95 % under two conditions: the parts are
 //! much longer than a period, and the deviations of the means from the line are independent noise.

@@ -21,7 +21,7 @@ const MOST_SPREAD: f64 = 0.1;
 named! {
     /// Reason why a level does not count for the observed order.
     pub enum Exclusion {
-        /// Particles change their cell, which the theory of the method does not cover.
+        /// Particles change their cell. The theory of the method does not cover such changes.
         Crossings = "crossings",
         /// The error lies below the bound of rounding errors.
         Rounding = "rounding",
@@ -45,8 +45,8 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
 /// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
-/// worst case all rounding errors are equal. Their sum is then `N spacing/sqrt 12` in the RMS norm,
-/// and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
+/// worst case all rounding errors are equal. Their sum after N steps is then `N spacing/sqrt 12` in
+/// the RMS norm, and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {

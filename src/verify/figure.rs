@@ -1,10 +1,10 @@
 //! Registry of the measured values that suites can bound: [`CaseFigure`] for convergence studies
 //! and [`RunFigure`] for stability studies.
 //!
-//! An entry states the key in suites and JSON, the documentation of the key, the text in reports
-//! (with the unit, if any) and the value. The suite grammar, its JSON Schema, the checks of a
-//! suite, the comparison with the bound, and the reports are derived from the entry. How to add a
-//! measured value: `docs/exercises/figure.md`.
+//! An entry contains the key in suites and JSON, the documentation of the key, the text in reports
+//! (with the unit, if any) and the function that computes the value. The suite grammar, its JSON
+//! Schema, the checks of a suite, the comparison with the bound, and the reports are derived from
+//! the entry. How to add a measured value: `docs/exercises/figure.md`.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::larger;
@@ -23,8 +23,8 @@ use crate::subject::LedgerStage;
 /// documentation of the entry becomes the documentation of the key in the JSON Schema.
 ///
 /// The grammar uses this macro to declare a field for each entry. With `#[serde(flatten)]` over a
-/// map of keys the macro would not be needed. But `flatten` excludes `deny_unknown_fields`, and
-/// errors for mistyped keys would lose their position and suggestion.
+/// map of keys the macro would not be needed. But `flatten` cannot be combined with
+/// `deny_unknown_fields`, and errors for mistyped keys would lose their position and suggestion.
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {
@@ -142,8 +142,8 @@ pub(super) fn counted(levels: &[LevelOutcome]) -> impl Iterator<Item = &LevelOut
     levels.iter().filter(|level| level.usable)
 }
 
-/// Declares [`RunFigure`]. An entry states the documentation of the member, its key in suites and
-/// JSON, its heading in tables, and how the value is computed from a run.
+/// Declares [`RunFigure`]. An entry contains the documentation of the member, the key in suites and
+/// JSON, the heading in tables, and the function that computes the value from a run.
 macro_rules! run_figures {
     ($($(#[$doc:meta])* $member:ident = $name:literal, $head:literal, $value:expr;)+) => {
         named! {
@@ -177,7 +177,7 @@ run_figures! {
     Energy = "energy", "largest/initial energy", |trial| trial.energy;
     /// Energy at the end, divided by the energy at the start.
     EnergyKept = "energy_kept", "final/initial energy", |trial| trial.energy_kept;
-    /// Kinetic energy at the end, divided by that at the start.
+    /// Kinetic energy at the end, divided by the kinetic energy at the start.
     KineticKept = "kinetic_kept", "final/initial kinetic energy", |trial| trial.kinetic_kept;
     /// Largest relative change of the momentum.
     Momentum = "momentum", "momentum drift", |trial| trial.momentum;
@@ -231,7 +231,8 @@ run_figures! {
     /// Energy (J) gained as nodal velocities are mapped to particles.
     GridToParticle = "grid_to_particle", "grid to particle (J)",
         |trial| ledger_entry(trial, LedgerStage::GridToParticle);
-    /// Energy (J) gained because particles keep velocities that differ from the mapped ones.
+    /// Energy (J) gained because particle velocities differ from the velocities mapped from the
+    /// grid.
     ParticleVelocity = "particle_velocity", "particle velocity (J)",
         |trial| ledger_entry(trial, LedgerStage::ParticleVelocity);
     /// Energy (J) gained by effects on the velocities of particles.
@@ -254,13 +255,14 @@ impl RunFigure {
         Self::ALL.iter().copied().find(|figure| figure.name() == name)
     }
 
-    /// Whether the value concerns the null space of the map to the grid, which is computed only on
-    /// request.
+    /// Whether the value concerns the null space of the map to the grid. Such values are computed
+    /// only on request.
     pub fn is_of_null_space(self) -> bool {
         matches!(self, Self::NullShare | Self::LargestNullShare)
     }
 
-    /// Whether the value is part of the energy ledger, which is recorded only on request.
+    /// Whether the value is part of the energy ledger, the energy change by each stage of a step.
+    /// The ledger is recorded only on request.
     pub fn is_of_ledger(self) -> bool {
         self as usize >= Self::LedgerGap as usize
     }

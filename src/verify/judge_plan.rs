@@ -32,7 +32,7 @@ pub struct JudgePlan<'a> {
     pub scale: Option<f64>,
     /// Scale for comparing errors and work between cases.
     pub error_scale: ErrorScale,
-    /// Whether errors are measured against an exact solution or a reference.
+    /// Whether there is an exact solution or a reference against which errors are measured.
     pub is_compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
@@ -43,11 +43,11 @@ pub struct JudgePlan<'a> {
     pub position_spacing: Option<f64>,
     /// Reference position (m) of the observed point.
     pub observed_at: Option<&'a [f64]>,
-    /// Conserved sums whose drift is reported for a case without expectations.
+    /// Conserved sums whose drift is reported for a case without an expectation.
     pub sums: Vec<Conserved>,
-    /// Expectation of the suite, if it states one.
+    /// Expectation of the suite, if any.
     pub expectation: Option<&'a Expectation>,
-    /// Treatment of the case by the gate for external solvers; `None` without a gate.
+    /// Treatment of an external solver's case by `run --gate`; `None` without `--gate`.
     pub gating: Option<&'a Gating>,
 }
 
@@ -111,8 +111,8 @@ impl JudgePlan<'_> {
         judge(levels, &OrderHypothesis { formal_order, expected, axis })
     }
 
-    /// Returns the reason why the gate has no requirement for a case with these levels; `None` if
-    /// it has one.
+    /// Returns the reason why `run --gate` requires nothing of a case with these levels; `None` if
+    /// it requires something.
     pub(super) fn exemption(&self, levels: &[LevelOutcome]) -> Option<String> {
         match self.gating {
             Some(Gating::NotGated(reason)) => Some(reason.clone()),
@@ -131,8 +131,8 @@ pub(super) fn series(levels: &[LevelOutcome]) -> Vec<Level> {
     levels.iter().map(marked).collect()
 }
 
-/// Converts levels to input of the gate. Unlike [`series`], includes levels that are excluded from
-/// the order because of rounding or spread.
+/// Converts levels to input of the requirement check. Unlike [`series`], includes levels that are
+/// excluded from the order because of rounding or spread.
 pub(super) fn usable_series(levels: &[LevelOutcome]) -> Vec<Level> {
     let marked = |level: &LevelOutcome| {
         let judged = level.to_level();

@@ -17,7 +17,7 @@ pub struct SuiteOutcome {
     pub suite: String,
     /// Name of the folder of the suite file.
     pub group: String,
-    /// Headline: the one-line title of the suite.
+    /// One-line title of the suite.
     pub title: String,
     /// Literature reference for the problem.
     pub source: String,
@@ -48,7 +48,7 @@ impl SuiteOutcome {
 pub struct CaseOutcome {
     /// Name of the case, unique in its suite.
     pub case: String,
-    /// Kind of solver: `mpm` or `fem`.
+    /// Kind of solver, such as `mpm`, `fem` or `external`.
     pub subject: &'static str,
     /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
     pub settings: Vec<(String, String)>,
@@ -120,7 +120,8 @@ impl CaseOutcome {
         self.unmet.is_empty()
     }
 
-    /// Whether the case has been tested: it applies to the solver and is not exempt from the gate.
+    /// Whether the case has been tested: it applies to the solver, and `run --gate` does not exempt
+    /// it.
     pub fn is_tested(&self) -> bool {
         self.lacks.is_empty() && self.exemption.is_none()
     }
@@ -140,7 +141,7 @@ impl CaseOutcome {
         ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
 
     /// Returns the result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a`
-    /// if the solver lacks a capability. With a gate also `not gated` and `excepted`.
+    /// if the solver lacks a capability. With `run --gate` also `not gated` and `excepted`.
     pub fn result(&self) -> &'static str {
         if !self.lacks.is_empty() {
             return "n/a";
@@ -185,7 +186,7 @@ impl CaseOutcome {
         Self { verdict, reason, unmet, ..self }
     }
 
-    /// Converts the outcome to that of a case that the gate does not judge, for `reason`.
+    /// Converts the outcome to that of a case that `run --gate` does not judge, for `reason`.
     #[must_use]
     pub(crate) fn not_gated(self, reason: &str) -> Self {
         let reason = format!("{reason}; {}", self.reason);
@@ -224,7 +225,7 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that its solver's author excepts from the gate.
+    /// Converts the outcome to that of a case that its solver's author excepts from `run --gate`.
     #[must_use]
     pub(crate) fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));

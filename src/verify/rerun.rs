@@ -1,11 +1,11 @@
 //! Runs levels again with other settings if the verdict depends on the results.
 //!
-//! - To find the cause of a floor, the finest level runs again with half the spacing on another
-//!   axis.
-//! - Some suites have one time step on all levels. This step limits the error of a solver that is
-//!   accurate in space: the order or the error stops decreasing. If an external solver then misses
-//!   the requirement of the gate, its levels run again with shorter steps. The gate checks whether
-//!   shorter steps restore the order.
+//! - To find why the error has stopped decreasing (an error floor), the finest level runs again
+//!   with half the spacing on another axis.
+//! - Some suites have one time step on all levels. Its error dominates in a solver that is
+//!   accurate in space: the error stops decreasing, or the order is too low. If an external solver
+//!   then misses the requirement of `run --gate`, its levels run again with shorter steps, to check
+//!   whether these restore the order.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -22,8 +22,8 @@ pub trait Reruns: Sync {
     /// Reason why a level cannot be run.
     type Error: Display + Send;
 
-    /// Whether halving a spacing can reveal which axis causes an error. It cannot if the reference
-    /// is computed by the same method, because the spacings of the reference are not halved.
+    /// Whether halving a spacing can reveal which axis causes an error. False if the reference is
+    /// computed by the same method, because the spacings of the reference are not halved.
     fn can_halve(&self) -> bool;
 
     /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.
@@ -65,15 +65,16 @@ const MOST_ROUNDING: f64 = 0.01;
 /// Maximum number of times that the time step is halved.
 const HALVINGS: i32 = 3;
 
-/// Minimum relative decrease of the finest error if the time step is halved. With a smaller
-/// decrease the other levels do not run again.
+/// Minimum relative decrease of the error on the finest level after the time step is halved. With a
+/// smaller decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
 /// The time step counts as refined with the cells if it decreases at least like this power of h.
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
-/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor.
+/// that counts. `None` if the error has not stopped decreasing and the suite expects no floor, if
+/// this level failed, or if spacings cannot be halved.
 ///
 /// Runs one to three probes in parallel. The results are in the order of the axes.
 pub(super) fn floor<R: Reruns>(

@@ -19,8 +19,8 @@ const STEP: f64 = 1e-5;
 /// Maximum difference step, relative to the length or time over which the motion varies.
 const SHARE: f64 = 1e-3;
 
-/// Returns the difference step (s or m) for a run or body of size `extent`. `largest` contains the
-/// largest magnitude of a quantity, of its first derivative and so on.
+/// Returns the difference step (s or m) for a run or body of size `extent`. Element i of `largest`
+/// is the largest magnitude of the i-th derivative of a quantity.
 pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     let scales = largest.windows(2).map(|pair| SHARE * (pair[0] / pair[1]));
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)

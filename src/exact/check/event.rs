@@ -1,4 +1,4 @@
-//! Positions and times at which conditions are checked, distributed over space-time boxes.
+//! Events: positions and times at which conditions are checked, distributed over space-time boxes.
 
 use crate::exact::random::Random;
 use crate::exact::violation::Violation;
@@ -56,7 +56,7 @@ impl Event {
     }
 }
 
-/// Returns the largest magnitude; NaN if any is NaN, which makes every later comparison fail.
+/// Returns the largest magnitude, or NaN if any is NaN. NaN makes every later comparison fail.
 pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
     magnitudes.fold(0.0, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f64::max(a, b) })
 }
@@ -65,7 +65,7 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Number of events for a body in which large terms are confined to a small part.
+/// Number of events in a body if large terms are confined to a small part of the body.
 pub(crate) const EVENTS: usize = 4096;
 
 /// Number of events on a face, or on another part with fewer dimensions than the body, if large
@@ -122,7 +122,8 @@ pub(crate) struct OnFace {
 }
 
 impl OnFace {
-    /// Returns the face normal to `axis` of the box from `from` to `to`: the upper one if `high`.
+    /// Returns a face of the box from `from` to `to` normal to `axis`: the upper face if `high`,
+    /// otherwise the lower face.
     pub(crate) fn new(from: &[f64], to: &[f64], axis: usize, high: bool) -> Self {
         let (mut from, mut to) = (from.to_vec(), to.to_vec());
         if high {

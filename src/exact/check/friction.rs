@@ -1,7 +1,8 @@
 //! Checks Coulomb friction at a point of a face. The wall exerts pressure but no tension, the face
 //! does not penetrate the wall, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are per reference area, which does not affect Coulomb's law.
+//! Forces are per reference area. Coulomb's law is unaffected, because it compares forces on one
+//! area.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;

@@ -18,7 +18,8 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Condition on a face next to another body; [`meets`] checks both bodies together.
+/// Condition on a face next to another body. It requires nothing of one body alone, because
+/// [`meets`] checks both bodies together.
 #[derive(Debug)]
 pub struct Interface;
 

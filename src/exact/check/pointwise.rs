@@ -1,6 +1,7 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! On rims of a body that is not a box, P n = 0, or P n = -p J F^-T n under a pressure p.
+//! On a rim, the boundary of a body that is not a box, P n = 0 or, under a pressure p, P n = -p J
+//! F^-T n.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
@@ -59,8 +60,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Returns component i of an initial condition: the `stated` value if there is one, otherwise the
-/// value of the `motion` if the problem follows the motion, otherwise zero.
+/// Returns component i of an initial condition, from the formulas `stated` if there are any.
+/// Otherwise it is the value of the `motion` if the problem follows the motion, and zero if not.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -73,13 +74,13 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
     formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
 }
 
-/// Rounding error of Div P, relative to the modulus times the largest second derivative. Needed
-/// because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
+/// Rounding error of Div P, relative to the modulus times the largest second derivative. The check
+/// allows this error because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the
-/// problem states a body force, the equation is solved for b and compared with the stated force.
-/// Returns the largest residual, relative to the largest sum of the terms.
+/// problem prescribes a body force, the equation is solved for b, and the result is compared with
+/// the prescribed force. Returns the largest residual, relative to the largest sum of the terms.
 pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let (size, mut left) = (survey.largest.terms, 0.0);
     let rounding = ROUNDING * problem.modulus() * survey.largest.curvature;
@@ -110,8 +111,8 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     found.into_result().map(|()| left)
 }
 
-/// Checks that the traction on every rim balances the pressure there, which is zero if free.
-/// Returns the largest difference, relative to the stress.
+/// Checks that the traction on every rim balances the pressure on the rim, which is zero on a free
+/// rim. Returns the largest difference, relative to the stress.
 pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
     let Some(outline) = &problem.outline else { return Ok(0.0) };
     let mut left = 0.0;

@@ -1,4 +1,5 @@
-//! Space-time patches with a bump function as test function, and their midpoint-rule points.
+//! Space-time patches, with a bump function as test function and with the points of the midpoint
+//! rule.
 
 use super::event::Event;
 use crate::exact::random::Random;
@@ -54,8 +55,8 @@ impl SpaceTimePatch {
         Self { centre, half }
     }
 
-    /// Creates a patch of the whole box around the time `t` (s). The time interval is a part of the
-    /// run from 0 to `until` (s), at most `longest` (s) long.
+    /// Creates a patch that covers the whole box and a time interval around `t` (s). The interval
+    /// is a part of the run from 0 to `until` (s), at most `longest` (s) long.
     pub(super) fn whole(from: &[f64], to: &[f64], until: f64, longest: f64, t: f64) -> Self {
         let mut half: Vec<f64> =
             from.iter().zip(to).map(|(low, high)| 0.5 * (high - low)).collect();
@@ -138,7 +139,8 @@ pub(crate) struct Raster {
     pub(crate) times: Vec<AxisPoint>,
 }
 
-/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and its derivative.
+/// A position on one axis of a patch, with the factor `(1 - xi^2)^3` of phi and the derivative of
+/// this factor.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisPoint {
     pub(crate) at: f64,

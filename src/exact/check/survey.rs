@@ -15,8 +15,8 @@ const ROUNDS: usize = 8;
 
 const ADDED: usize = 16;
 
-/// The events resolve a magnitude if at least this share of the evenly distributed events has at
-/// least half of the maximum.
+/// A quantity is resolved if it has at least half of its maximum at this share of the evenly
+/// distributed events.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum distance of an added event in the first round, relative to the size of the body and the
@@ -32,7 +32,7 @@ pub struct Magnitudes {
     pub(crate) gradient: f64,
     /// Second derivatives of the displacement along each axis (1/m).
     pub(crate) curvature: f64,
-    /// Stress (Pa): modulus times the gradient, and the initial stress.
+    /// Stress scale (Pa): modulus times displacement gradient, plus the initial stress.
     pub(crate) stress: f64,
     /// Divergence of the stress (N/m3).
     pub(crate) divergence: f64,

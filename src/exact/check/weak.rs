@@ -154,18 +154,19 @@ impl Sums {
         }
     }
 
-    /// Returns the difference of gain and loss, relative to the sum of all terms.
+    /// Returns the difference of gain and loss, relative to the sum of the magnitudes of all terms.
     fn imbalance(&self) -> f64 {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
 
-    /// Whether gain and loss differ by at most a `share` of the sum of all terms.
+    /// Whether gain and loss differ by at most a `share` of the sum of the magnitudes of all terms.
     fn imbalance_within(&self, share: f64) -> bool {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether imbalance and terms hardly differ from those of a `coarse` raster with half as many
-    /// points per axis. `share` is the number of coarse points divided by that of fine points.
+    /// Whether the imbalance exceeds [`TOLERANCE`], and imbalance and terms hardly differ from
+    /// those of a `coarse` raster with half as many points per axis. `share` is the number of
+    /// coarse points divided by that of fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -207,13 +208,15 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // First derivatives of the root of a zero constant are not finite, but those of jets are.
+        // For the square root of a constant zero, slopes have NaN derivatives and jets have zero
+        // derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
 }
 
-/// With `only_first`, only first derivatives of the motion are computed.
+/// Sums the terms of the momentum balance over a raster. With `only_first`, only first derivatives
+/// of the motion are computed.
 fn sums(problem: &Problem, raster: &Raster, smallest: f64, only_first: bool) -> [Sums; 3] {
     let d = problem.dimension();
     let Raster { points, times } = raster;
@@ -280,7 +283,8 @@ impl DistinctPlaces {
     }
 }
 
-/// Returns the number of a point on the raster of only those axes along which the motion varies.
+/// Returns the index of a raster point in the raster reduced to the axes along which the motion
+/// varies.
 fn place(mut point: usize, per_axis: usize, varying: &[bool]) -> usize {
     let (mut place, mut stride) = (0, 1);
     for varies in varying {

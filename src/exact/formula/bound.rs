@@ -9,9 +9,11 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Number of stack registers for short formulas, which avoids clearing [`MANY`] registers.
+/// Number of stack registers for short formulas. Clearing these takes less time than clearing
+/// [`MANY`].
 const FEW: usize = 8;
-/// Number of stack registers for longer formulas. Even longer ones allocate on the heap.
+/// Number of stack registers for longer formulas. The longest formulas allocate registers on the
+/// heap.
 const MANY: usize = 32;
 
 /// A formula with resolved names, ready for evaluation.
@@ -69,7 +71,7 @@ impl Formula {
         }
     }
 
-    /// Returns the number of operations per evaluation; those in sums count once per term.
+    /// Returns the number of operations per evaluation. Operations in sums count once per term.
     pub fn operations(&self) -> u64 {
         self.operations
     }
@@ -79,8 +81,7 @@ impl Formula {
         &self.source
     }
 
-    /// Returns the constants and functions of the scope that the formula uses, directly or through
-    /// functions.
+    /// Returns the names of the scope that the formula uses, directly or through functions.
     pub fn uses(&self) -> &BTreeSet<String> {
         &self.uses
     }

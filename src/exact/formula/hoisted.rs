@@ -24,15 +24,15 @@ pub struct Hoisted<T> {
     /// The variables: the most recently added coordinates, and the current time.
     variables: Vec<T>,
     registers: Vec<T>,
-    /// Inputs of the remaining steps: values stored for the time, then those for one position.
+    /// Inputs of the steps that depend on both: values stored for the time, then for one position.
     inputs: Vec<T>,
     /// Values stored for each position, one position after another.
     kept: Vec<T>,
 }
 
 impl<T: Number> Hoisted<T> {
-    /// Splits formulas that have the given number of `variables`. Sums are unrolled, which gives
-    /// [`Formula::operations`] steps.
+    /// Splits formulas that have the given number of `variables`. Sums are unrolled, so a formula
+    /// has [`Formula::operations`] steps.
     ///
     /// # Panics
     /// If a formula has a different number of variables.
@@ -101,7 +101,8 @@ const BOTH: Dependence = 3;
 #[derive(Default)]
 struct Nodes {
     list: Vec<SsaNode>,
-    /// Node indices by the text of the node, which distinguishes 0 from -0 (`==` does not).
+    /// Node indices, with the text of the node as key. Unlike `==`, the text distinguishes 0 from
+    /// -0.
     known: BTreeMap<String, usize>,
 }
 
@@ -275,8 +276,8 @@ impl Homes {
 }
 
 /// Returns the part that computes an input of `reader`. A constant is computed in the part that
-/// uses it, with one exception: constants of the rest, which runs most often, are computed in the
-/// part that depends on time.
+/// uses it, except for constants of the rest. These are computed in the part that depends on time,
+/// because the rest runs most often.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

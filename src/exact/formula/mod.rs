@@ -1,6 +1,6 @@
 //! The formula language of suites.
 //!
-//! Suites state numbers and exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
+//! Suites contain numbers and exact solutions as formulas: `pi/(2*L)*sqrt(E/rho)`,
 //! `v0/omega*sin(pi*X/(2*L))*sin(omega*t)`. A formula is processed in three stages:
 //!
 //! 1. [`Expr::parse`] turns text into a syntax tree, without resolving names.
@@ -19,7 +19,8 @@
 //! - The functions of [`Unary`] and [`Binary`], and `sum(n, from, to, body)`, whose bounds are
 //!   integers that are known when the formula is bound.
 //! - User functions, declared with [`Scope::function`] in any order. They may use constants, other
-//!   functions and their own parameters, but not the variables of the calling formula.
+//!   functions and their own parameters, but no variable of the calling formula except the one
+//!   declared with [`Scope::free`].
 //!
 //! # Reproducibility
 //!

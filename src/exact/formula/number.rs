@@ -17,7 +17,7 @@ macro_rules! elementary {
 
 /// A number type over which formulas can be evaluated.
 ///
-/// `f64` has inherent methods with these names, which take precedence and call the platform's
+/// The inherent methods of `f64` with these names take precedence, and call the platform's
 /// mathematical library. For bit-identical results on all platforms, call the trait methods in code
 /// generic over `Number`, or as `Number::sin(x)`.
 pub trait Number:
@@ -119,7 +119,7 @@ impl Number for f64 {
     }
 }
 
-/// Converts `exponent` to an integer, if its value is an integer.
+/// Converts `exponent` to an `i32`, if its value is an integer in this range.
 #[inline]
 pub(super) fn whole(exponent: f64) -> Option<i32> {
     let fits = exponent % 1.0 == 0.0 && libm::fabs(exponent) <= f64::from(i32::MAX);
@@ -142,7 +142,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Numbers per batch. With so many numbers, decoding an instruction costs little compared with the
+/// Number of values per batch. At this size, decoding an instruction costs little compared with the
 /// operations.
 const MANY: usize = 8;
 
@@ -153,16 +153,16 @@ const MANY: usize = 8;
 pub struct NumberBatch([f64; MANY]);
 
 impl NumberBatch {
-    /// Numbers per batch.
+    /// Number of values per batch.
     pub const LEN: usize = MANY;
 
-    /// Creates a batch; `number` returns the number of each lane.
+    /// Creates a batch; `number` returns the value of each lane.
     #[inline]
     pub fn new(number: impl FnMut(usize) -> f64) -> Self {
         Self(std::array::from_fn(number))
     }
 
-    /// Returns the number of one lane.
+    /// Returns the value of one lane.
     ///
     /// # Panics
     /// If `lane` is not below [`NumberBatch::LEN`].
@@ -230,8 +230,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// Returns the value of the first lane. Formulas branch only on the index of a sum, which is
-    /// equal in all lanes.
+    /// Returns the value of the first lane. This suffices because formulas branch only on the index
+    /// of a sum, which is equal in all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

@@ -50,7 +50,7 @@ struct Parser<'a> {
     lexemes: Vec<Lexeme<'a>>,
     at: usize,
     nodes: Vec<Node>,
-    /// Indices of the sums whose bodies enclose the current position.
+    /// Index names of the sums whose bodies enclose the current position.
     indices: Vec<&'a str>,
     depth: usize,
 }
@@ -205,7 +205,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Adds the node of a name that has a value, and refuses a call of this name.
+    /// Adds a node for a name that has a value; a call of this name is an error. `role` describes
+    /// the name in the error message.
     fn plain(
         &mut self,
         kind: NodeKind,

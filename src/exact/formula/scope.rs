@@ -15,7 +15,7 @@ pub struct Scope {
     tables: BTreeMap<String, Tabulated>,
     /// Names defined as expressions of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
-    /// The free variable of formulas, which functions and definitions may use as well.
+    /// The free variable of formulas. Functions and definitions may use this variable as well.
     free: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Scope {
         Self::default()
     }
 
-    /// Declares a constant, which is a parameter of the suite.
+    /// Declares a constant, such as a parameter of a suite.
     ///
     /// # Errors
     /// When `name` is invalid or taken, or when `value` is not finite.
@@ -52,8 +52,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares `name` as the free variable, which functions and definitions may use as well.
-    /// Formulas are then bound with `name` among their variables.
+    /// Declares `name` as the free variable. Functions and definitions may use this variable as
+    /// well. Formulas are then bound with `name` among their variables.
     ///
     /// # Errors
     /// When `name` is invalid or taken.
@@ -140,12 +140,12 @@ impl Scope {
             .help("a name is made of ASCII letters, digits and `_`, no digit first"))
     }
 
-    /// Returns the declared tables, in alphabetical order.
+    /// Returns the names of the declared tables, in alphabetical order.
     pub fn tables(&self) -> impl Iterator<Item = &str> {
         self.tables.keys().map(String::as_str)
     }
 
-    /// Returns the declared constants, in alphabetical order.
+    /// Returns names and values of the declared constants, in alphabetical order.
     pub fn constants(&self) -> impl Iterator<Item = (&str, f64)> {
         self.constants.iter().map(|(name, value)| (name.as_str(), *value))
     }

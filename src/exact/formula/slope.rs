@@ -9,9 +9,9 @@ use super::unary::Unary;
 /// A value with its first derivatives along `N` directions: a [`Jet`](super::Jet) without second
 /// derivatives, at a third of the cost.
 ///
-/// Results are bit-identical to a jet's, with one exception. If the derivative of a function is
-/// infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes only at
-/// this point. The derivative is then NaN.
+/// Results are bit-identical to those of a jet, with one exception. If the derivative of a function
+/// is infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes only
+/// at this point. The derivative is then NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope<const N: usize> {
     value: f64,

@@ -154,8 +154,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
     w
 }
 
-/// Returns the step of Halley's method for w*exp(w) - x. The equation is divided by exp(w), which
-/// avoids overflow for large `x`.
+/// Returns the step of Halley's method for w*exp(w) - x. Dividing the equation by exp(w) avoids
+/// overflow for large `x`.
 fn halley(w: f64, x: f64) -> f64 {
     let residual = w - x * exp(-w);
     residual / (w + 1.0 - 0.5 * residual * (w + 2.0) / (w + 1.0))

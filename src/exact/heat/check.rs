@@ -66,7 +66,7 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Without a stated value, the initial temperature must only be finite.
+        // If no initial temperature is prescribed, the exact one must only be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X) is violated".to_owned();
         worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
@@ -200,7 +200,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, solved for the source s.
+/// Checks the heat equation `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`: compares the source s
+/// that it requires with the prescribed source.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -212,7 +213,8 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the heat balance on random patches. Fields far below the `largest` are ignored.
+/// Checks the heat balance on random patches. Terms of the balance that are far below the `largest`
+/// are ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,
@@ -287,7 +289,8 @@ pub(super) fn interior(problem: &Conduction) -> Vec<HeatPoint> {
     events.into_iter().map(point).collect()
 }
 
-/// The largest magnitudes of a temperature and of its equation's terms; NaN if any is NaN.
+/// The largest magnitudes of a temperature and of the terms of the heat equation; NaN if any is
+/// NaN.
 pub(super) struct HeatMagnitudes {
     pub(super) value: f64,
     /// Difference between highest and lowest temperature (K).
@@ -299,7 +302,7 @@ pub(super) struct HeatMagnitudes {
     pub(super) inflow: f64,
     /// Divergence of the heat flow (W/m^D).
     pub(super) divergence: f64,
-    /// Sum of all terms of the heat equation (W/kg).
+    /// Sum of the magnitudes of all terms of the heat equation (W/kg).
     pub(super) terms: f64,
 }
 
@@ -329,7 +332,7 @@ impl HeatMagnitudes {
     }
 }
 
-/// Returns the heat source (W/kg) that the temperature needs, and the stated source.
+/// Returns the heat source (W/kg) that the exact temperature requires, and the prescribed source.
 pub(super) fn needed_and_stated(
     problem: &Conduction,
     (event, motion, now): &HeatPoint,

@@ -4,14 +4,14 @@
 //! The heat flux refers to the reference configuration. Fourier's law holds in the current
 //! configuration, `q = -k grad T` per current area. Per reference area it is
 //! `Q = -k J C^-1 Grad T`, `C = F^T F` (Holzapfel 2000, *Nonlinear Solid Mechanics*, section 7.1),
-//! and the balance is `rho0 c T_t = -Div Q + rho0 s`. A body at rest has F = I.
+//! and the balance is `rho0 c T_t = -Div Q + rho0 s`. Without a motion, F = I.
 
 use crate::dimension::with_dimension;
 use crate::exact::formula::{Formula, Hoisted, Jet, Number, Slope};
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::tensor::{Tensor, cofactor, det, sum, tensor, unit};
 
-/// A temperature field (K), a formula of the reference coordinates and t, in this order.
+/// A temperature field (K), given by a formula whose variables are the reference coordinates and t.
 #[derive(Debug, Clone)]
 pub struct Temperature {
     formula: Formula,
@@ -57,7 +57,8 @@ impl Temperature {
         with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
     }
 
-    /// Prepares the field at `labels`. Terms that do not depend on time are computed in this call.
+    /// Prepares the evaluation of the field at the reference positions `labels` (m). This call
+    /// computes the terms that do not depend on time.
     pub(super) fn at_places<'a>(
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
@@ -89,7 +90,8 @@ impl Temperature {
 pub(super) trait TemperaturePlaces: Send {
     fn set_time(&mut self, t: f64);
 
-    /// Returns the derivatives at the position with this index in `labels`. Does not allocate.
+    /// Returns temperature and derivatives at the position with index `place`, in the order of the
+    /// positions in [`Temperature::at_places`]. Does not allocate.
     fn derivatives(&mut self, place: usize) -> TemperatureDerivatives;
 }
 

@@ -1,5 +1,5 @@
-//! Heat problem of an exact temperature: the body, the thermal conditions on its faces, and the
-//! heat source, which is stated or manufactured.
+//! Heat problem of an exact temperature: body, thermal conditions on the faces, and a prescribed or
+//! manufactured heat source.
 
 use super::field::{Temperature, TemperatureDerivatives, TemperaturePlaces, divergence, slope};
 use crate::exact::formula::Formula;
@@ -23,7 +23,7 @@ pub struct HeatFace {
 }
 
 /// An initial-boundary-value problem of heat in a box,
-/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature, which must be checked.
+/// `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, and its exact temperature.
 #[derive(Debug, Clone)]
 pub struct Conduction {
     /// Lowest corner of the body (m).
@@ -38,11 +38,12 @@ pub struct Conduction {
     pub capacity: f64,
     /// Heat source (W/kg), a formula that [`source_at`] evaluates.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates; `None`: that of the exact solution.
+    /// Initial temperature (K), a formula of the coordinates. If `None`, the run starts from the
+    /// exact temperature.
     pub initial: Option<Formula>,
     /// All faces of the body.
     pub faces: Vec<HeatFace>,
-    /// The stated solution, which [`Conduction::check`] verifies.
+    /// The temperature that [`Conduction::check`] verifies.
     pub temperature: Temperature,
     /// Deformation of the body; `None` if the body is at rest or strains are neglected.
     pub motion: Option<Motion>,
@@ -66,7 +67,8 @@ impl Conduction {
         (motion, self.temperature.derivatives(label, t))
     }
 
-    /// Computes the source that the temperature needs, `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
+    /// Computes the source that the exact temperature requires,
+    /// `c T_t - Div (k J C^-1 Grad T)/rho0` (W/kg).
     pub(super) fn balance(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
         self.capacity * now.rate
             - self.conductivity * divergence(self.dimension(), motion, now) / self.density
@@ -91,7 +93,7 @@ impl Conduction {
         self.source.as_ref().map_or(0.0, |source| source_at(source, label, t, now.value))
     }
 
-    /// Computes `k J C^-1 Grad T` (W/m^(D-1)), which is minus the heat flow per reference area.
+    /// Computes minus the heat flow per reference area, `k J C^-1 Grad T` (W/m^(D-1)).
     pub(super) fn inflow(&self, motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; 3] {
         slope(motion, now).map(|slope| self.conductivity * slope)
     }

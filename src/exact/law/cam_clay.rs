@@ -13,7 +13,7 @@
 //! ```
 //!
 //! C has one root below -M, one above M, and one in between. The root in between is the constant
-//! ratio of the K0 line, which the path approaches. Partial fractions give `ln p`.
+//! ratio of the K0 line. The path approaches this line. Partial fractions give `ln p`.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
@@ -129,8 +129,9 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Computes the state at the ratio whose distance from the K0 line has decreased by the factor
-    /// `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after yield, and the ratio.
+    /// Computes the state after the distance between `eta` and the ratio of the K0 line has
+    /// decreased by the factor `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after
+    /// yield, and the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);

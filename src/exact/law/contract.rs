@@ -12,7 +12,7 @@ pub(super) trait ConstitutiveLaw {
     /// Equation of motion in reports.
     const EQUATION: &'static str;
 
-    /// Whether the stress depends on the history of the motion, except under monotonic loading.
+    /// Whether the stress depends on the history of the motion if the loading is not monotonic.
     const HAS_HISTORY: bool = false;
 
     /// Computes P (Pa) for the displacement gradient `grad[i][j] = du_i/dX_j`. If the law depends

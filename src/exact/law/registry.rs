@@ -1,6 +1,7 @@
 //! Assigns laws of exact solutions to materials.
 
-/// Declares the law family, from the lines of [`each_material`](crate::members) that have a law.
+/// Declares [`Equation`] with a variant for each line of [`each_material`](crate::members) that has
+/// a law.
 macro_rules! laws {
     (@new $law:ident, $value:ident, {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?

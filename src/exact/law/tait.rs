@@ -1,4 +1,4 @@
-//! A fluid at rest, `P = -p J F^-T` with Tait's equation of state in Cole's form,
+//! A fluid without viscous stress, `P = -p J F^-T`, with Tait's equation of state in Cole's form,
 //! `p = K/7 (J^-7 - 1)` (Cole 1948).
 
 use super::contract::ConstitutiveLaw;

@@ -4,8 +4,8 @@ use super::ROUNDING;
 use std::collections::BTreeMap;
 
 /// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
-/// neighbour, because a sliver could be the only particle in the support of a node. It would limit
-/// the time step like a cell as narrow as the sliver.
+/// neighbour, because a sliver could be the only particle in the support of a node. Such a particle
+/// would limit the time step as much as a cell of its width.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -47,7 +47,7 @@ impl Piece {
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();
-        // A piece that degenerates to a line has an area from rounding only.
+        // The area of a piece that degenerates to a line is a rounding error.
         if !(root > ROUNDING * (xx + yy)) {
             let half = 0.5 * self.volume.sqrt();
             return [half, 0.0, 0.0, half];
@@ -74,10 +74,10 @@ impl Piece {
 }
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
-/// longest boundary, starting with the smallest piece. A merged centroid must lie in the body
-/// (`holds`). `cuts` contains all lattice cells, row by row with `along` cells per row. The cells
-/// have half-lengths `half` (m) around their `centres` (m). Volumes and first moments do not
-/// change.
+/// longest boundary, starting with the smallest piece. The centroid of a merged piece must lie in
+/// the body (`holds`). `cuts` contains all lattice cells, row by row with `along` cells per row.
+/// The cells have half-lengths `half` (m) around their `centres` (m). Volumes and first moments do
+/// not change.
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -6,7 +6,7 @@ use crate::exact::random::Random;
 /// Number of random candidates for a patch; the one furthest from all sides is used.
 const CANDIDATES: usize = 8;
 
-/// A simple polygon, whose sides neither cross nor touch.
+/// A simple polygon: its sides meet only at its corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     kind: &'static str,
@@ -16,8 +16,8 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// Creates the polygon with these corners (m), in either orientation; `kind` is a name in
-    /// suites.
+    /// Creates the polygon with these corners (m), in either orientation; `kind` is the name of the
+    /// shape in suite files.
     ///
     /// # Errors
     /// Indices of two sides that cross, or that touch other than at a common corner. Side i begins
@@ -183,8 +183,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The square root gives a uniform distribution: the area on one side of a line grows with
-        // the square of the distance.
+        // The square root makes the distribution uniform, because the area of a triangle up to a
+        // distance from its corner grows with the square of the distance.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 
@@ -333,8 +333,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line removes no area. If rounding hides all ears, the largest
-        // triangle is removed; the sum of signed areas remains correct.
+        // A corner on a straight line is removed first; this removes no area. If rounding hides all
+        // ears, the largest triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

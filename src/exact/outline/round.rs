@@ -202,8 +202,8 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
 const PANELS: usize = 8;
 
 /// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`.
-/// This is the integral along the last axis of the corresponding volumes of slices, which are balls
-/// with one dimension less.
+/// The volume is an integral along the last axis. The integrand is the same intersection for a
+/// slice of the ball, which is a ball with one dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));

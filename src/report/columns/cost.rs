@@ -95,8 +95,8 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Whether and where a method reaches a target error, and its work divided by the minimum work of
-/// all methods.
+/// Work and spacing at which a method reaches a target error, and this work divided by the minimum
+/// work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
@@ -157,7 +157,7 @@ fn agreement(found: &Exponent) -> String {
     }
 }
 
-/// Prints the observed and the expected number with enough decimals to distinguish them.
+/// Formats the observed and the expected number with enough decimals to distinguish them.
 fn differing(name: &str, observed: f64, expected: f64) -> String {
     let decimals = if (observed - expected).abs() < 0.015 { 4 } else { 2 };
     format!("{name} {observed:.decimals$}, not {expected:.decimals$}")

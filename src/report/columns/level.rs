@@ -83,8 +83,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns two columns: the largest error at the end, unless it equals the judged error, and its
-/// order.
+/// Returns the columns of the largest error at the end and of its order. An error that equals the
+/// judged error is shown as a dash.
 pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
     let heading = if is_primary { "linf at end" } else { "linf of displacement at end" };
     let about = "order of linf between the next coarser level and this one";
@@ -254,7 +254,7 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
 }
 
 impl LevelRow<'_> {
-    /// Returns the cell of an error; empty without a reference solution.
+    /// Returns the cell of an error: a dash without an exact or reference solution.
     fn error(&self, error: f64) -> Cell {
         let error = self.study.compared.then_some(error);
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())

@@ -36,7 +36,7 @@ impl Cell {
         Self::new(None::<String>, json)
     }
 
-    /// Creates a cell with a name or a count, which is equal in text and JSON.
+    /// Creates a cell with a name or a count. The value is equal in text and JSON.
     pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
         Self::new(value.clone(), value)
     }
@@ -198,7 +198,7 @@ pub(crate) fn grouped<K: PartialEq, V>(
     groups
 }
 
-/// Removes duplicates, in order of first occurrence.
+/// Returns the distinct values in order of first occurrence.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     grouped(values.into_iter().map(|value| (value, ())))
         .into_iter()

@@ -14,7 +14,7 @@ const SAME_SPACING: f64 = 1e-6;
 /// the judged quantity. Changes of such errors are not compared.
 const ROUNDING: f64 = 1e-11;
 
-/// Verdict of the gate on errors that are due to rounding.
+/// Verdict of `run --gate` on errors that are due to rounding.
 const AT_ROUNDING: &str = "at rounding";
 
 /// A level of the old run and the corresponding level of the new run.
@@ -41,7 +41,8 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance. The gate then has the verdict `AT_ROUNDING`.
+        // Rounding errors may have an order by chance. The verdict of `run --gate` is then
+        // `AT_ROUNDING`.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };

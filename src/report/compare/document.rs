@@ -137,7 +137,7 @@ impl ReportDocument {
     ///
     /// # Errors
     /// If the text is not JSON, if a key is missing or has the wrong type, or if a case occurs
-    /// twice, which would make the comparison ambiguous.
+    /// twice, because the comparison would be ambiguous.
     pub fn read(text: &str) -> Result<Self, Unreadable> {
         let document: Self = serde_json::from_str(text).map_err(|error| {
             let (line, column) = (error.line(), error.column());

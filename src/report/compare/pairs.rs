@@ -164,7 +164,8 @@ fn otherwise(
     notes
 }
 
-/// Returns the kind of change if the verdict has changed.
+/// Returns the kind of change if the verdict has changed, or whether the case meets its
+/// expectations.
 fn verdict_rank(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -187,7 +188,7 @@ fn verdict_rank(
     Some((rank, 0.0))
 }
 
-/// Returns the severity of a verdict, from 0 (good) to 3 (failed); 1 for an unknown verdict.
+/// Returns the severity of a verdict, from 0 (good) to 3 (failed); 1 for verdicts not listed here.
 fn severity(verdict: &str) -> u8 {
     match verdict {
         "converging" | "within bounds" | "agrees" | "smooth" => 0,
@@ -214,7 +215,8 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Statement rows about levels and outputs, which are compared separately from the problem.
+/// Names of statement rows about levels and outputs. Differences in these rows are not changes of
+/// the problem.
 const OF_LEVELS: [&str; 7] =
     ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
 

@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
-/// Two fractions must exceed this value: the worse cases among all cases with a word, and the worse
-/// cases with a shared word among all worse cases.
+/// Two fractions must exceed this value: the fraction of worse cases among all cases with a word,
+/// and the fraction of cases with a shared word among all worse cases.
 const MOST: f64 = 0.5;
 
 /// Minimum number of worse cases with a shared word.

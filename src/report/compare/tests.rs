@@ -232,7 +232,7 @@ fn a_small_error_with_an_order_counts() {
     assert_eq!(rank(&found), Some(Rank::LessAccurate));
 }
 
-/// Rounding errors may have an order by chance; then the gate has the verdict `at rounding`.
+/// Rounding errors may have an order by chance. The verdict of `run --gate` is then `at rounding`.
 #[test]
 fn an_order_of_roundings_is_none() {
     let mut before = case("a", 1e-12, 1.0);

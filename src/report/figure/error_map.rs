@@ -24,7 +24,7 @@ const LEADING: f64 = 14.0;
 /// Number of distinct shades. Each part is drawn in the nearest shade.
 const SHADES: f64 = 24.0;
 
-/// Errors over the bodies of several cases, with one panel for each case.
+/// The error in each part of the body, with one panel for each case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorMap {
     /// Title above the panels.

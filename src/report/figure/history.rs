@@ -1,4 +1,4 @@
-//! The history plot: curves over linear axes, such as a velocity over time.
+//! The history plot: curves with linear axes, such as a velocity over time.
 
 use super::plot::frame::{KEY, Legend, LegendEntry};
 use super::plot::frame::{Plot, Titles};
@@ -8,7 +8,7 @@ use super::plot::scale::{Pad, Scale};
 use super::plot::style::{EXACT, Look, look};
 use super::plot::svg::{Pt, SvgElement};
 
-/// Curves over linear axes.
+/// Curves with linear axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryPlot {
     /// Title above the frame.
@@ -26,8 +26,7 @@ pub struct HistoryPlot {
 pub struct Curve {
     /// Name in the legend. A curve without a name has no legend entry.
     pub name: String,
-    /// Index of the curve's colour. A method has the same colour in all figures of a suite; the
-    /// exact solution has a separate colour.
+    /// Index of the curve's colour. The exact solution has a separate colour.
     pub look: usize,
     /// The points in drawing order. A point that is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,

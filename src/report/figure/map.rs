@@ -1,4 +1,4 @@
-//! The map: a table of numbers over coloured fields, with one row for each case.
+//! The map: a table of numbers on coloured fields, with one row for each case.
 //!
 //! Each field contains its number as text; the colours are only a guide. Colours run from dark to
 //! light in steps of equal lightness and remain distinguishable in grey print. A gap separates rows
@@ -10,7 +10,7 @@ use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
 use super::plot::svg::SvgElement;
 use crate::verify::rounded;
 
-/// A table of numbers over coloured fields.
+/// A table of numbers on coloured fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     /// Title above the table.
@@ -28,7 +28,7 @@ pub struct Map {
 /// One field of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapField {
-    /// Value that determines the colour; white for `None` or a value that is not finite.
+    /// Value that determines the colour; the paper colour for `None` or a value that is not finite.
     pub value: Option<f64>,
     /// Text printed in the field.
     pub text: String,

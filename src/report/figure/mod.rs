@@ -1,9 +1,10 @@
 //! Figures as standalone SVG documents.
 //!
 //! There are four kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
-//! [`HistoryPlot`] (curves over linear axes), the [`Map`] (numbers over colours) and the
-//! [`ErrorMap`] (errors over bodies). All are pure functions of their input and can be compared
-//! byte by byte: coordinates have two decimals, and transcendental functions come from `libm`.
+//! [`HistoryPlot`] (curves with linear axes), the [`Map`] (a table of numbers on coloured fields)
+//! and the [`ErrorMap`] (the error in each part of a body). All are pure functions of their input
+//! and can be compared byte by byte: coordinates have two decimals, and transcendental functions
+//! come from `libm`.
 //!
 //! Figures accept any input. A value that cannot be placed on its axis is drawn as failed,
 //! interrupts its curve, or is counted in a note below the figure.

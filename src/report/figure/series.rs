@@ -15,11 +15,11 @@ pub struct PlotPoint {
     /// The error. An error that is not finite is drawn as failed; a zero error is mentioned below
     /// the figure.
     pub error: f64,
-    /// Role of the level in the judgement.
+    /// How the judge uses the level.
     pub mark: Mark,
 }
 
-/// Role of a level in the judgement.
+/// How the judge uses a level, and how a plot shows this use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// The level is in the asymptotic window: filled marker, solid line.

@@ -34,8 +34,8 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
     studies.filter(|(_, study)| study.compared).collect()
 }
 
-/// Plots errors over spacings, all with the same axes. Cases with a single level have no order and
-/// are excluded; a table lists their errors.
+/// Plots errors over spacings. All plots of a suite have the same axes. Cases with a single level
+/// have no order and are excluded; a table lists their errors.
 fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut studies = studies(outcome);
     studies.retain(|(_, study)| study.levels.len() > 1);
@@ -90,7 +90,8 @@ pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
     Some(svg.render())
 }
 
-/// Returns the index of a case in its suite, which determines its colour in all figures.
+/// Returns the index of a case in its suite. The index determines the colour of the case in all
+/// figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }

@@ -17,7 +17,7 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }
 
-/// Draws one plot for each reported quantity, if there are several runs to compare.
+/// Draws the plots or the map of each reported quantity, if there are several runs to compare.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };

@@ -27,7 +27,7 @@ pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
 
 /// Converts the diagnosis of one case to JSON: the paragraph of the text report, and the runs.
 pub fn diagnosis_json(found: &Diagnosis) -> Value {
-    // If the reference error is not finite, the ratio to it is undefined.
+    // The ratio is undefined if an error is not finite or if the reference error is zero.
     let finite = |ratio: f64| Some(ratio).filter(|ratio| ratio.is_finite());
     let run = |run: &ChangedRun| {
         json!({

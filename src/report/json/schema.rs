@@ -47,7 +47,8 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
-    // Studies of other kinds and cases that do not apply have other verdicts.
+    // Only convergence studies have the verdicts of the judge. Other studies, and cases that do not
+    // apply, have verdicts of their own.
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),

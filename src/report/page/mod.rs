@@ -2,8 +2,8 @@
 //!
 //! The page is readable without JavaScript. A small script only sorts and filters tables, and
 //! unfolds the target of a link. Figures are inline SVG and have a common style sheet for dark
-//! colours. The page does not depend on the time or the machine, except for the commit that a CI
-//! service states: equal runs give equal bytes.
+//! colours. Equal runs give equal bytes, because the page does not depend on the time or the
+//! machine. The only exception is the commit that a CI service sets as an environment variable.
 //!
 //! A section contains everything that a suite reports: every figure of [`svg()`](super::svg()) and
 //! the complete [`text()`](super::text()). Additions to either also appear on the page.
@@ -31,8 +31,8 @@ const SCRIPT: &str = include_str!("script.js");
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// Creates the page. `refused` is the number of suites that could not run, which the page states.
-/// Names of suites must be unique, because they are used as ids of sections.
+/// Creates the page. `refused` is the number of suites that could not run; the page shows this
+/// number. Names of suites must be unique, because they are used as ids of sections.
 pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
     let mut body = vec![
         head(sources, refused),

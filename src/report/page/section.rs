@@ -107,7 +107,8 @@ fn file(source: &SuiteSource<'_>) -> Html {
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }
 
-/// Creates a folded block of preformatted text. `words` is the text that unfolds it.
+/// Creates a folded block of preformatted text. `words` is the text on which a reader clicks to
+/// unfold the block.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));

@@ -205,7 +205,7 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
     Html::tag("div", &attributes, content)
 }
 
-/// States as text whether the result of a case is as expected, because colour alone is not
+/// Creates the text of a result. An unexpected result is bold, because colour alone is not
 /// accessible.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     match (case.result(), case.passed()) {

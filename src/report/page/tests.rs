@@ -120,7 +120,7 @@ fn whatever_a_suite_reports_is_on_the_page() {
     }
 }
 
-/// The page states version, title, source, fingerprint and reasons.
+/// The page shows version, title, source, fingerprint and reasons.
 #[test]
 fn the_page_says_what_was_run() {
     let mut outcome = outcome("a", " b", &[]);

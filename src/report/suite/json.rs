@@ -51,12 +51,12 @@
 //! `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the spacing on this
 //! axis. There is no formal order for `particles`. `energy_rate` is d ln E/dt (1/s), followed by
 //! both ends of its 95 % interval. For a law without an energy the drift of `energy` is `"nan"`.
-//! `stable_time_step` (s) is present if the step is automatic or if the stated step is longer.
-//! `profile` is the cost of one step on the coarsest level, if the subject reports it (MPM): its
-//! `passes` in order, the particles that each part of them `visits`, and the `columns` of memory,
-//! with the `bytes` of one entry. `floor` contains the error of the finest level with another
-//! spacing halved, if such a run exists. Its `cause` is one of the axes, or `none`, or null if the
-//! cause could not be determined.
+//! `stable_time_step` (s) is present if the time step is automatic, or if a given time step is
+//! longer than the stable one. `profile` is the cost of one step on the coarsest level, if the
+//! subject reports it (MPM): its `passes` in order, the number of particles that each part of these
+//! passes `visits`, and the `columns` of memory, with the `bytes` of one entry. `floor` contains
+//! the error of the finest level with another spacing halved, if such a run exists. Its `cause` is
+//! one of the axes, or `none`, or null if the cause could not be determined.
 //!
 //! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
 //! lists the keys of rows.
@@ -75,7 +75,7 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// Returns the tested commit, if a CI service states it.
+/// Returns the tested commit, if a CI service sets it as an environment variable.
 pub(crate) fn commit() -> Option<String> {
     let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
     ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)

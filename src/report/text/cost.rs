@@ -1,6 +1,6 @@
 //! Cost tables: the work of each method for a target error, and the exponent k in work ~ error^k,
-//! compared with theory. Also reports of timed suites, whose times depend on the machine and are
-//! therefore not in snapshots.
+//! compared with theory. The module also writes the reports of timed suites. Their times depend on
+//! the machine and are therefore not in snapshots.
 //!
 //! Snapshots count work in particle-node transfers, which are equal on all machines.
 
@@ -43,7 +43,7 @@ pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
         .then(|| format!("for a relative error of {}; errors are {errors}", best.join("; of ")))
 }
 
-/// States the value by which the errors of a ranking are divided.
+/// Describes the value by which the errors of a ranking are divided.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "divided by the `scale` of the suite".to_owned();

@@ -140,8 +140,8 @@ fn by_level<'a>(
 /// Name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
 
-/// Adds a table of the finest levels below a heading, with one row for each case. Adds nothing if
-/// all cells are empty.
+/// Adds a table of the finest levels below a heading, with one row for each case. Columns that
+/// contain only dashes or only `0` are omitted; if no column remains, nothing is added.
 fn by_case<'a>(
     lines: &mut Vec<String>,
     heading: &str,

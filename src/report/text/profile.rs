@@ -1,5 +1,5 @@
-//! Cost of a step (effects, passes, visits and memory) as rows for reports and `explain`, and as
-//! tables of all methods.
+//! Formats the cost of a step (effects, passes, visits and memory) as rows for reports and
+//! `explain`, and as tables of all methods.
 
 use super::prose::{hanging, paragraph_lines};
 use super::table::Table;

@@ -17,7 +17,7 @@ struct Group<'a> {
 }
 
 /// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals.
-/// Comments state the origin of each key and how to reach a stronger expectation. The text begins
+/// Comments explain the origin of each key and how to reach a stronger expectation. The text begins
 /// with `remarks` about the suite.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();

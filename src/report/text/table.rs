@@ -44,7 +44,8 @@ impl Table {
         self.rows.len() == 1
     }
 
-    /// Merges rows with equal cells. The first cell then lists all names.
+    /// Merges rows that are equal except for the first cell, the name. The name of a merged row
+    /// combines all names.
     pub(crate) fn merged(mut self) -> Self {
         let rows = self.rows.split_off(1);
         self.rows.extend(merged(rows));

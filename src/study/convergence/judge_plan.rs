@@ -45,7 +45,7 @@ fn position_spacing(plan: &ConvergencePlan, case: &Case) -> Option<f64> {
     single_precision_spacing(Extremes::of(exact).largest_coordinate())
 }
 
-/// Returns the conserved sums whose drift is reported for a case without bounds on drifts.
+/// Returns the conserved sums whose drift is reported for a case without an expectation.
 fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     let dimension = plan.scene.dimension();
     let of_law = plan.scene.material.properties().has_energy(dimension).is_ok();
@@ -85,8 +85,8 @@ pub(super) fn rounding_sizes(
 /// Assumed order in the particle spacing: the order of the midpoint rule. Theory gives no general
 /// order, because integrands jump where derivatives of the basis jump, and because particles leave
 /// the centres of their volumes (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76,
-/// 922). The judge uses this order to detect floors, and as the centre of the expected range of a
-/// suite without `order`.
+/// 922). The judge uses this order to detect error floors, and as the centre of the expected range
+/// of a suite without `order`.
 const MIDPOINT: f64 = 2.0;
 
 /// Fraction of the largest velocity (or acceleration) above which the initial value counts as
@@ -106,8 +106,8 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
 /// `v(-dt/2)`. A start with `v(0)` instead causes a velocity error of `dt/2 a(0)`: order 1 unless
 /// `a(0)` is zero. USF adds `dt grad v` of the initial velocity to F before the first motion: order
 /// 1 unless `v(0)` is zero. (USL and USF also have first-order terms proportional to h^2 and to the
-/// strain squared, which the suite temporal-order examines.) Without a formula for the motion,
-/// `v(0)` and `a(0)` are assumed to be non-zero.
+/// strain squared; the suite temporal-order examines these terms.) Without a formula for the
+/// motion, `v(0)` and `a(0)` are assumed to be non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),

@@ -1,5 +1,5 @@
-//! Runs a convergence study: runs every level of every case, measures the error, and judges the
-//! case.
+//! Runs every level of every case of a convergence study, measures the errors, and judges the
+//! cases.
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
@@ -73,7 +73,8 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // Runners of all suites exist until the gate ends. Shared forces are therefore freed early.
+        // The runners of all suites exist until the last suite ends. Shared forces are therefore
+        // freed early.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
@@ -196,7 +197,7 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// Runs the method of the case with a smaller spacing, which gives the reference of the case.
+    /// Runs the method of the case with a smaller spacing, to obtain the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {
@@ -283,7 +284,7 @@ impl CaseRuns<'_, '_> {
         Ok(LevelOutcome { spread, ..outcome })
     }
 
-    /// Returns the quantities that a run compares with the exact solution.
+    /// Returns the settings of the comparison of a run with the exact solution.
     fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);

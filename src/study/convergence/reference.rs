@@ -91,8 +91,8 @@ impl Truth for Reference {
     }
 }
 
-/// Number of interpolation points per axis. The interpolation then has order 6, more than any
-/// method.
+/// Number of interpolation points per axis. The interpolation then has order 6, which is higher
+/// than the order of any method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a particle lattice at the start and at every instant.
@@ -148,8 +148,8 @@ impl Truth for FineGrid {
     }
 }
 
-/// Returns the coordinates of the particles of a mapped body in the unit square. Each particle is
-/// moved to the middle of its part of the square, which removes rounding errors.
+/// Returns the coordinates of the particles of a mapped body in the unit square. To remove rounding
+/// errors, each particle is moved to the middle of its part of the square.
 fn middles(panel: &Quadrilateral, level: LevelPlan, samples: &Samples) -> Vec<f64> {
     let per_axis = libm::round(level.ppc.map_or(1.0, |ppc| (ppc as f64).sqrt())) as usize;
     let counts = panel.counts(level.h, per_axis);

@@ -4,8 +4,8 @@
 //! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
 //! one cell. It is predicted before a run and constant during the run, because an order requires
 //! one step for each level. With linear basis functions the stability limit may decrease when
-//! particles move (suite `tiny-nodal-mass`). As a margin for this, an automatic step is a fraction
-//! of the stable step.
+//! particles move (suite `tiny-nodal-mass`). An automatic step is therefore a fraction of the
+//! stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -40,16 +40,15 @@ impl TimeStep {
     }
 }
 
-/// Computes the time steps of all cases and levels of `suite`. Empty for a study without steps, or
-/// with steps that are chosen during the run. Levels whose set-up fails are excluded; their run
-/// reports the reason.
+/// Computes the time steps of all cases and levels of `suite`. Empty for other kinds of study than
+/// a convergence study. Levels whose set-up fails are excluded; their run reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A time step that the suite states needs no prediction.
+            // A time step that the suite contains needs no prediction.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -106,8 +105,8 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
 /// Number of power iterations in the prediction of an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Number of power iterations in the first prediction for a stated time step. Each iteration costs
-/// as much as a step.
+/// Number of power iterations in the first prediction for a time step from the suite. Each
+/// iteration costs as much as a step.
 const FEW: u32 = 6;
 
 /// Fraction of the first predicted limit above which a step is compared with a second prediction.
@@ -118,7 +117,7 @@ const NEAR: f64 = 0.6;
 type Stepped = (LevelPlan, Option<f64>);
 
 /// Cache of the stable time steps (s) of a study, with the inputs of the prediction as keys.
-/// Methods with equal inputs share one prediction. So do levels that differ only in their step.
+/// Methods with equal inputs, and levels that differ only in their time step, share one prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 

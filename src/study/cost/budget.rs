@@ -20,7 +20,8 @@ use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 use thiserror::Error;
 
-/// Number of finest runs in the fit of a cost model. Coarser runs are not representative.
+/// Number of runs, counted from the finest, in the fit of a cost model. Coarser runs are not
+/// representative.
 const FITTED: usize = 6;
 
 const REPEATS: usize = 3;

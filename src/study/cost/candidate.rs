@@ -60,8 +60,8 @@ impl Candidate {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
 
-    /// Creates a level with `cells` cells. Its time step is extrapolated from the two finest levels
-    /// of the suite.
+    /// Returns the level with `cells` cells. If the suite has no such level, the time step is
+    /// extrapolated from the two finest levels of the suite.
     pub(crate) fn level(&self, cells: u64) -> LevelPlan {
         let levels = &self.plan.refine.levels;
         if let Some(known) = levels.iter().find(|level| level.cells == cells) {
@@ -93,7 +93,7 @@ impl Candidate {
         })
     }
 
-    /// Creates a cost model from one run. Also returns the predicted time (s) of the coarsest
+    /// Creates a cost model from one timed run. Also returns the predicted time (s) of the coarsest
     /// level.
     pub(crate) fn rough_model(&self) -> Result<(Model, f64), SubjectError> {
         let level = self.level(self.finest().cells);
@@ -105,8 +105,8 @@ impl Candidate {
         Ok((model, model.predict(&coarsest)))
     }
 
-    /// Adds levels of `cells` cells to the method. All levels, also those of the suite, run and are
-    /// judged together.
+    /// Adds one level to the method for each number of cells in `cells`. All levels, also those of
+    /// the suite, run and are judged together.
     pub(crate) fn judged_with(&self, suite: &Suite, cells: &[u64]) -> Option<Self> {
         let mut plan = self.plan.clone();
         plan.refine.levels.truncate(self.study.levels.len());

@@ -1,9 +1,9 @@
 //! Measures the seconds of every level of every case.
 //!
-//! A level runs once to warm up, and then at least five times or for one second, whichever comes
-//! first. Short levels are repeated for at least 50 ms. All levels are timed in turn, in several
-//! rounds, so a slowdown of the machine affects all of them. Time during which other processes used
-//! the core is excluded, if the system reports it.
+//! After one run to warm up, a level is timed at least five times and for at least 50 ms in total.
+//! Measuring ends early after one second or 200 measurements. All levels are timed in turn, in
+//! several rounds, so a slowdown of the machine affects all of them. Time during which other
+//! processes used the core is excluded, if the system reports it.
 
 use crate::external::SolverFactory;
 use crate::study::handover::subject_under;

@@ -20,15 +20,16 @@ const CLOSER: f64 = 0.5;
 /// coarse levels are the cause.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error that counts as large as the solution, as a fraction of the largest exact value.
+/// Minimum error that is considered as large as the solution, as a fraction of the largest exact
+/// value.
 const WHOLE: f64 = 0.1;
 
 /// Maximum ratio of the largest to the smallest error for which the errors count as independent of
 /// the cells.
 const CONSTANT: f64 = 1.5;
 
-/// A level is too coarse if the ratio of its cell size to the length scale of the solution is
-/// larger.
+/// A level is too coarse if its cell size exceeds this fraction of the length scale of the
+/// solution.
 const COARSE: f64 = 0.5;
 
 /// Checks whether coarse levels do not resolve the exact solution. This is the cause if the order
@@ -93,7 +94,7 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
 }
 
 /// Returns the ratio of the coarsest cell size to the length over which the exact solution changes,
-/// and a sentence that states both.
+/// and a sentence that contains both.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;

@@ -11,8 +11,8 @@
 //!
 //! The finest levels run again with one change at a time (one factor at a time, as in the isolating
 //! runs of Roy 2005, J. Comput. Phys. 205, 131). A change reveals the cause if it restores the
-//! order. If no change does, the one with the largest decrease of the finest error is reported. The
-//! `because` texts of the suite are not used.
+//! order. If no change does, one that raises the order is reported, or else the one with the
+//! largest decrease of the finest error. The `because` texts of the suite are not used.
 
 mod levels;
 mod probes;
@@ -73,7 +73,8 @@ const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
 
 /// Diagnoses case number `index` of a suite. The predicted time of all changed runs is limited to a
 /// budget (s). With `solver`, `suite` must come from [`under`](crate::study::under). `None` if
-/// there is no order to explain: another kind of study, no exact solution, or too few levels.
+/// there is no order to explain: another kind of study, neither an exact solution nor a reference,
+/// or too few levels.
 ///
 /// # Errors
 /// The reason why the case itself cannot run.

@@ -26,7 +26,7 @@ pub(crate) enum Crossings {
 /// A single change, the cause that it reveals, and the remedy.
 pub(crate) struct ProbeKind {
     pub(crate) change: &'static str,
-    /// Cause that is inferred if the change restores the order or reduces the error.
+    /// Cause that is inferred if the change restores or raises the order, or reduces the error.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
     /// Remedy for the author of the suite.
     pub(crate) remedy: &'static str,

@@ -16,7 +16,7 @@ const STEEP: f64 = 0.5;
 const BELOW: f64 = 0.5;
 
 /// Returns the maximum order that a method of order `p` can reach if the derivative of order `jump`
-/// of the solution is discontinuous; `None` for a sum over the body.
+/// of the solution is discontinuous; `None` for a temperature or a sum over the body.
 ///
 /// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)). Each continuous
 /// derivative multiplies the error by this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In
@@ -183,7 +183,8 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// Finds a jump of the lowest-order derivative that jumps, up to the second order.
+/// Finds a jump of the displacement or of its derivatives up to the second order. If several
+/// derivatives jump, the result belongs to the one of lowest order.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);

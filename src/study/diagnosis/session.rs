@@ -60,7 +60,7 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if it exceeds the budget or cannot be set up, because a failed
+    /// Runs a changed plan. `None` if the run would exceed the budget or cannot be set up. A failed
     /// set-up gives no evidence.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
@@ -115,8 +115,8 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Returns the reason why `check` rejects the suite in `source` if all differences between `before`
-/// and `after` are applied to it. Both are plans of one case. `None` if `check` accepts the suite.
+/// Returns the reason why `check` rejects the suite in `source` if the method and the levels of
+/// `after` replace those of `before`. Each plan has one case. `None` if `check` accepts the suite.
 pub(super) fn refusal(
     source: &Source,
     before: &ConvergencePlan,

@@ -218,7 +218,7 @@ impl GradientRun<'_> {
     }
 
     /// Returns the stored result of a run. If there is none, stores and returns the result of
-    /// `run`. `what` states which numbers the result contains.
+    /// `run`. `what` describes the numbers that the result contains.
     fn kept(
         &self,
         problem: &LevelProblem,

@@ -200,7 +200,7 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     scene.each().iter().map(of_body).collect()
 }
 
-/// The body force of a scene: stated forces and a manufactured force.
+/// The body force of a scene: prescribed forces and a manufactured force.
 #[derive(Clone)]
 struct SceneForce {
     terms: Vec<Vec<Arc<dyn Term>>>,
@@ -223,7 +223,8 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// Returns the stated forces on a body with the displacement `u` (m), plus the force `made`.
+    /// Returns the prescribed forces on a body with the displacement `u` (m), plus the force
+    /// `made`.
     fn whole(
         &self,
         made: [f64; 3],

@@ -1,5 +1,5 @@
-//! Capabilities that a suite requires of a solver. Also creates suites whose method is an external
-//! solver.
+//! Determines the capabilities that a suite requires of a solver, and creates suites whose method
+//! is an external solver.
 
 use super::level_problem;
 use super::particles::starts_deformed;
@@ -31,7 +31,8 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Returns the capabilities that a scene requires, independent of the judged quantities.
+/// Returns the capabilities that a scene requires. The quantities that a study judges may require
+/// further capabilities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -64,19 +65,21 @@ pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// Returns the column of the judged quantity, if it is optional.
+/// Returns the name of the sample column that contains the judged quantity; `None` for a sum over
+/// the body, or if every solver reports the quantity.
 fn column(of: Quantity) -> Option<&'static str> {
     (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
 
-/// Replaces the methods of the suite by `solver`, with or without a gate (see
-/// [`Suite::of_external`]).
+/// Replaces the methods of the suite by `solver`. If `gate` is true, the cases get the requirements
+/// of `run --gate` (see [`Suite::of_external`]).
 pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
     under_on(suite, solver, gate.then(GateTerms::default).as_ref())
 }
 
-/// Replaces the methods of the suite by `solver`. With `terms` of the solver's author, the suite is
-/// a gate. If nothing deforms, the law may be replaced by one that the solver supports.
+/// Replaces the methods of the suite by `solver`. If `terms` are given, the cases get the
+/// requirements of `run --gate`, as modified by these terms of the solver's author. If no body
+/// deforms, the law may be replaced by one that the solver supports.
 pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
@@ -92,8 +95,8 @@ pub fn under_on(
     })
 }
 
-/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the stated law,
-/// or if laws have an effect.
+/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the law of the
+/// plan or no law, or if the results depend on the law.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -110,9 +113,9 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Returns the value of a parameter of the replacing law. If the stated law has the same parameter,
-/// its value is used. Otherwise the stiffness of the stated law is used, so the time step remains
-/// stable.
+/// Returns the value of a parameter of the replacing law: the value of the same parameter in the
+/// law `own`, if there is one. Otherwise a positive parameter gets the stiffness of `own`, so the
+/// time step remains stable, and other parameters get a fixed valid value.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);

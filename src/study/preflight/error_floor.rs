@@ -60,7 +60,7 @@ struct ModelError {
     /// Size of the error (m).
     size: f64,
     origin: String,
-    /// Advice: a solution without this error.
+    /// Advice to use a solution without this error.
     remedy: &'static str,
 }
 

@@ -210,8 +210,8 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     })
 }
 
-/// Predicts the time (s) on one thread for each progress unit of a run. A unit is a level, or a
-/// case of a study without refinement, which has a default time.
+/// Predicts the time (s) on one thread for each progress unit of a run. A unit is a level or, in a
+/// study without refinement, a case with a default time.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else {
         return vec![UNKNOWN; suite.case_names().len()];

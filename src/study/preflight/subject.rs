@@ -36,7 +36,7 @@ impl<'a> Preflight<'a> {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Returns the cases with an expected order, which is stated or theoretical.
+    /// Returns the cases with an expected order, from the suite or from theory.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -69,7 +69,8 @@ impl<'a> Preflight<'a> {
     }
 
     /// Warns of acknowledgements that are not among those `used`. There are no such warnings if an
-    /// external solver replaces the methods of the suite, because it may have other findings.
+    /// external solver replaces the methods of the suite, because the findings of that solver may
+    /// differ.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
         let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);

@@ -15,16 +15,16 @@ use crate::verify::StepKind;
 /// Loading counts as sudden if more than this fraction of the final load acts at the start.
 const SUDDEN: f64 = 0.1;
 
-/// Number of intervals along each axis. Loads are evaluated at their ends.
+/// Number of intervals along each axis. Loads are evaluated at the ends of the intervals.
 const INTERVALS: usize = 4;
 
-/// A smaller initial distance from the equilibrium, as a fraction of the equilibrium displacement,
-/// does not count.
+/// Minimum initial distance from the equilibrium that counts, as a fraction of the equilibrium
+/// displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns if a body without dissipation does not start in its stated equilibrium, because the body
-/// then oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and
-/// the finding is a note.
+/// Warns if a body without dissipation does not start in its equilibrium, because the body then
+/// oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and the
+/// finding is a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -98,7 +98,8 @@ fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     moves || most[0] > AWAY * most[1]
 }
 
-/// Whether body forces and tractions have their full magnitude from the start.
+/// Whether loading is sudden: more than the fraction [`SUDDEN`] of the final body forces and
+/// tractions acts at the start.
 fn is_loaded_at_once(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = &plan.exact else { return true };
     let labels = raster(problem, INTERVALS);

@@ -40,7 +40,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     Bar::new(setup).map_err(|error| error.to_string().into())
 }
 
-/// Combines the stated and manufactured forces of a bar; `None` if it has none.
+/// Combines the prescribed and manufactured forces of a bar; `None` if it has none.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     let on_face = |load: &&ListedLoad| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
@@ -61,8 +61,8 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     }))
 }
 
-/// Adds the stated forces (m/s2) at each position, for the displacements `u` (m). Uniform forces
-/// are evaluated only once.
+/// Adds the prescribed forces (m/s2) at each position, for the displacements `u` (m). Uniform
+/// forces are evaluated only once.
 fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t, &[0.0; 3]);

@@ -31,7 +31,7 @@ pub(crate) struct Body<'a> {
     pub(crate) heat: Option<&'a Conduction>,
     /// Whether the particles store F even if neither law nor basis uses it.
     pub(crate) keeps_deformation: bool,
-    /// Particles to move or add, relative to the lattice.
+    /// Changes to the lattice of particles: particles are moved or added.
     pub(crate) lattice: LatticeEdits,
 }
 
@@ -166,8 +166,8 @@ fn manufactured_force<const D: usize>(
     })))
 }
 
-/// Creates the grid that the suite states. If there is none, creates the bounding box of the body
-/// with additional cells outside free faces.
+/// Creates the grid of the suite. If the suite defines no grid, the grid covers the bounding box of
+/// the body, with additional cells outside free faces.
 fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
     let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
     let origin = Vector::from_fn(|axis, _| axes[axis].0);

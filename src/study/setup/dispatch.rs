@@ -1,4 +1,5 @@
-//! Creates the solver types that methods and scenes name. Only this file uses all kinds of solvers.
+//! Creates solvers of the types that methods and scenes select. Only this file uses all kinds of
+//! solvers.
 
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};

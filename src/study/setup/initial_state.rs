@@ -2,8 +2,8 @@
 //!
 //! If the exact solution is a motion and the stress depends on the deformation only, the initial
 //! state is the exact motion at t = 0: `x = X + u(X, 0)`, `F = I + grad u`, `v = u_t`. Otherwise
-//! the scene states the initial state, by default at rest and undeformed. The scene always states
-//! the initial stress.
+//! the scene describes the initial state; by default it is at rest and undeformed. The initial
+//! stress always comes from the scene.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
@@ -30,7 +30,7 @@ impl Initial {
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// Creates the initial state that the scene states.
+    /// Creates the initial state that the scene describes.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));

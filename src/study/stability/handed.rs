@@ -1,5 +1,5 @@
-//! The initial state of a run in a stability study. Also converts the run to a problem for an
-//! external solver.
+//! Creates the initial state of a run in a stability study, and converts the run to a problem for
+//! an external solver.
 
 use crate::exact::Random;
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};

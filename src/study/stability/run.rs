@@ -1,4 +1,4 @@
-//! Runs one case of a stability study: computes runs, predictions and limits for each row.
+//! Computes the rows of one case of a stability study: runs, predictions and limits.
 
 use super::handed;
 use super::handed::{bodies, perturb};
@@ -20,7 +20,7 @@ use crate::verify::{
 /// Number of values that are tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Replaces `SCAN` if each test is a whole run.
+/// Number of these values if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.

@@ -5,9 +5,9 @@
 //! are refined.
 //!
 //! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
-//! exponent and the ends of its interval are the inverses of the slope and its interval (the
-//! fiducial limits of inverse regression: Draper & Smith, Applied Regression Analysis, 3rd ed.,
-//! section 3.2).
+//! exponent and the ends of its interval are the inverses of the slope and of the ends of its
+//! interval (the fiducial limits of inverse regression: Draper & Smith, Applied Regression
+//! Analysis, 3rd ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -18,8 +18,8 @@ const FEWEST: usize = 3;
 /// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between observed and theoretical growth of work that is not reported
-/// as the cause of a different exponent.
+/// Maximum relative difference between observed and theoretical growth of work at which both count
+/// as equal.
 const SAME: f64 = 0.02;
 
 /// Marginal cost of accuracy: the exponent of work over error.

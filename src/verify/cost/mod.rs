@@ -9,9 +9,9 @@
 //! | [`model`](Model) | predicted seconds |
 //! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
-//! Work is any additive measure: particle-node transfers, which are equal on all machines, or
-//! seconds. Rankings do not extrapolate: if all levels have larger errors than the target, the
-//! target is not reached.
+//! Work is any additive measure, such as seconds or the number of particle-node transfers. The
+//! number of transfers is equal on all machines. Rankings do not extrapolate: if all levels have
+//! larger errors than the target, the target is not reached.
 
 mod exponent;
 mod model;

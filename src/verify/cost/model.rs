@@ -5,10 +5,10 @@
 //! ```
 //!
 //! The coefficients are non-negative and minimise the relative errors at measured levels. Within
-//! one refinement the four columns grow nearly in proportion, and noise would make some
-//! coefficients negative. Therefore every subset of columns is solved. The best solution without a
-//! negative coefficient is used (non-negative least squares, Lawson & Hanson 1974, chapter 23; four
-//! columns have only fifteen subsets).
+//! one refinement the four counts grow nearly in proportion, and noise would make some coefficients
+//! negative. Therefore a fit is computed for each of the fifteen subsets of the four terms. The
+//! best fit without a negative coefficient is used (non-negative least squares, Lawson & Hanson
+//! 1974, chapter 23).
 
 /// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,11 +9,12 @@
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
 //! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: on finer levels a
 //! settled order may change by 0.25. Between levels the error is interpolated on logarithmic axes.
-//! The interval of an interpolated error has only the second term, for the distance to the nearer
-//! level.
+//! For an interpolated error, the interval has only the second term, with the distance to the
+//! nearer level.
 //!
-//! No error is predicted for finer levels if the errors do not converge or end in a floor. The same
-//! holds if the order falls at the end, which is the first sign of a floor.
+//! No error is predicted for finer levels if the errors do not converge or have stopped decreasing
+//! (a floor). The same holds if the order falls at the end, because a falling order is the first
+//! sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -60,7 +61,8 @@ impl fmt::Display for Unpredicted {
 }
 
 impl PredictedError {
-    /// Creates the prediction from levels, the verdict on them, and their converging part `part`.
+    /// Creates the prediction from all levels, the verdict on these levels, and the part over which
+    /// the error converges.
     pub fn of(
         samples: &[Sample],
         part: &ConvergingPart,
@@ -88,8 +90,8 @@ impl PredictedError {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // If the observed order on coarse grids is above the formal order, finer grids are not
-            // expected to keep it.
+            // If the observed order on coarse grids is above the formal order, the excess is not
+            // expected to continue on finer grids.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {
@@ -109,7 +111,8 @@ impl PredictedError {
     }
 }
 
-/// Fits the line for finer levels; fails if the order falls at the end of the levels.
+/// Fits the line that predicts errors on finer levels. Fails if the order falls on the finest
+/// levels.
 fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpredicted> {
     let fitted = levels.iter().enumerate().filter(|(_, one)| one.asymptotic);
     let points: Vec<LogPoint> = fitted

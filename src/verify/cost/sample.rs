@@ -2,8 +2,8 @@
 //! the work needed to reach an error.
 //!
 //! Between two levels of the converging part an error may be interpolated. On other levels a small
-//! error may be accidental: the error may change sign, or fluctuate on a floor. The next finer grid
-//! may not confirm it.
+//! error may be accidental: the error may change sign, or fluctuate after it has stopped
+//! decreasing. The error on the next finer grid may be larger.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// Whether error and work of the level are valid; false if one of them is NaN.
+    /// Whether the level is usable, its run did not fail, and error and work are valid numbers.
     pub fn counts(&self) -> bool {
         let sound = self.error >= 0.0 && self.error.is_finite();
         self.usable && !self.failed && sound && self.work > 0.0 && self.work.is_finite()
@@ -45,7 +45,7 @@ const LEAST_ORDER: f64 = 0.2;
 const FEWEST: usize = 3;
 
 /// Minimum ratio of an error to the error of the previous level for which the error counts as
-/// growing. Smaller changes are fluctuations on a floor.
+/// growing. Smaller changes are fluctuations of an error that has stopped decreasing.
 const GROWS: f64 = 1.25;
 
 /// A range of neighbouring levels over which the error decreases.
@@ -170,8 +170,9 @@ pub enum Reach {
         /// Interpolated spacing.
         spacing: f64,
     },
-    /// The coarsest level of the converging part already reaches the error. The work of this level
-    /// is an upper bound.
+    /// The coarsest level already reaches the error. This is the coarsest of all valid levels if
+    /// all of them reach the error, otherwise the coarsest of the converging part. The work of this
+    /// level is an upper bound.
     Already {
         /// Work of the coarsest level.
         work: f64,

@@ -22,7 +22,7 @@ pub enum StepKind {
     Load,
 }
 
-/// Maximum number of steps of a run, which prevents endless runs due to a mistyped dt.
+/// Maximum number of steps of a run. The limit prevents endless runs due to a mistyped dt.
 pub const MOST_STEPS: f64 = 1e9;
 
 /// Maximum relative difference between the requested and the actual step. An error of second order

@@ -1,4 +1,5 @@
-//! Declarations of the judged quantities: values at labels, and sums over the body or its walls.
+//! Declarations of the judged quantities: values at labels (points, identified by their reference
+//! positions), and sums over the body or its walls.
 //!
 //! Errors of sums are relative to a size that is zero only for a body at rest. The size of an
 //! energy is its value; the size of a vector is the sum of the lengths of its terms. An energy is
@@ -8,7 +9,8 @@ use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
 use std::borrow::Cow;
 
-/// Arguments: exact solution, number of dimensions, labels (m), time (s), and the output.
+/// Function that writes exact values at all labels. Its arguments are the exact solution, the
+/// number of dimensions, labels (m), time (s), and the output.
 pub(super) type ExactAtAll = fn(&dyn Truth, usize, &[f64], f64, &mut [f64]);
 
 /// Properties of a judged quantity, except its name.
@@ -27,13 +29,13 @@ pub(super) struct Declaration {
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
-    /// Returns the size of the numbers whose rounding limits the accuracy of the quantity, on a
-    /// body of length L (m); NaN if unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the accuracy of the
+    /// quantity, for a body of the given length (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
     pub(super) is_primary: bool,
     /// Whether only some subjects and exact solutions define the quantity.
     pub(super) is_optional: bool,
-    /// Whether only moving bodies have the quantity; heat conduction does not.
+    /// Whether the quantity is defined only for moving bodies, not for heat conduction.
     pub(super) is_of_motion: bool,
     pub(super) needs_deformation_gradient: bool,
     /// Declaration of a sum over the body; `None` for a field, which has values at labels.
@@ -42,7 +44,7 @@ pub(super) struct Declaration {
 
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
-    /// How the value of a subject is computed; components above the dimension are zero.
+    /// How the value of a subject is computed; components beyond the dimension are zero.
     pub(super) computed: ComputedSum,
     /// Exact value per unit of volume or area.
     pub(super) density: SumDensity,
@@ -258,7 +260,7 @@ fn root_of_ratio(now: f64, reference: f64) -> f64 {
     if reference == 0.0 { 0.0 } else { (now / reference).sqrt() }
 }
 
-/// Returns second moments, and their sum as the size that errors are relative to.
+/// Returns second moments, and their sum, by which errors are divided.
 pub(super) fn moments(values: [f64; 3]) -> ([f64; 3], f64) {
     (values, values.iter().sum())
 }

@@ -7,7 +7,8 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of a plane body, as many as a drawing can show.
+/// Number of parts along the longer side of a plane body. Smaller parts could not be distinguished
+/// in a drawing.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
@@ -22,15 +23,16 @@ pub struct ErrorField {
     pub is_plane: bool,
     /// Size of a part (m).
     pub size: f64,
-    /// Current position (m) and largest error magnitude for each part that contains particles. The
-    /// error is NaN if a part has no finite error. A part is a square with many particles, or one
-    /// particle.
+    /// Current position (m) of the middle, and largest error magnitude, for each part that contains
+    /// particles. The error is NaN if any error in the part is NaN. A part is a square, or an
+    /// interval in 1-D, or one particle if particles are larger than parts.
     pub parts: Vec<[f64; 3]>,
 }
 
 impl ErrorField {
     /// Computes the errors of the quantity `of` in `samples` against `truth` at time `t` (s).
-    /// `None` if the quantity has no errors at labels, or if no particle has a position.
+    /// `None` if the quantity has no errors at labels, or if no two particles have different
+    /// positions.
     pub(super) fn of(of: Quantity, samples: &Samples, truth: &dyn Truth, t: f64) -> Option<Self> {
         let (components, errors) = of.differences(samples, truth, t)?;
         let d = samples.dimension;

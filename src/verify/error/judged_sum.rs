@@ -1,4 +1,4 @@
-//! Compares a sum over the body of a subject with its exact value.
+//! Compares a sum over a computed body with the exact value.
 
 use super::declaration::{ComputedSum, SumDeclaration, moments};
 use super::norm::Norms;
@@ -22,7 +22,7 @@ impl JudgedSum {
     /// force is judged as the reaction.
     ///
     /// # Errors
-    /// Reason why the exact value is unknown, as a phrase that continues the name of the quantity.
+    /// Reason why the exact value is unknown, as a phrase that follows the name of the quantity.
     pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
         let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
         let region = match computed {

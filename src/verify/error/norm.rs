@@ -28,9 +28,9 @@ named! {
         L1 = "l1",
         /// RMS, weighted by volume, at the end.
         L2 = "l2",
-        /// Largest at the end.
+        /// Largest error length at the end.
         Linf = "linf",
-        /// RMS, weighted by mass, at the end: for a density that varies over the body.
+        /// RMS, weighted by mass, at the end. Suitable for a density that varies over the body.
         MassL2 = "mass_l2",
         /// Largest RMS over the instants.
         MaxRms = "max_rms",
@@ -38,7 +38,7 @@ named! {
         MaxL1 = "max_l1",
         /// Largest L2 over the instants.
         MaxL2 = "max_l2",
-        /// Largest over labels and instants.
+        /// Largest error length over labels and instants.
         MaxLinf = "max_linf",
         /// Largest mass-weighted RMS over the instants.
         MaxMassL2 = "max_mass_l2",
@@ -51,7 +51,7 @@ impl NormName {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
     }
 
-    /// Whether the norm is weighted by masses, which only some subjects report.
+    /// Whether the norm is weighted by masses. Only some subjects report masses.
     pub(crate) fn is_by_mass(self) -> bool {
         matches!(self, Self::MassL2 | Self::MaxMassL2)
     }
@@ -76,7 +76,7 @@ impl Norms {
     /// Norms of an error that is zero everywhere.
     pub const ZERO: Self = Self { rms: 0.0, l1: 0.0, l2: 0.0, linf: 0.0, mass_l2: Some(0.0) };
 
-    /// Norms without a measurement: all NaN.
+    /// Norms without a measurement: NaN, and no `mass_l2`.
     pub const NONE: Self =
         Self { rms: f64::NAN, l1: f64::NAN, l2: f64::NAN, linf: f64::NAN, mass_l2: None };
 
@@ -104,8 +104,8 @@ impl Norms {
     /// by label. `weights` contains one weight for each label.
     ///
     /// A norm is not finite if an error or weight is not finite. All norms are NaN if there are no
-    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all are
-    /// zero.
+    /// labels, if the lengths of the slices do not match, if a weight is negative, or if all
+    /// weights are zero.
     pub fn of(errors: &[f64], dimension: usize, weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         let fits = dimension > 0 && errors.len() == dimension * weights.len();
@@ -195,11 +195,11 @@ pub struct ErrorScale {
     /// the same problem are compared.
     pub problem: String,
     /// Divisor that turns an error into a fraction of the solution, in the unit of the judged
-    /// error: the largest exact magnitude, or NaN if there is none. If the suite states a scale,
+    /// error: the largest exact magnitude, or NaN if there is none. If the suite gives a scale,
     /// that scale is already applied, and the divisor is 1.
     pub size: f64,
-    /// Exponent g of the work, which grows like spacing^-g: the number of refined axes of the body,
-    /// plus the exponent of the number of steps.
+    /// Exponent g in work ~ spacing^-g: the number of refined axes of the body, plus the exponent
+    /// of the number of steps.
     pub growth: f64,
 }
 

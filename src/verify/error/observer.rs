@@ -1,4 +1,5 @@
-//! Records the velocity at one label over time. Also interpolates the displacement at a point.
+//! Records the velocity at one label (a point, identified by its reference position) over time, and
+//! interpolates the displacement at a point.
 
 use crate::exact::Truth;
 use crate::subject::Samples;
@@ -7,8 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Velocity at one label over a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Reference position of the observed label (m), which is the label nearest to the requested
-    /// point.
+    /// Reference position (m) of the observed label, the one nearest to the requested point.
     pub label: Vec<f64>,
     /// Time (s), and first velocity component of the subject and of the exact solution (m/s), at
     /// t = 0 and at each instant.
@@ -51,8 +51,8 @@ const NEAR: usize = 4;
 
 /// Interpolates the displacement at a fixed point of a body whose labels form a lattice, by cubic
 /// Lagrange interpolation on each axis. This compares the same point on every level. Each axis
-/// contributes the four labels around the point, or all labels if it has fewer. `None` if no
-/// lattice surrounds the point.
+/// contributes the four labels around the point, or all labels if it has fewer. `None` if the
+/// labels near the point do not form a lattice.
 pub fn displacement_at(samples: &Samples, place: &[f64]) -> Option<Vec<f64>> {
     let d = samples.dimension;
     if d == 0 || place.len() != d || samples.is_empty() {
@@ -87,9 +87,9 @@ fn near(samples: &Samples, axis: usize, x: f64) -> Vec<(f64, f64)> {
     all[first..].iter().copied().zip(weights).collect()
 }
 
-/// Computes a Lagrange interpolation at `x` over the `count` nearest of the ascending coordinates
-/// `sorted`, or over all if there are fewer. Returns the index of the first coordinate used, and
-/// the weights.
+/// Computes the weights of the Lagrange interpolation at `x`. The interpolation uses the `count`
+/// nearest of the ascending coordinates `sorted`, or all if there are fewer. Also returns the index
+/// of the first coordinate used.
 pub(crate) fn lagrange_weights(sorted: &[f64], x: f64, count: usize) -> (usize, Vec<f64>) {
     let count = sorted.len().min(count);
     let above = sorted.partition_point(|c| *c < x);

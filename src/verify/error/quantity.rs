@@ -96,7 +96,7 @@ impl Quantity {
         self.declaration().is_optional
     }
 
-    /// Whether only moving bodies have the quantity; heat conduction does not.
+    /// Whether the quantity is defined only for moving bodies, not for heat conduction.
     pub fn is_of_motion(self) -> bool {
         self.declaration().is_of_motion
     }
@@ -134,8 +134,8 @@ impl Quantity {
         self.declaration().sum
     }
 
-    /// Returns the size of the numbers whose rounding limits the smallest possible error, on a body
-    /// of length `length` (m). NaN if it is unknown.
+    /// Returns the magnitude of the stored numbers whose rounding limits the smallest possible
+    /// error, for a body of length `length` (m); NaN if unknown.
     pub fn rounding_size(self, length: f64) -> f64 {
         (self.declaration().rounding_size)(length)
     }

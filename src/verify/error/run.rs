@@ -24,7 +24,7 @@ pub struct Comparison<'a> {
     pub of: Quantity,
     /// Exact value of the judged quantity, if it is a sum over the body.
     pub sum: Option<&'a JudgedSum>,
-    /// Box to which errors are restricted; `None`: errors over the whole body.
+    /// Box to which errors are restricted; `None` for the whole body.
     pub within: Option<&'a JudgedBox>,
     /// Reference position (m) of the observed point, if any.
     pub observe: Option<&'a [f64]>,
@@ -47,9 +47,9 @@ impl Comparison<'_> {
 /// suffice, because an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` through `clock`. At every instant, measures the error of `subject` against
-/// `truth` at its reference labels. Also records the velocity of the label nearest to the observed
-/// point.
+/// Advances `subject` over all steps of `clock`. At every instant, measures the error of `subject`
+/// against `truth` at its reference labels. Also records the velocity of the label nearest to the
+/// observed point.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -203,15 +203,16 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Returns the errors over the judged part of the body at time `t` (s); `None` for quantities
-    /// without values at labels.
+    /// Returns the errors over the judged part of the body at time `t` (s); for a sum over the
+    /// body, the errors of the displacement. `None` if the errors are not stored or cannot be
+    /// computed.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         let judged = || judged_samples(self.comparison, &self.samples);
         keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
     }
 
-    /// Creates the result of a failed run, which has a reason and no errors.
+    /// Creates the result of a failed run, with the reason of the failure and without errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);

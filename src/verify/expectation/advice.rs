@@ -12,8 +12,7 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum distance of an order from the middle of a range, as a fraction of the half-width of the
-/// range.
+/// Maximum width of the observed interval, as a fraction of the half-width of the default range.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.
@@ -33,7 +32,7 @@ pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome
     study.levels.iter().filter(|level| level.usable)
 }
 
-/// Half-width of the interval of an order above which more levels are suggested.
+/// Half-width of the confidence interval of an order above which more levels are suggested.
 const WIDE: f64 = 0.03;
 
 /// Lists reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.

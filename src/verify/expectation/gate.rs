@@ -37,7 +37,7 @@ pub struct Requirement {
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is stated. Other methods
+    /// Bound on the errors of the suite's own methods, if no other bound is given. Other methods
     /// need not satisfy this bound if they have too few levels for an order.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
@@ -170,7 +170,7 @@ impl Requirement {
     }
 
     /// Whether the 95 % interval of the order reaches the lowest accepted order. It must also
-    /// exclude zero and orders that are lower by 0.5.
+    /// exclude orders that are lower by 0.5 or by half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };

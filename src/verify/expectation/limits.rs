@@ -1,4 +1,4 @@
-//! Bounds on measured values, for expectations without an order. One level is sufficient.
+//! Bounds on measured values. Without an expected order, one level is sufficient.
 
 use crate::verify::conservation::{ConservationError, Conserved};
 use crate::verify::figure::{BoundKind, CaseFigure};
@@ -11,8 +11,8 @@ pub struct Limits {
     pub bounds: Vec<(CaseFigure, f64)>,
     /// Maximum relative drifts on the levels that count.
     pub drift: Vec<(Conserved, f64)>,
-    /// Range of the energy rate (1/s). It must contain the whole confidence interval on every level
-    /// that counts.
+    /// Range of the energy rate (1/s). The range must contain the whole confidence interval on
+    /// every level that counts.
     pub energy_rate: Option<(f64, f64)>,
 }
 
@@ -179,7 +179,8 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Formats a drift. One digit is enough: a drift is either rounding or far too large.
+/// Formats a drift. One digit is enough, because a drift is either a rounding error or far too
+/// large.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }

@@ -42,7 +42,7 @@ pub struct CaseFindings {
     pub order: Option<Bounds>,
     /// Order between the two finest levels.
     pub finest_pair: Option<f64>,
-    /// Number of cell changes of particles on the finest level.
+    /// Number of times that a particle changed its cell on the finest level.
     pub crossings: Option<u64>,
     /// Measured values that limits are compared with.
     pub measured: Measured,
@@ -51,7 +51,8 @@ pub struct CaseFindings {
 }
 
 impl Expectation {
-    /// Expects convergence with order `p`, within [`OrderHypothesis::TOLERANCE`].
+    /// Creates the expectation of convergence with order `p`, within
+    /// [`OrderHypothesis::TOLERANCE`].
     pub fn of_order(p: f64, because: &str) -> Self {
         let around = (p - OrderHypothesis::TOLERANCE, p + OrderHypothesis::TOLERANCE);
         Self {

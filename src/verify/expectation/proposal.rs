@@ -1,4 +1,4 @@
-//! Proposes expectations for a suite that states none, based on runs of the suite.
+//! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! Theory has priority: if the observed order agrees with the formal one, the formal order is
 //! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
@@ -17,8 +17,8 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. Other processors and settings add in
-/// another order and have other rounding errors.
+/// Minimum ratio of a proposed bound to the measured drift. A different processor or setting may
+/// add in a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.
@@ -48,7 +48,8 @@ pub struct ProposedKey {
 pub struct Proposal {
     /// Keys other than `case` and `because`.
     pub keys: Vec<ProposedKey>,
-    /// Reason, which the author of the suite must complete if theory gives none.
+    /// Reason for the expectation. If theory gives none, the author of the suite must complete the
+    /// text.
     pub because: String,
     /// Verdict and measured values of the run.
     pub seen: String,
@@ -95,7 +96,7 @@ fn seen(study: &Convergence) -> String {
     format!("{}{}", study.verdict(), order.unwrap_or_default())
 }
 
-/// Returns the expected verdict or order, if another run would meet it too.
+/// Returns the verdict or order to propose; `None` if another run might not meet it.
 fn claim(study: &Convergence) -> Option<ProposedOrder> {
     let formal = study.formal_order;
     let theory = match study.axis {
@@ -164,8 +165,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposes bounds on the conserved sums. Bounds on mass are attributed to theory, because in every
-/// method the mass is fixed to the particles.
+/// Proposes bounds on the conserved sums. A bound on mass alone is attributed to theory, because in
+/// every method the mass is fixed to the particles.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));

@@ -1,8 +1,8 @@
-//! Finds the probable mistake in a wrong derivative by comparing it with runs without derivatives.
+//! Finds the probable mistake in a wrong derivative by comparison with runs without derivatives.
 
 use super::ValueCheck;
 
-/// Maximum relative difference between a derivative and a number that explains it.
+/// Maximum relative difference at which two numbers count as equal.
 const ALIKE: f64 = 1e-3;
 
 /// Fraction of a central difference below which a derivative counts as zero.
@@ -29,7 +29,7 @@ impl GradientEntry {
     }
 }
 
-/// Results of runs without derivatives, which are compared with a wrong derivative.
+/// Results of runs without derivatives, for comparison with a wrong derivative.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradientEvidence {
     /// Entries of the reported gradient, on the level where parameters are perturbed.
@@ -42,7 +42,8 @@ pub struct GradientEvidence {
 
 impl GradientEvidence {
     /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if no
-    /// result in `self` explains the derivative. `value` is the check of the reported value.
+    /// result in `self` explains the derivative. `value` is the check of the reported value of the
+    /// functional.
     pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
         if !value.agrees() {
             let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;

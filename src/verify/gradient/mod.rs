@@ -28,15 +28,14 @@ named! {
         Jumps = "jumps",
         /// The derivative is correct, and the function is linear in the parameter.
         Linear = "linear",
-        /// Rounding hides the remainder: no verdict.
+        /// Rounding errors hide the remainder, so the derivative cannot be judged.
         AtRounding = "at_rounding",
-        /// The derivative is not that of the function.
+        /// The reported derivative is not the derivative of the function.
         Wrong = "wrong",
     }
 }
 
-/// Two values of the functional. The solver reports one with the gradient. The other is computed
-/// from the state of a run without derivatives.
+/// Two values of the functional that must agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ValueCheck {
     /// Value reported with the gradient.

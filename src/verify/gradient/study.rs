@@ -6,7 +6,7 @@ use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
 
-/// Maximum difference between the observed order of the derivative and the formal order.
+/// Maximum difference between the observed order of the derivative error and the formal order.
 const ORDER: f64 = 0.15;
 
 /// Maximum difference between the order over the two finest levels and the formal order.
@@ -128,8 +128,8 @@ pub struct GradientTerms {
 }
 
 impl GradientTerms {
-    /// Returns the requirements of the gate on a solver with this formal order: any state except
-    /// `wrong`, and the order.
+    /// Returns the requirements of `run --gate` on a solver with this formal order: any state
+    /// except `wrong`, and the order.
     pub fn of_gate(formal_order: f64) -> Self {
         let around = |width: f64| Some((formal_order - width, formal_order + width));
         Self { state: None, order: around(ORDER), finest: around(FINEST) }

@@ -4,8 +4,8 @@
 /// relative to this change.
 const SMOOTH: f64 = 1e-3;
 
-/// Minimum difference between neighbouring values of the function that counts as a jump, relative
-/// to the change of the function.
+/// Minimum size of a jump, relative to the change of the function. A jump is the change between
+/// neighbouring points minus the integral of the derivative between them.
 const JUMP: f64 = 5e-4;
 
 /// Value and derivative of the functional at one value of the parameter.
@@ -26,7 +26,7 @@ pub struct Sweep {
     pub change: f64,
     /// Trapezoidal sum of the derivative, divided by `change`.
     pub share: f64,
-    /// Jumps of the function between neighbouring values of the parameter, divided by `change`.
+    /// Jumps of the function between neighbouring points, divided by `change`.
     pub jumps: Vec<f64>,
 }
 
@@ -49,7 +49,7 @@ impl Sweep {
         Some(Self { change, share, jumps })
     }
 
-    /// Whether the integral of the derivative equals the change of the function.
+    /// Whether the integral of the derivative equals the change of the function, without jumps.
     pub fn is_smooth(&self) -> bool {
         (self.share - 1.0).abs() <= SMOOTH && self.jumps.is_empty()
     }

@@ -2,10 +2,10 @@
 
 use super::GradientState;
 
-/// Exponent of the smallest perturbation, which is the parameter times 2^-exponent.
+/// Exponent k of the smallest perturbation, the parameter times 2^-k.
 pub const LAST_LEVEL: u32 = 16;
 
-/// Exponent of the largest perturbation, which is the parameter times 2^-exponent.
+/// Exponent k of the largest perturbation, the parameter times 2^-k.
 pub const FIRST_LEVEL: u32 = 4;
 
 /// Range of the order of the remainder for a correct derivative of a smooth function.
@@ -170,7 +170,8 @@ fn is_in(order: Option<f64>, range: (f64, f64)) -> bool {
     order.is_some_and(|order| range.0 <= order && order <= range.1)
 }
 
-/// Whether the orders for the smallest perturbations above the rounding error are in a range.
+/// Whether the orders for the smallest perturbations are in a range. Perturbations whose remainder
+/// is a rounding error are ignored.
 fn has_tail(orders: &[Option<f64>], range: (f64, f64)) -> bool {
     let end = orders.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
     let start = end.saturating_sub(LEVELS - 1);

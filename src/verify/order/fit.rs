@@ -75,8 +75,8 @@ impl FittedLine {
         (sxx > 0.0 && line.slope.is_finite()).then_some(line)
     }
 
-    /// Returns the vertical distance of a point from the line: `ln` of the ratio of its error to
-    /// that of the line.
+    /// Returns the vertical distance of a point from the line. This is `ln` of the ratio of the
+    /// error at the point to the error on the line.
     pub(crate) fn departure(&self, point: &LogPoint) -> f64 {
         (point.y - self.mean_y) - self.slope * (point.x - self.mean_x)
     }

@@ -10,12 +10,12 @@ pub struct OrderHypothesis {
     pub formal_order: f64,
     /// Range for the observed order; `None` for `formal_order` -+ [`OrderHypothesis::TOLERANCE`].
     pub expected: Option<(f64, f64)>,
-    /// Axis of refinement, which determines only the name of the spacing in texts.
+    /// Axis of refinement. The axis determines only the name of the spacing in texts.
     pub axis: Axis,
 }
 
 impl OrderHypothesis {
-    /// Maximum distance of the observed order from the formal one if no range is stated: a fifth of
+    /// Maximum distance of the observed order from the formal one if no range is given: a fifth of
     /// 0.5, the typical distance between the orders of two methods.
     pub const TOLERANCE: f64 = 0.1;
 
@@ -27,7 +27,7 @@ impl OrderHypothesis {
         Self { formal_order: order, expected: None, axis: Axis::Space }
     }
 
-    /// Creates the hypothesis of a formal order with a stated range.
+    /// Creates the hypothesis of a formal order with the range from `low` to `high`.
     pub const fn within(order: f64, low: f64, high: f64) -> Self {
         Self { formal_order: order, expected: Some((low, high)), axis: Axis::Space }
     }

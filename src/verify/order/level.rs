@@ -12,7 +12,7 @@ named! {
         Space = "space",
         /// Time steps, on one grid.
         Time = "time",
-        /// Particles per cell, on one grid. Their spacing along an axis is h/ppc^(1/D).
+        /// Particles per cell, on one grid. The particle spacing along an axis is h/ppc^(1/D).
         Particles = "particles",
     }
 }
@@ -69,7 +69,7 @@ impl Level {
         Self { failed: Some(reason.into()), ..self }
     }
 
-    /// Returns the defect that makes the level invalid, whether it counts or not.
+    /// Returns the defect that makes the level invalid, even if the level does not count.
     fn diagnostic(&self, axis: Axis) -> Option<String> {
         let (name, h) = (axis.symbol(), format_number(self.h));
         if let Some(reason) = &self.failed {

@@ -45,8 +45,8 @@ const ORDER_SCATTER: f64 = 1.0;
 /// Minimum order of a triple. For lower orders the extrapolated part exceeds twice the last change.
 const LEAST_ORDER: f64 = 0.5;
 
-/// Maximum order of a triple. For higher orders the changes shrink faster than with any method
-/// here.
+/// Maximum order of a triple. For higher orders the changes shrink faster than with any method of
+/// this crate.
 const LARGEST_ORDER: f64 = 4.5;
 
 /// Minimum last change, in units of the rounding error of a value. Rounding changes the ratio of
@@ -71,8 +71,8 @@ pub struct SeriesPoint {
 /// Order and limit of a series of values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEstimate {
-    /// Order of the finest three values. Its interval is computed from the order of the next
-    /// coarser triple.
+    /// Order of the finest three values. The width of the interval depends on the difference from
+    /// the order of the next coarser triple.
     pub order: Interval,
     /// Extrapolated value, with an interval of nominally 95 %.
     pub limit: Interval,

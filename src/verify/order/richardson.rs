@@ -8,8 +8,8 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). Only monotonically converging values have an order, which is the solution `p`.
-//! The logarithm of an absolute value would also yield orders for oscillation and divergence.
+//! Hoekstra (2014). Only monotonically converging values have an order: the solution `p`. The
+//! logarithm of an absolute value would also yield orders for oscillation and divergence.
 //!
 //! Three values always fit, so they give no interval; `limit_estimate` compares two triples. The
 //! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered,

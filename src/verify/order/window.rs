@@ -5,11 +5,11 @@
 //!
 //! - An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
 //!   the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for
-//!   all shorter windows together. It is small compared with the 5 % of the confidence interval, so
-//!   the selection hardly affects the coverage of the interval.
+//!   all shorter windows together. This risk is small compared with the 5 % of the confidence
+//!   interval, so the selection hardly affects the coverage of the interval.
 //! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
-//!   side, and the departure grows outwards. An outlier among good levels is therefore kept. It
-//!   widens the interval.
+//!   side, and the outermost level departs most. An outlier among good levels is therefore kept,
+//!   and widens the interval.
 //! - Levels are dropped at the fine end only if the error stops decreasing (a floor). The verdict
 //!   is then `at floor`.
 //!

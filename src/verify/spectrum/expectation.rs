@@ -9,8 +9,8 @@ pub struct SpectrumExpectation {
     /// Maximum deviation of the phase error.
     pub phase_within: Option<f64>,
     /// Maximum deviation of the logarithm of the amplitude per period. A difference per step below
-    /// the strain of the wave is accepted, because the closed form neglects this order: it assumes
-    /// particles at rest.
+    /// the strain of the wave is accepted, because the closed form assumes particles at rest and
+    /// neglects terms of this order.
     pub damping_within: Option<f64>,
 }
 

@@ -77,7 +77,8 @@ impl StudyResults for SpectrumStudy {
 }
 
 impl SpectrumStudy {
-    /// States the largest magnitude of the measured phase errors and the smallest amplitude.
+    /// Returns text with the largest magnitude of the measured phase errors and the smallest
+    /// amplitude.
     pub fn reason(&self) -> String {
         let measured = || self.rows.iter().filter_map(|row| row.measured.as_ref().ok());
         let phases = measured().filter_map(|figures| figures.phase_error).map(f64::abs);

@@ -10,14 +10,14 @@ use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Size of a perturbation. When a material law adds the perturbation to F = I, the relative
-/// rounding error is 1e-10.
+/// Size of a perturbation, relative to the natural size of the entry. When a material law adds the
+/// perturbation to F = I, the relative rounding error is 1e-10.
 const STEP: f64 = 1e-6;
 
 /// Maximum change of a state of rest in a step, relative to the natural sizes.
 const REST: f64 = 1e-12;
 
-/// Maximum difference between rounded numbers whose exact difference is zero.
+/// Maximum difference from the identity matrix that counts as a rounding error.
 const ROUNDING: f64 = 1e-8;
 
 /// Reason why a step has no amplification matrix.
@@ -32,10 +32,10 @@ pub enum AmplificationError {
 }
 
 /// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
-/// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are its natural
-/// sizes of speed and stress. Some entries of the state affect only themselves, with factor one,
-/// such as the volume of a particle without stress. Such an entry has the eigenvalue one and no row
-/// in the matrix.
+/// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are the natural
+/// sizes of speed and stress. The matrix has no row for an entry that affects no other entry and
+/// does not change by itself, such as the volume of a particle without stress. The eigenvalue of
+/// such an entry is one.
 ///
 /// # Errors
 /// If the subject is not at rest or a step fails.
@@ -77,7 +77,7 @@ fn advance(subject: &mut dyn Perturbable, dt: &[f64]) -> Result<(), Amplificatio
     dt.iter().try_for_each(|dt| subject.step(*dt)).map_err(AmplificationError::Failed)
 }
 
-/// Removes the entries that affect only themselves, with factor one.
+/// Removes the entries whose column is a column of the identity matrix.
 fn reduced(full: &DMatrix<f64>) -> DMatrix<f64> {
     let keeps_itself = |j: usize| {
         let expected = |i: usize| if i == j { 1.0 } else { 0.0 };

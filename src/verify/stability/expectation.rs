@@ -147,7 +147,7 @@ mod tests {
     use super::*;
     use rstest::rstest;
 
-    /// Of a limit outside the searched range, only a lower or upper bound is known.
+    /// For a limit outside the searched range, only a lower or upper bound is known.
     #[rstest]
     #[case::far_enough(FigureBounds { above: Some(9.0), ..FigureBounds::default() }, true)]
     #[case::not_far_enough(FigureBounds { above: Some(11.0), ..FigureBounds::default() }, false)]

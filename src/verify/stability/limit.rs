@@ -1,7 +1,7 @@
 //! Finds the smallest value of a parameter that is not stable.
 //!
 //! The range is scanned upwards, because a larger value may be stable again. The first interval
-//! with an unstable upper end is bisected until it is short enough.
+//! with an unstable upper end is bisected until the bracket is short enough.
 
 /// Stability limit of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]

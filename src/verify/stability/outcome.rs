@@ -38,7 +38,7 @@ pub struct StabilityRow {
 pub struct Critical {
     /// Prediction from the amplification matrix of a frozen configuration.
     pub predicted: Option<Prediction>,
-    /// Runs below and above the prediction. Each has its parameter value, divided by the
+    /// Runs below and above the prediction, each with its parameter value divided by the
     /// prediction.
     pub confirmed: Vec<(f64, Trial)>,
     /// Limit from runs by bisection, if there is no prediction.

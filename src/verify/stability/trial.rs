@@ -2,7 +2,7 @@
 //!
 //! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
 //! uniaxial strain. In 1-D and at small strain the second term is the strain energy. Otherwise this
-//! term measures the size of the stress, which is sufficient to detect growth. The energy is
+//! term only measures the size of the stress. That is sufficient to detect growth. The energy is
 //! divided by its initial value. If the body starts at rest, it is divided by the energy of a unit
 //! strain.
 
@@ -189,7 +189,8 @@ fn length(components: &[f64]) -> f64 {
     components.iter().fold(0.0, |all, c| libm::hypot(all, *c))
 }
 
-/// Maximum number of particles for a neighbour search, which computes the distances of all pairs.
+/// Maximum number of particles for a neighbour search. The search computes the distances of all
+/// pairs.
 const MOST: usize = 4096;
 
 /// Maximum distance between neighbours along an axis, in units of the shortest distance.

@@ -85,7 +85,7 @@ pub struct Trial {
     pub stress: f64,
     /// Largest displacement (m) at the end.
     pub displacement: f64,
-    /// Changes of the energy by each stage of a step, summed over the run; `None` if no ledger is
-    /// kept.
+    /// Changes of the energy by each stage of a step, summed over the run; `None` if these changes
+    /// were not recorded.
     pub ledger: Option<EnergyBalance>,
 }

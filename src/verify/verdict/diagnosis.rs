@@ -5,8 +5,8 @@ use crate::verify::order::hypothesis::OrderHypothesis;
 use crate::verify::verdict::judge::Judgement;
 use crate::verify::verdict::name::Verdict;
 
-/// A change that does not restore the order is reported only if it reduces the finest error to this
-/// fraction or less.
+/// A change that neither restores nor raises the order is reported only if it reduces the finest
+/// error to this fraction or less.
 const FALL: f64 = 0.75;
 
 /// Maximum half-width of the confidence interval of a settled order.
@@ -38,12 +38,12 @@ pub enum Evidence {
 pub struct ChangedRun {
     /// The change, as text.
     pub change: String,
-    /// Cause that is inferred if the change restores the order or reduces the error.
+    /// Cause that is inferred if the change restores or raises the order, or reduces the error.
     pub cause: &'static str,
     /// Modification of the suite that restores the order.
     pub remedy: &'static str,
-    /// Reason why `check` rejects the suite with this change. `None` if it accepts the suite or was
-    /// not run.
+    /// Reason why `check` rejects the suite with this change. `None` if `check` accepts the suite
+    /// or was not run.
     pub refusal: Option<String>,
     /// Verdict on the levels of the run, for an expected order near the theoretical one.
     pub verdict: Verdict,
@@ -53,7 +53,8 @@ pub struct ChangedRun {
     pub error: f64,
     /// Finest error with the change, divided by the finest error without it.
     pub ratio: f64,
-    /// `ratio` divided by the ratio of the sizes of the two exact solutions.
+    /// `ratio` divided by the ratio of the sizes of the exact solutions with and without the
+    /// change.
     pub relative_ratio: f64,
     /// Whether the change refines the levels. Finer levels have a smaller error regardless of the
     /// cause.
@@ -163,8 +164,8 @@ impl Diagnosis {
         self.findings.iter().find(|finding| finding.kind == kind)
     }
 
-    /// Returns the causes, starting with the most likely one. If a run or a level restores the
-    /// theoretical order, the exact solution is not the cause.
+    /// Returns the causes, starting with the most likely one. If a run restores the theoretical
+    /// order, the exact solution is not a cause.
     pub fn causes(&self) -> Vec<Cause<'_>> {
         use KnownCauseKind::{CoarseLevels, NotSmooth};
         if self.is_known() {
@@ -201,9 +202,9 @@ impl Diagnosis {
     }
 
     /// Returns the run that reveals the cause, and the effect of its change. If runs restore the
-    /// order, this is the first one nearest to theory. Otherwise it is the first run with the
-    /// largest increase to a settled order. If there is none, it is the run with the largest
-    /// decrease of the error.
+    /// order, this is the first run whose order is nearest to theory. Otherwise it is the first run
+    /// with the largest increase to a settled order or, without such a run, the run with the
+    /// largest decrease of the error.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;

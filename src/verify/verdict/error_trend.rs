@@ -1,5 +1,5 @@
-//! Shapes of an error series that exclude an order. They are recognised from error ratios only, so
-//! the units of the error and of `h` have no effect.
+//! Detects divergence, oscillation and floors (errors that stop decreasing) in a series of errors.
+//! The rules use only error ratios, so the units of the error and of `h` have no effect.
 
 use std::f64::consts::LN_2;
 
@@ -10,10 +10,11 @@ use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
 /// floor.
 const LEAST_GROWTH: f64 = LN_2;
 
-/// Maximum range of ln(error) on a floor: a factor of two, which allows round-off noise of -+ 30 %.
+/// Maximum range of ln(error) on a floor: a factor of two, to allow round-off noise of -+ 30 %.
 const FLOOR_BAND: f64 = LN_2;
 
-/// Minimum theoretical decrease over the levels of a floor: the formal order would halve the error.
+/// A constant error counts as a floor only if the formal order would at least halve the error over
+/// the same levels.
 const LEAST_LOSS: f64 = LN_2;
 
 /// Minimum number of levels of a floor or a divergence: two successive pairs.
@@ -29,17 +30,18 @@ const LEAST_SWING: f64 = 1.5;
 /// series with a smaller ratio has a trend.
 const BALANCE: f64 = 1.0 / 3.0;
 
-/// Minimum number of turns of an oscillation. A single outlier causes two turns.
+/// Minimum number of changes between rise and fall in an oscillation. A single outlier causes two
+/// such changes.
 const TURNS: usize = 3;
 
 /// Returns the index of the level from which the error grows until the fine end; `None` if it does
 /// not grow.
 ///
-/// This is the first level if the line through all points rises with an order below -0.2 and its
-/// confidence interval excludes zero. Otherwise the divergent part begins at the smallest error,
-/// has at least three levels, and grows at least twofold. It must also meet one of three
+/// The first level is returned if the line through all points has an order below -0.2, with a
+/// confidence interval that excludes zero. Otherwise the divergent part begins at the smallest
+/// error, has at least three levels, and grows at least twofold. It must also meet one of three
 /// conditions: it ends at twice the first error of the series or more, rises over its last two
-/// pairs, or has a rising line as above.
+/// pairs, or has a line with an order below -0.2, as above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;

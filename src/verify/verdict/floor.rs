@@ -74,7 +74,7 @@ impl Floor {
         !self.probes.is_empty() && self.probes.iter().all(told)
     }
 
-    /// States the result and its measured errors in a sentence.
+    /// Returns a sentence with the cause and the measured errors.
     pub fn sentence(&self) -> String {
         let of = |axis: Axis| format!("the main cause of the error is the {}", axis.noun());
         let finding = match self.cause() {

@@ -2,8 +2,8 @@
 //!
 //! 1. Is every level valid, and the hypothesis testable? Otherwise `failed`.
 //! 2. Are there four usable levels? Otherwise `too few levels`.
-//! 3. Does the error oscillate, grow, or stop at a floor? `oscillatory`, `divergent` or `at floor`,
-//!    by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
+//! 3. Does the error oscillate, grow, or stop decreasing (a floor)? `oscillatory`, `divergent` or
+//!    `at floor`, by the shapes of [`error_trend`]; an error of exactly zero is also a floor.
 //! 4. Which levels are asymptotic? See [`window`]. If the window excludes levels at the fine end,
 //!    the verdict is `at floor`.
 //! 5. Has the order settled over these levels? A wide interval or a drift is `pre-asymptotic`.
@@ -28,7 +28,8 @@ use crate::verify::order::window::{FEWEST_LEVELS, Window};
 /// the orders of two methods.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// Maximum half-width relative to the order, for high orders. At order 2 it equals [`SETTLED`].
+/// Maximum half-width relative to the order, for high orders. At order 2 the half-width equals
+/// [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
 /// Minimum change of the order along the window that counts as a drift: the width of the default
@@ -166,7 +167,7 @@ impl JudgedSeries {
         })
     }
 
-    /// Detects a floor by an error of zero, which is at or below round-off.
+    /// Detects a floor from an error of zero, because such an error is at or below round-off.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Behaviour of a series of errors. Only [`Verdict::Converging`] supports a claimed order. Every
-/// other verdict states why the order is not supported.
+/// other verdict names the reason why the order is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Verdict {

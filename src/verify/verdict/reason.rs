@@ -25,7 +25,7 @@ pub(crate) enum Reason {
         change: f64,
     },
     /// The order is compared with the expected range. `overlaps` is true if the order is outside
-    /// the range but its interval overlaps it.
+    /// the range but its interval overlaps the range.
     Against {
         verdict: Verdict,
         range: (f64, f64),
@@ -34,7 +34,7 @@ pub(crate) enum Reason {
 }
 
 impl Reason {
-    /// States the reason as a sentence, with the order over the window if there is one.
+    /// Returns the reason as a sentence, with the order over the window if there is one.
     pub(crate) fn sentence(
         &self,
         levels: &[Level],

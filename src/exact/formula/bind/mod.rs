@@ -78,8 +78,9 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. A loop processes chains of left operands, which may be as
-    /// long as the source. The nesting depth of the parser limits recursion.
+    /// Compiles a node and its children. Chains of left operands may be as long as the source, so a
+    /// loop processes them. The depth of recursion is limited by the nesting depth that the parser
+    /// accepts.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
@@ -301,7 +302,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(self.settle(start, at, terms))
     }
 
-    /// Compiles the body of a sum, which runs once per term.
+    /// Compiles the body of a sum. The body runs once per term.
     fn term(
         &mut self,
         frame: &mut Frame<'a>,
@@ -318,7 +319,7 @@ impl<'a> ProgramBuilder<'a> {
         Ok(term)
     }
 
-    /// Returns the value of a bound of a sum, which must be a constant integer.
+    /// Returns the value of a sum bound. The bound must be a constant integer.
     fn bound(
         &mut self,
         frame: &mut Frame<'a>,

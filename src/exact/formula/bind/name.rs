@@ -108,7 +108,7 @@ impl Frame<'_> {
     }
 }
 
-/// Names of other languages, each with the correct form in this language.
+/// Names from programming languages, each with its equivalent in the formula language.
 const ELSEWHERE: &[(&str, &str)] = &[
     ("e", "there is no constant `e`: write `exp(1)`"),
     ("log", "the natural logarithm is `ln`"),

@@ -1,4 +1,5 @@
-//! Markers: the outline depends on the series, the filling on the role of the level.
+//! Draws markers. The outline identifies the series; the filling shows whether the level counts for
+//! the order.
 
 use super::style::{MarkerShape, PAPER};
 use super::svg::{Pt, SvgElement};

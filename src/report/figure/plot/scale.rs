@@ -38,7 +38,7 @@ const MIN_DECADES: f64 = 0.5;
 /// rounding noise.
 const MIN_SPREAD: f64 = 1e-7;
 
-/// Smaller magnitudes, which include all subnormal numbers, are drawn as zero.
+/// Magnitude below which a value is drawn as zero. All subnormal numbers are smaller.
 const TINY: f64 = 1e-290;
 
 impl Scale {

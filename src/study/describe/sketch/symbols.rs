@@ -53,8 +53,9 @@ impl Edge {
         (0..count).map(move |k| (k as f64 + 0.5) / count as f64)
     }
 
-    /// Returns tail and tip of an arrow in `direction`. The tip of a pressure and the tail of a
-    /// tension are at the face. An arrow along the face is drawn at a distance from it.
+    /// Returns tail and tip of an arrow in `direction`. The arrow of a pressure ends at the face,
+    /// and the arrow of a tension starts at the face. An arrow along the face is drawn next to the
+    /// face.
     fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
         let (ux, uy) = direction.unwrap_or(self.out);
         let (x, y) = (ARROW * ux, ARROW * uy);
@@ -142,7 +143,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             edge.hatching(3.0, &mut group);
         }
         "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
-        // The direction of the prescribed motion is stated as text.
+        // The direction of the prescribed motion is written as text.
         "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
         _ => {}
     }
