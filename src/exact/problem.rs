@@ -13,7 +13,6 @@ use super::formula::{Formula, Number};
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
 use super::law::Equation;
-use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, Places, write};
 use super::outline::Outline;
 use super::tensor::{Tensor, tensor};
@@ -71,6 +70,17 @@ pub struct Problem {
     pub linearised: Option<Linearised>,
     /// Cache of manufactured forces for the runs of this problem, if any.
     pub shared_forces: Option<Arc<SharedForces>>,
+}
+
+/// The residual that a linearised motion may have in the conditions that involve the law: the
+/// equation of motion and tractions. Conditions that are linear in u are still checked with the
+/// tolerance of the problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised {
+    /// Maximum residual, relative to the terms of the condition.
+    pub tolerance: f64,
+    /// Reason for accepting a linearised motion.
+    pub because: String,
 }
 
 impl Problem {

@@ -1,11 +1,10 @@
 //! Checks boundary conditions at points of faces, and prescribed velocities at points of sets.
 
-use super::event::{AXES, Event, OnFace, SpaceTimeBox};
+use super::event::{AXES, Event, OnFace, SpaceTimeBox, share};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
 use crate::exact::condition::{Face, FacePoint};
 use crate::exact::formula::Formula;
-use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;

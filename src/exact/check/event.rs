@@ -67,6 +67,11 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
+/// Returns a residual `left` divided by `size`, in the same unit; 0 if the residual is 0.
+pub(super) fn share(left: f64, size: f64) -> f64 {
+    if left == 0.0 { 0.0 } else { left.abs() / size }
+}
+
 /// Number of events over the whole body and run, if large terms occur only in a small part.
 pub(crate) const EVENTS: usize = 4096;
 

@@ -4,11 +4,10 @@
 //!
 //! For laws with memory, exact solutions require monotonic loading, which is checked here.
 
-use super::event::{AXES, Event};
+use super::event::{AXES, Event, share};
 use super::survey;
 use super::survey::{Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
-use crate::exact::linearised::share;
 use crate::exact::motion::variables;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
