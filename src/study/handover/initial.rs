@@ -13,9 +13,9 @@ use crate::study::setup::initial_state::Initial;
 use crate::subject::SubjectError;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
-use crate::suite::scene::grid_size::{cell_size, grid_axis};
 use crate::suite::scene::load::{EffectName, ListedLoad, LoadTarget};
 use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::scene::{cell_size, grid_axis};
 use crate::verify::StepKind;
 use std::sync::Arc;
 

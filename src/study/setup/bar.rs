@@ -9,7 +9,7 @@ use crate::subject::{Start, SubjectError};
 use crate::suite::grammar::EquationName;
 use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
 /// Creates the FEM bar of `method`. Also used for references.

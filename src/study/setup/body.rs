@@ -13,10 +13,10 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::boundary::{FaceSite, build as build_boundary};
-use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{LatticeOffsets, block};
 use crate::suite::scene::load;
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
 
 /// Model of a body at the start of a run.
 pub(crate) struct Body<'a> {

@@ -14,7 +14,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{AMPLITUDE, SpectrumExpectation};
 use std::f64::consts::TAU;
