@@ -11,7 +11,7 @@ use self::statement::{described, not_applicable};
 use self::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
-use crate::study::describe::statement::{Dispensable, Rows, step_profile, without_effect};
+use crate::study::describe::{Dispensable, Rows, step_profile, without_effect};
 use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning, Study};
 use crate::study::time_series::{SeriesError, ShownRun};

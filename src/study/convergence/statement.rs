@@ -1,7 +1,7 @@
 //! Describes a convergence study in rows, and creates the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
-use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
+use crate::study::describe::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
