@@ -88,7 +88,7 @@ impl YieldSurface for Cone {
             (shear_slope + one * (friction * bulk)) / (mu + bulk * friction * dilation);
         let mean_slope = one * bulk - flow_slope * (bulk * dilation);
         let length_slope = (shear_slope - flow_slope * mu) * 2.0_f64.sqrt();
-        Some(modulus_of_invariants(trial, &mean_slope, (length, &length_slope)))
+        Some(modulus_of_invariants(trial, &mean_slope, length, &length_slope))
     }
 
     /// de Souza Neto et al. (2008), eq. 8.113: both invariants are linear in the strain.

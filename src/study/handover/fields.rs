@@ -129,7 +129,8 @@ impl SceneFields {
     /// Returns the values of the load numbers named `what`.
     fn numbers(
         &self,
-        (what, numbers): (&str, &LoadNumbers),
+        what: &str,
+        numbers: &LoadNumbers,
         t: f64,
         at: &FieldPlaces<'_>,
     ) -> Result<Vec<f64>, FieldError> {
@@ -254,12 +255,12 @@ impl FieldSource for SceneFields {
                 {
                     self.check_on_rim(&circle, at)?;
                 }
-                self.numbers((load.effect.name(), &numbers), t, at)?
+                self.numbers(load.effect.name(), &numbers, t, at)?
             }
             FieldName::Face(number) => {
                 self.check_on_face(number, at)?;
                 let face = &self.scene.faces[number];
-                self.numbers((face.condition(), &face.hold.numbers()), t, at)?
+                self.numbers(face.condition(), &face.hold.numbers(), t, at)?
             }
             _ => self.initial(of, at)?,
         };

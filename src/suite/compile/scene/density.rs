@@ -53,7 +53,7 @@ pub(crate) fn varying(
         return Err(evaluator.diagnostic(&path, &message));
     }
     let density = Density::of_place(formula, &scene.from, &scene.to, scene.outline.as_deref())
-        .map_err(|place| not_positive(evaluator, (&path, text), &place))?;
+        .map_err(|place| not_positive(evaluator, &path, text, &place))?;
     let properties = scene.material.properties();
     if density.smallest() == 0.0 && !properties.wave_speed(0.0).is_finite() {
         let message = format!(
@@ -68,7 +68,8 @@ pub(crate) fn varying(
 
 fn not_positive(
     evaluator: &Evaluator<'_>,
-    (path, text): (&Path, &NumberText),
+    path: &Path,
+    text: &NumberText,
     place: &NoDensity,
 ) -> Diagnostic {
     let label: Vec<String> = place.label.iter().map(|x| shown(*x)).collect();
