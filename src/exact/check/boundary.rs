@@ -14,9 +14,18 @@ use std::cell::Cell;
 /// Checks every face of the body at random points and times. Returns the largest traction residual,
 /// relative to the stress.
 pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
+    conditions(problem, &problem.faces, survey)
+}
+
+/// Checks some of the `faces` of the body, like [`boundary`].
+pub(super) fn conditions(
+    problem: &Problem,
+    faces: &[Face],
+    survey: &Survey,
+) -> Result<f64, Violation> {
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
-    for face in &problem.faces {
+    for face in faces {
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();

@@ -43,8 +43,8 @@ impl Problem {
 
     /// The violation of the condition on face number `face`; `None` if the motion satisfies it.
     pub fn violation_on_face(&self, face: usize, survey: &Survey) -> Option<Violation> {
-        let faces = self.faces.get(face).into_iter().cloned().collect();
-        boundary::boundary(&Self { faces, ..self.clone() }, survey).err()
+        let face = self.faces.get(face)?;
+        boundary::conditions(self, std::slice::from_ref(face), survey).err()
     }
 
     /// Returns the largest relative residual of the conditions that involve the law: the equation
