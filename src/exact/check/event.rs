@@ -14,6 +14,8 @@ pub(crate) struct Event {
 }
 
 impl Event {
+    /// Refuses values that differ by more than `allowed`, or whose difference is infinite or NaN.
+    /// `values` are expected and found; `condition` describes the difference.
     pub(crate) fn judge(
         &self,
         allowed: f64,
@@ -27,6 +29,20 @@ impl Event {
             return Ok(());
         }
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
+    }
+
+    /// Like [`judge`](Self::judge), for a `condition` that the violation reports as violated.
+    pub(crate) fn judge_condition(
+        &self,
+        allowed: f64,
+        condition: String,
+        values: (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
+        self.judge(allowed, condition, values, unit).map_err(|violation| Violation {
+            condition: violation.condition + " is violated",
+            ..violation
+        })
     }
 
     /// Refuses a value `found` that is greater than `most + allowed`, infinite or NaN.
