@@ -1,5 +1,6 @@
 //! Compiles a gradient study: functional, parameters, exact sensitivities, and expectations.
 
+use super::check::refuse_first;
 use super::convergence::convergence_plan;
 use super::expect::assign;
 use super::scene;
@@ -117,10 +118,7 @@ fn refuse_unfit_problem(
             "the time step of a gradient study must not depend on the method",
         ),
     ];
-    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        Some((_, path, message)) => Err(evaluator.diagnostic_at_key(&path, message)),
-        None => Ok(()),
-    }
+    refuse_first(&refused, |path, message| evaluator.diagnostic_at_key(path, message))
 }
 
 /// Evaluates an index, which must be an integer from 0 to `count - 1`.

@@ -3,7 +3,7 @@
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
-use crate::suite::compile::check::size;
+use crate::suite::compile::check::{refuse_first, size};
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{NamedMethod, count, methods, named};
 use crate::suite::compile::scene;
@@ -93,10 +93,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
         (!scene.initial_stress.is_none(), top("initial_stress"), "a body without stress"),
         (!starts_at_rest, Path::top("scene"), "a body at rest, whose wave the study starts"),
     ];
-    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        Some((_, path, property)) => Err(needs(evaluator, &path, property)),
-        None => Ok(()),
-    }
+    refuse_first(&refused, |path, property| needs(evaluator, path, property))
 }
 
 /// Compiles the translation of the particles (m), by which no particle may leave its cell.
