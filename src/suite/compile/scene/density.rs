@@ -21,18 +21,11 @@ pub(crate) fn uniform(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
 ) -> Result<Option<Density>, Diagnostic> {
-    let number = evaluator.positive(&path(own), own.material.density(), "the density");
-    match number {
-        Ok(density) => Ok(Some(density.into())),
-        Err(diagnostic) if names_coordinate(&diagnostic) => Ok(None),
-        Err(diagnostic) => Err(diagnostic),
+    let text = own.material.density();
+    if evaluator.depends_on_coordinate(text) {
+        return Ok(None);
     }
-}
-
-/// Whether `diagnostic` reports that a coordinate is an unknown name in the formula of a number.
-pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
-    let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
-    COORDINATES.iter().any(names)
+    Ok(Some(evaluator.positive(&path(own), text, "the density")?.into()))
 }
 
 /// Compiles the varying density of a body with the shape of `scene`.
