@@ -7,7 +7,7 @@ pub(crate) mod statement;
 pub(crate) mod time_steps;
 use self::judge_plan::{judge_plan, rounding_sizes};
 use self::reference::{FineGrid, FineSteps, Reference};
-use self::statement::{described, not_applicable};
+use self::statement::described;
 use self::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
@@ -143,7 +143,7 @@ impl<'a> ConvergenceRunner<'a> {
         let Some(solver) = self.context.solver else {
             if case.solver.is_some() {
                 let lacks = vec!["`--solver COMMAND`".to_owned()];
-                return not_applicable(plan, case, lacks, "must be named with");
+                return described(plan, case, None).not_applicable(lacks, "must be named with");
             }
             return self
                 .run(case, expectation, progress)
@@ -156,7 +156,7 @@ impl<'a> ConvergenceRunner<'a> {
             self.run(case, expectation, progress)
                 .unwrap_or_else(|error| described(plan, case, None).not_run(&error))
         } else {
-            not_applicable(plan, case, lacks, "lacks")
+            described(plan, case, None).not_applicable(lacks, "lacks")
         };
         outcome.settings.splice(0..0, solver.settings());
         outcome

@@ -190,13 +190,3 @@ pub(crate) fn described(
         ..CaseOutcome::new(&case.name, case.method.subject(), settings(plan, case))
     }
 }
-
-/// Creates the outcome of a case that does not apply to its solver.
-pub(crate) fn not_applicable(
-    plan: &ConvergencePlan,
-    case: &Case,
-    lacks: Vec<String>,
-    verb: &str,
-) -> CaseOutcome {
-    described(plan, case, None).not_applicable(lacks, verb)
-}
