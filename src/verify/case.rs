@@ -8,7 +8,7 @@ use super::expectation::gate::{Acceptance, GateResult, Gating};
 use super::expectation::limits::{Limits, Measured};
 use super::expectation::{CaseFindings, Expectation};
 use super::figure::{CaseFigure, counted};
-use super::judge_plan::JudgePlan;
+use super::judge_plan::{JudgePlan, LevelRun};
 use super::order::fit::Interval;
 use super::order::limit_estimate::{EstimateRefusal, LimitEstimate, SeriesPoint, estimate_limit};
 use super::rerun;
@@ -32,12 +32,14 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case. If the verdict depends on it, `reruns` runs levels again with other settings.
+/// Judges a case from the `runs` of its levels. If the verdict depends on it, `reruns` runs levels
+/// again with other settings.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
-    mut levels: Vec<LevelOutcome>,
+    runs: Vec<LevelRun>,
     reruns: &R,
 ) -> CaseJudgement {
+    let mut levels: Vec<LevelOutcome> = runs.into_iter().map(|run| plan.level(run)).collect();
     let judgement = plan.judge_levels(&levels);
     let floor = rerun::floor(plan, &judgement, &levels, reruns);
     let mut exemption = plan.exemption(&levels);

@@ -22,7 +22,7 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, JudgePlan, LevelOutcome,
+    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, LevelOutcome, LevelRun,
     LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
 };
 use rayon::prelude::*;
@@ -181,17 +181,17 @@ impl<'a> ConvergenceRunner<'a> {
             self.truth(case)?
         };
         let judging = judge_plan(plan, case, expectation, truth);
-        let runs = CaseRuns { runner: self, case, truth, judging: &judging };
+        let runs = CaseRuns { runner: self, case, truth };
         let all = plan.refine.levels(self.context.extent);
         let count = all.len();
-        let levels: Result<Vec<LevelOutcome>, SubjectError> = all
+        let levels: Result<Vec<LevelRun>, SubjectError> = all
             .par_iter()
             .enumerate()
             .map(|(index, level)| {
                 let is_shown = index + 1 == count && case.against != Against::Nothing;
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = runs.repeated(level, is_shown)?;
-                    Ok(LevelOutcome { stable_time_step: limit, ..outcome })
+                    let run = runs.repeated(level, is_shown)?;
+                    Ok(LevelRun { stable_time_step: limit, ..run })
                 });
                 progress();
                 level
@@ -237,12 +237,11 @@ struct CaseRuns<'r, 'a> {
     runner: &'r ConvergenceRunner<'a>,
     case: &'r Case,
     truth: &'r dyn Truth,
-    judging: &'r JudgePlan<'r>,
 }
 
 impl CaseRuns<'_, '_> {
     /// Runs one level. With `keeps_field`, the errors over the body are stored too.
-    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
         let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
@@ -255,11 +254,11 @@ impl CaseRuns<'_, '_> {
         };
         let broken = |run: &RunResult| run.failure.is_some();
         let run = self.runner.context.cached(&key, &name, broken, run)?;
-        Ok(self.outcome(level, clock.dt(), run))
+        Ok(self.level_run(level, clock.dt(), run))
     }
 
     /// Runs one level as often as the context requires, and measures the spread of the runs.
-    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
         if repeat < 2 {
@@ -276,16 +275,14 @@ impl CaseRuns<'_, '_> {
                 verify::run_recorded(subject, self.truth, &clock, &comparison, plan.norm);
             if let Some(reason) = &run.failure {
                 let failure = Some(format!("run {number} of {repeat}: {reason}"));
-                return Ok(self.outcome(level, clock.dt(), RunResult { failure, ..run }));
+                return Ok(self.level_run(level, clock.dt(), RunResult { failure, ..run }));
             }
             records.push(record);
             first.get_or_insert(run);
         }
         let run = first.ok_or("the level has no run")?;
-        let outcome = self.outcome(level, clock.dt(), run);
-        let spread = verify::spread(&records, plan.norm) / plan.scale.unwrap_or(1.0);
-        let spread = (case.against != Against::Nothing).then_some(spread);
-        Ok(LevelOutcome { spread, ..outcome })
+        let spread = Some(verify::spread(&records, plan.norm));
+        Ok(LevelRun { spread, ..self.level_run(level, clock.dt(), run) })
     }
 
     /// Quantities that a run compares with the exact solution.
@@ -297,11 +294,12 @@ impl CaseRuns<'_, '_> {
         Comparison { of, sum, within, observe, at_rest, steps, keeps_field }
     }
 
-    /// Creates the outcome of a level that ran with time steps of `dt` (s).
-    fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
+    /// Returns the `run` of a level with time steps of `dt` (s).
+    fn level_run(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelRun {
         let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;
-        self.judging.level(LevelSizes { cells, h, dt, ppc, particle_spacing }, run)
+        let sizes = LevelSizes { cells, h, dt, ppc, particle_spacing };
+        LevelRun { sizes, run, spread: None, stable_time_step: None }
     }
 }
 
@@ -322,7 +320,7 @@ impl Reruns for CaseRuns<'_, '_> {
         &self,
         level: &LevelOutcome,
         axis: Axis,
-    ) -> Option<Result<LevelOutcome, SubjectError>> {
+    ) -> Option<Result<LevelRun, SubjectError>> {
         let scene = &self.runner.plan.scene;
         let halved = taken(level).halved(axis, scene.dimension())?;
         Some(match size::too_large(scene, halved) {
@@ -331,7 +329,7 @@ impl Reruns for CaseRuns<'_, '_> {
         })
     }
 
-    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, SubjectError> {
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, SubjectError> {
         self.repeated(LevelPlan { dt, ..taken(level) }, false)
     }
 
