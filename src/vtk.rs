@@ -35,7 +35,7 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     let mut file = VtkFile::default();
     let line = format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n<Points>\n");
     file.xml += &line;
-    file.numbers("position", (TensorRank::Vector, d), positions);
+    file.numbers("position", TensorRank::Vector, d, positions);
     file.xml += "</Points>\n<Cells>\n";
     let count = |first: usize| (first..first + n).flat_map(|k| (k as u64).to_le_bytes());
     file.array("connectivity", "Int64", 1, count(0).collect());
@@ -99,14 +99,14 @@ impl VtkFile {
     fn point_data(&mut self, d: usize, fields: &[(TensorRank, StateField)]) {
         self.xml += "<PointData>\n";
         for (rank, field) in fields {
-            self.numbers(&field.name, (*rank, d), &field.numbers);
+            self.numbers(&field.name, *rank, d, &field.numbers);
         }
         self.xml += "</PointData>\n</Piece>\n";
     }
 
     /// Appends numbers. Vectors are extended to three components and tensors to nine; the
     /// additional components are zero.
-    fn numbers(&mut self, name: &str, (rank, d): (TensorRank, usize), numbers: &[f64]) {
+    fn numbers(&mut self, name: &str, rank: TensorRank, d: usize, numbers: &[f64]) {
         let (rows, deep, wide) = match rank {
             TensorRank::Scalar => (1, 1, 1),
             TensorRank::Vector => (1, 1, 3),

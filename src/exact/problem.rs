@@ -13,7 +13,6 @@ use super::formula::{Formula, Number};
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
 use super::law::Equation;
-use super::linearised::Linearised;
 use super::motion::{Derivatives, Motion, Places, write};
 use super::outline::Outline;
 use super::tensor::{Tensor, tensor};
@@ -71,6 +70,17 @@ pub struct Problem {
     pub linearised: Option<Linearised>,
     /// Cache of manufactured forces for the runs of this problem, if any.
     pub shared_forces: Option<Arc<SharedForces>>,
+}
+
+/// The residual that a linearised motion may have in the conditions that involve the law: the
+/// equation of motion and tractions. Conditions that are linear in u are still checked with the
+/// tolerance of the problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised {
+    /// Maximum residual, relative to the terms of the condition.
+    pub tolerance: f64,
+    /// Reason for accepting a linearised motion.
+    pub because: String,
 }
 
 impl Problem {
@@ -272,13 +282,11 @@ impl Problem {
 
     /// Computes Div P (N/m3), where `now` contains the motion's derivatives.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
-        let slopes = (&now.grad, &now.second);
+        let Derivatives { grad, second, .. } = now;
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
-            None => self.divergence_of_law(axes, label, slopes),
-            Some(swelling) => {
-                swollen_divergence(&self.equation, axes, slopes.0, slopes.1, &swelling)
-            }
+            None => self.divergence_of_law(axes, label, grad, second),
+            Some(swelling) => swollen_divergence(&self.equation, axes, grad, second, &swelling),
         };
         let hoops = self.hoop_force(label, t, now);
         let force: [f64; 3] = std::array::from_fn(|i| force[i] + hoops[i]);
@@ -286,7 +294,7 @@ impl Problem {
             return force;
         }
         let (is_finite, initial) = (self.equation.is_finite(), &self.initial_stress);
-        let initial = initial.divergence(label, slopes.0, slopes.1, is_finite);
+        let initial = initial.divergence(label, grad, second, is_finite);
         std::array::from_fn(|i| force[i] + initial[i])
     }
 
@@ -296,7 +304,8 @@ impl Problem {
         &self,
         axes: usize,
         label: &[f64],
-        (grad, second): (&Tensor<f64>, &[Tensor<f64>; 3]),
+        grad: &Tensor<f64>,
+        second: &[Tensor<f64>; 3],
     ) -> [f64; 3] {
         let force = self.equation.divergence(axes, grad, second);
         if self.density.uniform().is_some() {

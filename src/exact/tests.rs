@@ -2,12 +2,11 @@
 //! faces, in one, two and three dimensions, with a manufactured force.
 
 use super::formula::{Expr, Formula, Scope};
-use super::linearised::Linearised;
 use super::random::Random;
 use super::truth::Truth;
 use super::{
-    Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, InitialStress, Motion, NeoHookeanLaw,
-    Problem, Round, SmallStrainLaw, Survey, Term, Violation,
+    Condition, Equation, Face, FacePoint, Forcing, HenckyLaw, InitialStress, Linearised, Motion,
+    NeoHookeanLaw, Problem, Round, SmallStrainLaw, Survey, Term, Violation,
 };
 use crate::subject::PlaneState;
 use rstest::rstest;

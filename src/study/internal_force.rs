@@ -1,7 +1,7 @@
 //! The internal-force study: computes and judges the force on a node for every position of a
 //! particle.
 
-use crate::study::describe::statement::{Rows, push};
+use crate::study::describe::{Rows, push};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::suite::compile::internal_force;
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};

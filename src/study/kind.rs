@@ -2,7 +2,7 @@
 
 use super::cache::ResultCache;
 use super::describe::Dispensable;
-use super::describe::statement::{Rows, head};
+use super::describe::{Rows, head};
 use super::time_series::{SeriesError, ShownRun};
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::{Profile, SubjectError};

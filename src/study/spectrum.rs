@@ -2,7 +2,7 @@
 
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::report::columns::distinct;
-use crate::study::describe::statement::{Rows, push, scene};
+use crate::study::describe::{Rows, push, scene};
 use crate::study::handover::{HandedRun, of_scene, problem, start, unloaded};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::setup::body::Body;

@@ -7,7 +7,7 @@ use super::expectation::gate::{Acceptance, GateResult, Gating};
 use super::expectation::limits::{Limits, Measured};
 use super::expectation::{CaseFindings, Expectation};
 use super::figure::{CaseFigure, counted};
-use super::judge_plan::JudgePlan;
+use super::judge_plan::{JudgePlan, LevelRun};
 use super::order::fit::Interval;
 use super::order::limit_estimate::{EstimateRefusal, LimitEstimate, SeriesPoint, estimate_limit};
 use super::rerun;
@@ -31,13 +31,14 @@ pub struct CaseJudgement {
     pub study: Convergence,
 }
 
-/// Judges a case. `reruns` runs levels again to find the cause of an error floor, or with shorter
-/// time steps for `run --gate`.
+/// Judges a case from the `runs` of its levels. `reruns` runs levels again to find the cause of an
+/// error floor, or with shorter time steps for `run --gate`.
 pub fn judge_case<R: Reruns>(
     plan: &JudgePlan<'_>,
-    mut levels: Vec<LevelOutcome>,
+    runs: Vec<LevelRun>,
     reruns: &R,
 ) -> CaseJudgement {
+    let mut levels: Vec<LevelOutcome> = runs.into_iter().map(|run| plan.level(run)).collect();
     let judgement = plan.judge_levels(&levels);
     let floor = rerun::floor(plan, &judgement, &levels, reruns);
     let mut exemption = plan.exemption(&levels);

@@ -66,9 +66,23 @@ pub struct LevelSizes {
     pub particle_spacing: f64,
 }
 
+/// A level that has run, before it is judged.
+#[derive(Debug, Clone)]
+pub struct LevelRun {
+    /// Resolution.
+    pub sizes: LevelSizes,
+    /// Results of the run.
+    pub run: RunResult,
+    /// Largest difference between repeated runs, in the judged norm; `None` if the level ran once.
+    pub spread: Option<f64>,
+    /// Predicted stable time step (s), if the step is automatic or exceeds the prediction.
+    pub stable_time_step: Option<f64>,
+}
+
 impl JudgePlan<'_> {
     /// Creates the outcome of a level from its run.
-    pub fn level(&self, sizes: LevelSizes, run: RunResult) -> LevelOutcome {
+    pub(super) fn level(&self, level: LevelRun) -> LevelOutcome {
+        let LevelRun { sizes, run, spread, stable_time_step } = level;
         let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;
         let is_crossed = run.counters.crossings.is_some_and(|n| n > 0);
         let error = run.errors.in_norm(self.norm);
@@ -84,15 +98,20 @@ impl JudgePlan<'_> {
             },
             dt,
             ppc: ppc.filter(|_| run.counters.particles.is_some()),
-            error: self.scale.map_or(error, |scale| error / scale),
+            error: self.relative(error),
             usable: !(is_crossed && self.excludes_crossings),
             rounding_bound: bound,
             is_below_rounding: bound.is_some_and(|bound| error < bound),
-            spread: None,
+            spread: spread.filter(|_| self.is_compared).map(|spread| self.relative(spread)),
             order: None,
-            stable_time_step: None,
+            stable_time_step,
             run,
         }
+    }
+
+    /// Divides a difference in the judged norm by the scale of the error, if there is one.
+    fn relative(&self, difference: f64) -> f64 {
+        self.scale.map_or(difference, |scale| difference / scale)
     }
 
     pub(super) fn judge_levels(&self, levels: &[LevelOutcome]) -> Judgement {

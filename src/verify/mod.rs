@@ -77,7 +77,7 @@ pub use gradient::{
     FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientState, GradientStudy,
     GradientTerms, LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
 };
-pub use judge_plan::{JudgePlan, LevelSizes};
+pub use judge_plan::{JudgePlan, LevelRun, LevelSizes};
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded};
 pub use order::hypothesis::OrderHypothesis;

@@ -9,7 +9,7 @@
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
-use super::judge_plan::{JudgePlan, series, usable_series};
+use super::judge_plan::{JudgePlan, LevelRun, series, usable_series};
 use super::order::level::Axis;
 use super::verdict::floor::{Floor, Probe};
 use super::verdict::judge::Judgement;
@@ -27,18 +27,15 @@ pub trait Reruns: Sync {
     fn can_halve(&self) -> bool;
 
     /// Runs the level with half the spacing on an axis; `None` if the level has no such spacing.
-    fn run_halved(
-        &self,
-        level: &LevelOutcome,
-        axis: Axis,
-    ) -> Option<Result<LevelOutcome, Self::Error>>;
+    fn run_halved(&self, level: &LevelOutcome, axis: Axis)
+    -> Option<Result<LevelRun, Self::Error>>;
 
     /// Runs the level with the time step `dt` (s), and repeats the run as often as for the other
     /// levels of the case.
     ///
     /// # Errors
     /// If the level cannot be set up.
-    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, Self::Error>;
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, Self::Error>;
 
     /// Returns the sizes of the numbers that the solver rounds; `None` if the judged quantity has
     /// no natural size.
@@ -92,9 +89,9 @@ pub(super) fn floor<R: Reruns>(
     }
     let others = [Axis::Time, Axis::Particles, Axis::Space].into_par_iter();
     let probe = |axis: Axis| {
-        let error = reruns.run_halved(finest, axis)?;
-        let error = error.map_err(|error| error.to_string());
-        let error = error.and_then(|outcome| outcome.run.failure.map_or(Ok(outcome.error), Err));
+        let run = reruns.run_halved(finest, axis)?;
+        let outcome = run.map(|run| plan.level(run)).map_err(|error| error.to_string());
+        let error = outcome.and_then(|outcome| outcome.run.failure.map_or(Ok(outcome.error), Err));
         Some(Probe { axis, error })
     };
     let probes = others.filter(|axis| *axis != plan.axis).filter_map(probe).collect();
@@ -134,7 +131,9 @@ fn shorten<R: Reruns>(
     let mut before = last.error;
     for halving in 1..=HALVINGS {
         let share = libm::exp2(-f64::from(halving));
-        let shorter = |level: &LevelOutcome| reruns.run_with_step(level, share * level.dt);
+        let shorter = |level: &LevelOutcome| {
+            reruns.run_with_step(level, share * level.dt).map(|run| plan.level(run))
+        };
         // The finest level alone shows whether the time step contributes to the error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {

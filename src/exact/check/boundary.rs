@@ -1,11 +1,10 @@
 //! Checks boundary conditions on faces, and prescribed velocities in regions of the body.
 
-use super::event::{AXES, Event, OnFace, SpaceTimeBox};
+use super::event::{AXES, Event, OnFace, SpaceTimeBox, share};
 use super::friction;
 use super::survey::{self, Magnitudes, Survey};
 use crate::exact::condition::{Face, FacePoint};
 use crate::exact::formula::Formula;
-use crate::exact::linearised::share;
 use crate::exact::motion::{Derivatives, variables};
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -15,9 +14,18 @@ use std::cell::Cell;
 /// Checks every face of the body at random points and times. Returns the largest traction residual,
 /// relative to the stress.
 pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violation> {
+    conditions(problem, &problem.faces, survey)
+}
+
+/// Checks some of the `faces` of the body, like [`boundary`].
+pub(super) fn conditions(
+    problem: &Problem,
+    faces: &[Face],
+    survey: &Survey,
+) -> Result<f64, Violation> {
     let left = Cell::new(0.0);
     let mut random = Random::new(3);
-    for face in &problem.faces {
+    for face in faces {
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
@@ -61,34 +69,25 @@ impl FacePoint for MovingPoint<'_> {
     }
 
     fn held(&self, i: usize, what: &str) -> Result<(), Violation> {
-        let name = format!(
-            "boundary condition: {} is {what}, u_{} = 0 is violated",
-            self.face.name, AXES[i]
-        );
+        let name = format!("boundary condition: {} is {what}, u_{} = 0", self.face.name, AXES[i]);
         let allowed = self.problem.tolerance * self.sizes.displacement;
-        self.event.judge(allowed, name, (0.0, self.now.u[i]), "m")
+        self.event.judge_condition(allowed, name, (0.0, self.now.u[i]), "m")
     }
 
     fn velocity(&self, i: usize, given: f64) -> Result<(), Violation> {
-        let name = format!(
-            "boundary condition: velocity of {} in {} is violated",
-            self.face.name, AXES[i]
-        );
+        let name = format!("boundary condition: velocity of {} in {}", self.face.name, AXES[i]);
         let allowed = self.problem.tolerance * self.sizes.velocity.max(given.abs());
-        self.event.judge(allowed, name, (given, self.now.velocity[i]), "m/s")
+        self.event.judge_condition(allowed, name, (given, self.now.velocity[i]), "m/s")
     }
 
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation> {
         let Self { problem, face, event, .. } = self;
         let normal = if face.high { 1.0 } else { -1.0 };
         let found = normal * problem.piola(&event.label, event.t, &self.now)[i][face.axis];
-        let name = format!(
-            "boundary condition: {} is {what}, traction in {} is violated",
-            face.name, AXES[i]
-        );
+        let name = format!("boundary condition: {} is {what}, traction in {}", face.name, AXES[i]);
         let size = self.sizes.stress.max(given.abs());
         self.left.set(self.left.get().max(share(found - given, size)));
-        event.judge(problem.law_tolerance() * size, name, (given, found), "Pa")
+        event.judge_condition(problem.law_tolerance() * size, name, (given, found), "Pa")
     }
 
     fn friction(&self, coefficient: f64) -> Result<(), Violation> {
@@ -149,10 +148,9 @@ pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation
             let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
                 let given = at(formula, &event);
-                let name =
-                    format!("given velocity of the set {} in {} is violated", region.name, AXES[i]);
+                let name = format!("given velocity of the set {} in {}", region.name, AXES[i]);
                 let allowed = problem.tolerance * speed.max(given.abs());
-                found.add(event.judge(allowed, name, (given, now.velocity[i]), "m/s"));
+                found.add(event.judge_condition(allowed, name, (given, now.velocity[i]), "m/s"));
             }
         }
         found.into_result()?;

@@ -12,6 +12,8 @@ pub(crate) struct Event {
 }
 
 impl Event {
+    /// Refuses values that differ by more than `allowed`, or whose difference is infinite or NaN.
+    /// `values` are expected and found; `condition` describes the difference.
     pub(crate) fn judge(
         &self,
         allowed: f64,
@@ -25,6 +27,20 @@ impl Event {
             return Ok(());
         }
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
+    }
+
+    /// Like [`judge`](Self::judge), for a `condition` that the violation reports as violated.
+    pub(crate) fn judge_condition(
+        &self,
+        allowed: f64,
+        condition: String,
+        values: (f64, f64),
+        unit: &'static str,
+    ) -> Result<(), Violation> {
+        self.judge(allowed, condition, values, unit).map_err(|violation| Violation {
+            condition: violation.condition + " is violated",
+            ..violation
+        })
     }
 
     /// Returns a violation if `found` is greater than `most + allowed`, infinite or NaN.
@@ -63,6 +79,12 @@ pub(crate) fn greatest(magnitudes: impl Iterator<Item = f64>) -> f64 {
 
 pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
+}
+
+/// Returns the magnitude of a residual `left`, divided by `size` of the same unit; 0 if `left` is
+/// 0.
+pub(super) fn share(left: f64, size: f64) -> f64 {
+    if left == 0.0 { 0.0 } else { left.abs() / size }
 }
 
 /// Number of events in a body if large terms are confined to a small part of the body.

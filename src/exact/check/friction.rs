@@ -22,8 +22,8 @@ pub(crate) fn at_wall(
 ) -> Result<(), Violation> {
     let (axis, d, tolerance) = (face.axis, problem.dimension(), problem.tolerance);
     let wall = format!("the friction wall `{}`", face.name);
-    let name = format!("boundary condition: u_{} = 0 on {wall} is violated", AXES[axis]);
-    event.judge(tolerance * displacement, name, (0.0, now.u[axis]), "m")?;
+    let name = format!("boundary condition: u_{} = 0 on {wall}", AXES[axis]);
+    event.judge_condition(tolerance * displacement, name, (0.0, now.u[axis]), "m")?;
 
     let outwards = if face.high { 1.0 } else { -1.0 };
     let piola = problem.piola(&event.label, event.t, now);

@@ -12,8 +12,7 @@ pub(crate) mod weak;
 
 use self::event::greatest;
 use self::survey::Survey;
-use super::linearised::Linearised;
-use super::problem::Problem;
+use super::problem::{Linearised, Problem};
 use super::violation::Violation;
 
 impl Problem {
@@ -44,8 +43,8 @@ impl Problem {
 
     /// Returns the violation of the condition on face number `face`, or `None` if there is none.
     pub fn violation_on_face(&self, face: usize, survey: &Survey) -> Option<Violation> {
-        let faces = self.faces.get(face).into_iter().cloned().collect();
-        boundary::boundary(&Self { faces, ..self.clone() }, survey).err()
+        let face = self.faces.get(face)?;
+        boundary::conditions(self, std::slice::from_ref(face), survey).err()
     }
 
     /// Returns the largest relative residual of the conditions that involve the law: the equation
@@ -63,5 +62,65 @@ impl Problem {
             greatest(left.into_iter().map(|left| left.unwrap_or(f64::NAN)))
         });
         greatest(each)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::boundary::boundary;
+    use super::event::share;
+    use super::*;
+    use crate::exact::law::TaitLaw;
+    use crate::exact::tests::{bar, fixed, free};
+    use rstest::rstest;
+
+    /// A small-amplitude wave in Tait's fluid between walls. The residual is K u_XX times 8 u_X,
+    /// compared with a sum of inertia and stress of 2 K u_XX. The product of sine and cosine is at
+    /// most 1/2.
+    #[rstest]
+    #[case(1e-3)]
+    #[case(1e-6)]
+    fn a_linearised_wave_leaves_twice_its_strain(#[case] strain: f64) {
+        let wave = format!("{strain}/pi*sin(pi*X)*cos(pi*t)");
+        let linear = Problem { equation: TaitLaw::new(2.0, 0.0).into(), ..bar(&wave, fixed()) };
+        let left = linear.residual();
+        assert!((1.9 * strain..2.1 * strain).contains(&left), "{left}");
+        let to = |tolerance| Problem {
+            linearised: Some(Linearised { tolerance, because: "strains are small".to_owned() }),
+            ..linear.clone()
+        };
+        to(1.01 * left).check().unwrap();
+        for refused in [linear.clone(), to(0.99 * left)] {
+            let found = refused.check().unwrap_err();
+            assert!(found.condition.starts_with("equation of motion"), "{found}");
+        }
+    }
+
+    /// A linear law leaves only rounding errors. A violated condition that does not involve the law
+    /// gives NaN.
+    #[test]
+    fn the_residual_is_that_of_the_law() {
+        let wave = "sin(pi*X)*cos(pi*t)/50";
+        assert!(bar(wave, fixed()).residual() < 1e-12);
+        assert!(bar(wave, free()).residual() > 0.1, "a traction at the right end");
+        let shifted = bar("0.01 + sin(pi*X)*cos(pi*t)/50", fixed());
+        assert!(shifted.residual().is_nan(), "the left end is fixed");
+    }
+
+    #[test]
+    fn a_residual_is_a_share_of_what_it_is_compared_with() {
+        assert_eq!(share(-2.0, 4.0), 0.5);
+        assert_eq!(share(0.0, 0.0), 0.0);
+        assert_eq!(share(1.0, 0.0), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_traction_that_presses_is_left_over_too() {
+        let left = |u| {
+            let linearised = Some(Linearised { tolerance: f64::INFINITY, because: String::new() });
+            let problem = Problem { linearised, ..bar(u, free()) };
+            boundary(&problem, &Survey::new(&problem)).unwrap()
+        };
+        assert!(left("X/50") > 0.1 && left("X/50") == left("-X/50"), "{}", left("-X/50"));
     }
 }

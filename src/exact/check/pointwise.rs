@@ -5,11 +5,10 @@
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
-use super::event::{AXES, Event};
+use super::event::{AXES, Event, share};
 use super::survey;
 use super::survey::{Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
-use crate::exact::linearised::share;
 use crate::exact::motion::variables;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
@@ -47,14 +46,14 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
         let now = problem.derivatives(&event.label, 0.0);
         for i in 0..problem.dimension() {
             let zero = if problem.initial_displacement.is_empty() { "0" } else { "u0(X)" };
-            let name = format!("initial condition u_{}(X, 0) = {zero} is violated", AXES[i]);
+            let name = format!("initial condition u_{}(X, 0) = {zero}", AXES[i]);
             let start = start(problem, &problem.initial_displacement, i, &event, now.u[i]);
             let allowed = problem.tolerance * displacement;
-            found[0].add(event.judge(allowed, name, (start, now.u[i]), "m"));
-            let name = format!("initial condition on the velocity in {} is violated", AXES[i]);
+            found[0].add(event.judge_condition(allowed, name, (start, now.u[i]), "m"));
+            let name = format!("initial condition on the velocity in {}", AXES[i]);
             let start = self::start(problem, &problem.initial_velocity, i, &event, now.velocity[i]);
             let allowed = problem.tolerance * velocity.max(start.abs());
-            found[1].add(event.judge(allowed, name, (start, now.velocity[i]), "m/s"));
+            found[1].add(event.judge_condition(allowed, name, (start, now.velocity[i]), "m/s"));
         }
     }
     found.into_iter().try_for_each(LargestViolation::into_result)
@@ -97,14 +96,11 @@ pub(crate) fn equation(problem: &Problem, survey: &Survey) -> Result<f64, Violat
                 left = f64::max(left, share(residual, size));
             }
             if problem.terms.iter().any(|term| term.is_body_force()) {
-                let (name, forces) = (
-                    name + " solved for b, is violated",
-                    ((inertia - stress) / rho0, force / rho0),
-                );
-                found.add(event.judge(allowed / rho0, name, forces, "m/s2"));
+                let (name, forces) =
+                    (name + " solved for b,", ((inertia - stress) / rho0, force / rho0));
+                found.add(event.judge_condition(allowed / rho0, name, forces, "m/s2"));
             } else {
-                let name = name + " is violated";
-                found.add(event.judge(allowed, name, (stress + force, inertia), "N/m3"));
+                found.add(event.judge_condition(allowed, name, (stress + force, inertia), "N/m3"));
             }
         }
     }
@@ -143,12 +139,9 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
                 };
                 let traction = along(&|axis| piola[i][axis]);
                 let given = 0.0 - pressure * along(&|axis| areas[axis][i]);
-                let name = format!(
-                    "boundary condition: {rim} is {what}, traction in {} is violated",
-                    AXES[i]
-                );
+                let name = format!("boundary condition: {rim} is {what}, traction in {}", AXES[i]);
                 let allowed = problem.law_tolerance() * size;
-                found.add(event.judge(allowed, name, (given, traction), "Pa"));
+                found.add(event.judge_condition(allowed, name, (given, traction), "Pa"));
                 left = f64::max(left, share(traction - given, size));
             }
         }

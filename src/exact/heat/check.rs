@@ -68,8 +68,9 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
         let found = problem.temperature.at(&event.label, 0.0);
         // If no initial temperature is prescribed, the exact one must only be finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
-        let name = "initial condition T(X, 0) = T0(X) is violated".to_owned();
-        worst.add(event.judge(problem.tolerance * largest.value, name, (start, found), "K"));
+        let name = "initial condition T(X, 0) = T0(X)".to_owned();
+        let allowed = problem.tolerance * largest.value;
+        worst.add(event.judge_condition(allowed, name, (start, found), "K"));
     }
     worst.into_result()
 }
@@ -206,9 +207,9 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     let mut found = LargestViolation::default();
     for point in points {
         let (needed, stated) = needed_and_stated(problem, point);
-        let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s, is violated"
-            .to_owned();
-        found.add(point.0.judge(problem.tolerance * size, name, (needed, stated), "W/kg"));
+        let name = "heat equation, rho0 c T_t = Div(k Grad T) + rho0 s, solved for s,".to_owned();
+        let allowed = problem.tolerance * size;
+        found.add(point.0.judge_condition(allowed, name, (needed, stated), "W/kg"));
     }
     found.into_result()
 }

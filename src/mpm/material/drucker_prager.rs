@@ -90,7 +90,7 @@ impl YieldSurface for Cone {
             (shear_slope + one * (friction * bulk)) / (mu + bulk * friction * dilation);
         let mean_slope = one * bulk - flow_slope * (bulk * dilation);
         let length_slope = (shear_slope - flow_slope * mu) * 2.0_f64.sqrt();
-        Some(modulus_of_invariants(trial, &mean_slope, (length, &length_slope)))
+        Some(modulus_of_invariants(trial, &mean_slope, length, &length_slope))
     }
 
     /// Returns stresses whose invariants `p` and `sqrt(J2)` are linear in the strain (de Souza Neto

@@ -63,10 +63,11 @@ impl GreenNaghdi {
         &self,
         before: &Unrotated,
         f: &Matrix<D>,
-        (squares, axes): (Vector<D>, Matrix<D>),
+        squares: &Vector<D>,
+        axes: &Matrix<D>,
     ) -> (Unrotated, Matrix<D>) {
-        let stretch = assembled(&squares.map(f64::sqrt), &axes);
-        let inverse_stretch = assembled(&squares.map(|square| 1.0 / square.sqrt()), &axes);
+        let stretch = assembled(&squares.map(f64::sqrt), axes);
+        let inverse_stretch = assembled(&squares.map(|square| 1.0 / square.sqrt()), axes);
         let log = logarithm(&product(&stretch, &in_plane(&before.inverse_stretch)));
         let strain = (log + log.transpose()) * 0.5;
         let stress = in_plane(&before.stress) + self.elasticity.increment(&strain);
@@ -145,7 +146,7 @@ impl<const D: usize> Material<D> for GreenNaghdi {
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 let particles = def_grad.iter().zip(states).zip(results).enumerate();
                 for (lane, ((f, state), ((vol, vol0), sigma))) in particles {
-                    let (after, tau) = self.after(state, f, (squares.get(lane), axes.get(lane)));
+                    let (after, tau) = self.after(state, f, &squares.get(lane), &axes.get(lane));
                     let j = det(f);
                     *state = after;
                     *vol = j * vol0;

@@ -56,7 +56,7 @@ impl YieldSurface for VonMises {
         let length = 2.0 * mu * size - 6.0_f64.sqrt() * mu * flow;
         let slope = trial.deviator * (2.0 * mu * hardening / (3.0 * mu + hardening) / size);
         let mean = Vector::from_element(self.elasticity.bulk);
-        Some(modulus_of_invariants(trial, &mean, (length, &slope)))
+        Some(modulus_of_invariants(trial, &mean, length, &slope))
     }
 
     /// Returns stresses whose deviator lies on the yield surface.

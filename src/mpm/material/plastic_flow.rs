@@ -84,7 +84,8 @@ impl PrincipalStrain {
 pub(super) fn modulus_of_invariants(
     strain: &PrincipalStrain,
     mean_slope: &Vector<3>,
-    (length, length_slope): (f64, &Vector<3>),
+    length: f64,
+    length_slope: &Vector<3>,
 ) -> Matrix<3> {
     let size = strain.deviator.norm();
     let direction = strain.deviator / size;

@@ -82,14 +82,15 @@ impl<const D: usize> StepEquations<D> {
             });
             ends.push(functions.len());
         }
-        Self::of_functions(grid, (functions, ends), boundary)
+        Self::of_functions(grid, functions, ends, boundary)
     }
 
     /// Creates the equations from the functions of all particles, one particle after another, and
     /// the end of each particle's functions.
     fn of_functions(
         grid: &Grid<D>,
-        (functions, ends): (Vec<NodeFunction<D>>, Vec<usize>),
+        functions: Vec<NodeFunction<D>>,
+        ends: Vec<usize>,
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<Self, Failure> {
         let mut sums = vec![0.0; grid.nodes()];
@@ -323,7 +324,7 @@ mod tests {
             ends.push(functions.len());
         }
         let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 0, Side::Low))];
-        let equations = StepEquations::of_functions(&grid, (functions, ends), &boundary).unwrap();
+        let equations = StepEquations::of_functions(&grid, functions, ends, &boundary).unwrap();
         let noise = |i: usize, axis: usize| 0.05 * libm::sin(1.0 + 3.0 * i as f64 + axis as f64);
         let mut increment: Vec<Vector<2>> =
             (0..grid.nodes()).map(|i| Vector::from_fn(|axis, _| noise(i, axis))).collect();

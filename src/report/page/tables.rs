@@ -31,7 +31,7 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
         let link = Html::tag("a", &[("href", &format!("#group-{}", plain(group)))], group);
         let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
         let outcomes: Vec<_> = sources.iter().map(|source| source.outcome).collect();
-        cells.extend(shares(&outcomes).map(share));
+        cells.extend(shares(&outcomes).map(|(kept, all)| share(kept, all)));
         Html::tag("tr", &[], cells)
     };
     let rows: Vec<Html> = by_group(sources, |source| source.outcome).into_iter().map(row).collect();
@@ -54,7 +54,7 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
 
 /// Creates the cell `K of N`: K of the N cases reach the order of theory. The colour shows whether
 /// these are all, at least half, fewer, or none.
-fn share((kept, all): (usize, usize)) -> Html {
+fn share(kept: usize, all: usize) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
     }

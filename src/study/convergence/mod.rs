@@ -7,11 +7,11 @@ pub(crate) mod statement;
 pub(crate) mod time_steps;
 use self::judge_plan::{judge_plan, rounding_sizes};
 use self::reference::{FineGrid, FineSteps, Reference};
-use self::statement::{described, not_applicable};
+use self::statement::described;
 use self::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
 use crate::external::ProblemNeeds;
-use crate::study::describe::statement::{Dispensable, Rows, step_profile, without_effect};
+use crate::study::describe::{Dispensable, Rows, step_profile, without_effect};
 use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning, Study};
 use crate::study::time_series::{SeriesError, ShownRun};
@@ -22,7 +22,7 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, JudgePlan, LevelOutcome,
+    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, LevelOutcome, LevelRun,
     LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
 };
 use rayon::prelude::*;
@@ -144,7 +144,7 @@ impl<'a> ConvergenceRunner<'a> {
         let Some(solver) = self.context.solver else {
             if case.solver.is_some() {
                 let lacks = vec!["`--solver COMMAND`".to_owned()];
-                return not_applicable(plan, case, lacks, "must be named with");
+                return described(plan, case, None).not_applicable(lacks, "must be named with");
             }
             return self
                 .run(case, expectation, progress)
@@ -157,7 +157,7 @@ impl<'a> ConvergenceRunner<'a> {
             self.run(case, expectation, progress)
                 .unwrap_or_else(|error| described(plan, case, None).not_run(&error))
         } else {
-            not_applicable(plan, case, lacks, "lacks")
+            described(plan, case, None).not_applicable(lacks, "lacks")
         };
         outcome.settings.splice(0..0, solver.settings());
         outcome
@@ -178,17 +178,17 @@ impl<'a> ConvergenceRunner<'a> {
             self.truth(case)?
         };
         let judging = judge_plan(plan, case, expectation, truth);
-        let runs = CaseRuns { runner: self, case, truth, judging: &judging };
+        let runs = CaseRuns { runner: self, case, truth };
         let all = plan.refine.levels(self.context.extent);
         let count = all.len();
-        let levels: Result<Vec<LevelOutcome>, SubjectError> = all
+        let levels: Result<Vec<LevelRun>, SubjectError> = all
             .par_iter()
             .enumerate()
             .map(|(index, level)| {
                 let is_shown = index + 1 == count && case.against != Against::Nothing;
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let outcome = runs.repeated(level, is_shown)?;
-                    Ok(LevelOutcome { stable_time_step: limit, ..outcome })
+                    let run = runs.repeated(level, is_shown)?;
+                    Ok(LevelRun { stable_time_step: limit, ..run })
                 });
                 progress();
                 level
@@ -233,12 +233,11 @@ struct CaseRuns<'r, 'a> {
     runner: &'r ConvergenceRunner<'a>,
     case: &'r Case,
     truth: &'r dyn Truth,
-    judging: &'r JudgePlan<'r>,
 }
 
 impl CaseRuns<'_, '_> {
     /// Runs one level. With `keeps_field`, the errors over the body are stored too.
-    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
         let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
@@ -251,11 +250,11 @@ impl CaseRuns<'_, '_> {
         };
         let broken = |run: &RunResult| run.failure.is_some();
         let run = self.runner.context.cached(&key, &name, broken, run)?;
-        Ok(self.outcome(level, clock.dt(), run))
+        Ok(self.level_run(level, clock.dt(), run))
     }
 
     /// Runs one level as often as the context requires, and measures the spread of the runs.
-    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelOutcome, SubjectError> {
+    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
         if repeat < 2 {
@@ -272,16 +271,14 @@ impl CaseRuns<'_, '_> {
                 verify::run_recorded(subject, self.truth, &clock, &comparison, plan.norm);
             if let Some(reason) = &run.failure {
                 let failure = Some(format!("run {number} of {repeat}: {reason}"));
-                return Ok(self.outcome(level, clock.dt(), RunResult { failure, ..run }));
+                return Ok(self.level_run(level, clock.dt(), RunResult { failure, ..run }));
             }
             records.push(record);
             first.get_or_insert(run);
         }
         let run = first.ok_or("the level has no run")?;
-        let outcome = self.outcome(level, clock.dt(), run);
-        let spread = verify::spread(&records, plan.norm) / plan.scale.unwrap_or(1.0);
-        let spread = (case.against != Against::Nothing).then_some(spread);
-        Ok(LevelOutcome { spread, ..outcome })
+        let spread = Some(verify::spread(&records, plan.norm));
+        Ok(LevelRun { spread, ..self.level_run(level, clock.dt(), run) })
     }
 
     /// Returns the settings of the comparison of a run with the exact solution.
@@ -293,11 +290,12 @@ impl CaseRuns<'_, '_> {
         Comparison { of, sum, within, observe, at_rest, steps, keeps_field }
     }
 
-    /// Creates the outcome of a level that ran with time steps of `dt` (s).
-    fn outcome(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelOutcome {
+    /// Returns the `run` of a level with time steps of `dt` (s).
+    fn level_run(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelRun {
         let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;
-        self.judging.level(LevelSizes { cells, h, dt, ppc, particle_spacing }, run)
+        let sizes = LevelSizes { cells, h, dt, ppc, particle_spacing };
+        LevelRun { sizes, run, spread: None, stable_time_step: None }
     }
 }
 
@@ -318,7 +316,7 @@ impl Reruns for CaseRuns<'_, '_> {
         &self,
         level: &LevelOutcome,
         axis: Axis,
-    ) -> Option<Result<LevelOutcome, SubjectError>> {
+    ) -> Option<Result<LevelRun, SubjectError>> {
         let scene = &self.runner.plan.scene;
         let halved = taken(level).halved(axis, scene.dimension())?;
         Some(match size::too_large(scene, halved) {
@@ -327,7 +325,7 @@ impl Reruns for CaseRuns<'_, '_> {
         })
     }
 
-    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelOutcome, SubjectError> {
+    fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, SubjectError> {
         self.repeated(LevelPlan { dt, ..taken(level) }, false)
     }
 

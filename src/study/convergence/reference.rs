@@ -21,7 +21,7 @@ use crate::subject::{Precision, Samples, Start, Subject, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::verify::error::observer::lagrange_weights;
 use std::borrow::Cow;
 use std::cmp::Ordering;

@@ -1,7 +1,7 @@
 //! Describes a convergence study in rows, and creates the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
-use crate::study::describe::statement::{Rows, push, scene, stated, step_profile};
+use crate::study::describe::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
@@ -186,13 +186,4 @@ pub(crate) fn described(
         because: because.unwrap_or_default(),
         ..CaseOutcome::new(&case.name, case.method.subject(), settings(plan, case))
     }
-}
-
-pub(crate) fn not_applicable(
-    plan: &ConvergencePlan,
-    case: &Case,
-    lacks: Vec<String>,
-    verb: &str,
-) -> CaseOutcome {
-    described(plan, case, None).not_applicable(lacks, verb)
 }

@@ -1,5 +1,193 @@
-//! Describes a problem in rows of name and value.
+//! Describes a problem in rows of name and value, for reports and `explain`.
 
 pub mod sketch;
-pub(crate) mod statement;
-pub use statement::Dispensable;
+
+use crate::exact::formula::Formula;
+use crate::mpm::{MaterialParameter, MaterialPlan};
+use crate::study::setup::dispatch;
+use crate::subject::{PlaneState, Profile};
+use crate::suite::EffectName;
+use crate::suite::evaluator::shown;
+use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
+use crate::suite::scene::load::LoadTarget;
+use crate::suite::scene::numbers::sources;
+use crate::verify::rounded;
+
+pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
+        Some(value) if text.parse() != Ok(*value) => {
+            format!("{name} = {text} = {}", shown(rounded(*value, 7)))
+        }
+        _ => format!("{name} = {text}"),
+    };
+    let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
+    push(&mut rows, "parameters", &parameters.join(", "));
+    for (head, body) in &suite.functions {
+        push(&mut rows, "function", &format!("{head} = {body}"));
+    }
+    rows
+}
+
+pub(crate) type Rows = Vec<(String, String)>;
+
+/// Adds a row, unless its value is empty.
+pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
+    if !value.is_empty() {
+        rows.push((key.to_owned(), value.to_owned()));
+    }
+}
+
+fn corner(c: &[f64]) -> String {
+    c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
+}
+
+/// Formats a number with at most six significant digits.
+pub(crate) fn stated(x: f64) -> String {
+    shown(rounded(x, 6))
+}
+
+fn body(scene: &Scene) -> String {
+    let (from, to) = (corner(&scene.from), corner(&scene.to));
+    let body = match (&scene.outline, &scene.mapped) {
+        (None, _) => format!("({from}) to ({to}) m"),
+        (Some(outline), Some(_)) => outline.row(),
+        (Some(outline), None) => outline.row() + rims(scene),
+    };
+    let density = match scene.density.formula() {
+        None => stated(scene.density.largest()),
+        Some(formula) => formula.source().to_owned(),
+    };
+    format!("{body}, density {density}")
+}
+
+/// Returns the text `, free rims` if no load acts on a rim.
+fn rims(scene: &Scene) -> &'static str {
+    let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
+    if is_loaded { "" } else { ", free rims" }
+}
+
+/// Adds the rows of each body, if there are several, and of their contact.
+fn bodies(scene: &Scene, rows: &mut Rows) {
+    for (i, one) in scene.bodies.iter().enumerate() {
+        push(rows, &format!("body {}", i + 1), &body(one));
+        push(rows, "  material", &material(&one.material));
+        push(rows, "  stress", &initial_stress(one));
+        push(rows, "  displacement", &sources(&one.initial_displacement));
+        push(rows, "  velocity", &sources(&one.initial_velocity));
+    }
+    match (scene.contact, scene.bodies.len()) {
+        (Some(mu), _) => push(rows, "contact", &format!("coefficient of friction {mu}")),
+        (None, 0 | 1) => {}
+        (None, _) => push(rows, "contact", "none, the bodies share one velocity field"),
+    }
+}
+
+pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
+    let one = scene.bodies.is_empty();
+    if one {
+        push(rows, "body", &body(scene));
+    }
+    bodies(scene, rows);
+    if let Some((from, to)) = &scene.grid {
+        push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
+    }
+    if one {
+        push(rows, "material", &material(&scene.material));
+    }
+    let across = match scene.plane {
+        PlaneState::Strain => "",
+        PlaneState::Stress => "stress, sigma_33 = 0",
+        PlaneState::Axisymmetric => "axisymmetric, X is the radius, sums are per radian",
+    };
+    push(rows, "plane", across);
+    for (number, face) in scene.faces.iter().enumerate() {
+        rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
+        let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();
+        push(rows, face.name, &if is_loaded { String::new() } else { face.hold.row() });
+    }
+    let (on_body, on_parts): (Vec<_>, Vec<_>) =
+        scene.loads.iter().partition(|load| load.target() == LoadTarget::Body);
+    let on_others = on_parts.into_iter().filter(|load| load.target().face().is_none());
+    rows.extend(on_others.chain(on_body).flat_map(|load| load.rows()));
+    if one {
+        push(rows, "initial stress", &initial_stress(scene));
+        push(rows, "initial displacement", &sources(&scene.initial_displacement));
+        push(rows, "initial velocity", &sources(&scene.initial_velocity));
+    }
+}
+
+/// Describes the initial stress, and its term in the first Piola-Kirchhoff stress.
+fn initial_stress(scene: &Scene) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    let written = |(i, j, formula): &(usize, usize, Formula)| {
+        format!("{}{} = {}", AXES[*i], AXES[*j], formula.source())
+    };
+    let components = scene.initial_stress.components().iter().map(written);
+    let components = components.collect::<Vec<_>>().join(", ");
+    if components.is_empty() {
+        return components;
+    }
+    let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
+    let term = if is_finite { "F S0" } else { "S0" };
+    format!("S0 with {components} Pa, which adds {term} to P")
+}
+
+/// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.
+fn material(plan: &MaterialPlan) -> String {
+    let written = |(MaterialParameter { symbol, unit, .. }, value): (MaterialParameter, f64)| {
+        format!(", {symbol} = {} {unit}", stated(value)).trim_end().to_owned()
+    };
+    let parameters: String = plan.parameters().into_iter().map(written).collect();
+    plan.name().replace('_', " ") + &parameters
+}
+
+/// A part that can be removed from a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dispensable {
+    /// An effect.
+    Effect(EffectName),
+    /// Contact between bodies. Without contact they share one velocity field.
+    Contact,
+}
+
+impl Dispensable {
+    /// Returns all removable parts.
+    pub fn all() -> impl Iterator<Item = Self> {
+        EffectName::ALL.iter().map(|effect| Self::Effect(*effect)).chain([Self::Contact])
+    }
+
+    /// Returns the name that suites and reports use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Effect(effect) => effect.name(),
+            Self::Contact => "contact",
+        }
+    }
+}
+
+/// Returns the cost profile of a step of `case` on the coarsest level.
+pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
+    dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
+}
+
+/// Copies the plan, without the part `without` of its scene.
+pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
+    let mut plan = plan.clone();
+    let Dispensable::Effect(effect) = without else {
+        plan.scene.contact = None;
+        return plan;
+    };
+    if let (EffectName::BodyForce, Some(problem)) = (effect, &mut plan.exact) {
+        problem.manufactured = false;
+    }
+    remove(&mut plan.scene, effect);
+    plan
+}
+
+/// Removes an effect from a scene, together with the effects that require it.
+fn remove(scene: &mut Scene, effect: EffectName) {
+    let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
+    scene.loads.retain(|load| !goes(&load.effect));
+    scene.bodies.iter_mut().for_each(|body| remove(body, effect));
+}

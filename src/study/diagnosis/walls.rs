@@ -9,7 +9,7 @@ use crate::study::handover::level_problem;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, SceneFace};
-use crate::suite::scene::grid_size::grid_axis;
+use crate::suite::scene::grid_axis;
 use crate::verify::{KnownCause, KnownCauseKind, LevelOutcome};
 
 /// Maximum distance (cells) from the end of the grid that counts as rounding error.

@@ -6,7 +6,7 @@ mod run;
 use self::run::GradientRun;
 use crate::external::{GradientError, ProblemNeeds, SolverFactory};
 use crate::study::convergence::statement;
-use crate::study::describe::statement::{Rows, push};
+use crate::study::describe::{Rows, push};
 use crate::study::handover::needs;
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;

@@ -86,7 +86,7 @@ impl GradientRun<'_> {
             perturbed: self.perturbed(&problem, q, progress)?,
         };
         let points = match self.plan.sweep.filter(|sweep| sweep.parameter == one.parameter) {
-            Some(sweep) => self.sweep(&problem, (q, sweep), progress)?,
+            Some(sweep) => self.sweep(&problem, q, sweep, progress)?,
             None => Vec::new(),
         };
         let mut study = GradientStudy {
@@ -286,7 +286,8 @@ impl GradientRun<'_> {
     fn sweep(
         &self,
         problem: &LevelProblem,
-        (q, sweep): (f64, SweepPlan),
+        q: f64,
+        sweep: SweepPlan,
         progress: Progress<'_>,
     ) -> Result<Vec<SweepPoint>, GradientError> {
         let index = self.request.iter().position(|known| *known == sweep.parameter).unwrap_or(0);

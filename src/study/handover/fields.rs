@@ -127,7 +127,8 @@ impl SceneFields {
     /// Returns the values of a load or a face condition, named `what` in messages, at each point.
     fn numbers(
         &self,
-        (what, numbers): (&str, &LoadNumbers),
+        what: &str,
+        numbers: &LoadNumbers,
         t: f64,
         at: &FieldPlaces<'_>,
     ) -> Result<Vec<f64>, FieldError> {
@@ -250,12 +251,12 @@ impl FieldSource for SceneFields {
                 {
                     self.check_on_rim(&circle, at)?;
                 }
-                self.numbers((load.effect.name(), &numbers), t, at)?
+                self.numbers(load.effect.name(), &numbers, t, at)?
             }
             FieldName::Face(number) => {
                 self.check_on_face(number, at)?;
                 let face = &self.scene.faces[number];
-                self.numbers((face.condition(), &face.hold.numbers()), t, at)?
+                self.numbers(face.condition(), &face.hold.numbers(), t, at)?
             }
             _ => self.initial(of, at)?,
         };

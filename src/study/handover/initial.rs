@@ -13,9 +13,9 @@ use crate::study::setup::initial_state::Initial;
 use crate::subject::SubjectError;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace};
-use crate::suite::scene::grid_size::{cell_size, grid_axis};
 use crate::suite::scene::load::{EffectName, ListedLoad, LoadTarget};
 use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::scene::{cell_size, grid_axis};
 use crate::verify::StepKind;
 use std::sync::Arc;
 
@@ -225,13 +225,7 @@ impl SceneForce {
 
     /// Returns the prescribed forces on a body with the displacement `u` (m), plus the force
     /// `made`.
-    fn whole(
-        &self,
-        made: [f64; 3],
-        body: usize,
-        (label, t): (&[f64], f64),
-        u: &[f64; 3],
-    ) -> [f64; 3] {
+    fn whole(&self, made: [f64; 3], body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         let terms = self.terms.get(body).map_or(&[][..], Vec::as_slice);
         std::array::from_fn(|i| {
             terms.iter().fold(made[i], |sum, term| sum + term.stated(i, label, t, u))
@@ -250,7 +244,7 @@ impl ForceSource for SceneForce {
 
     fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         let made = self.made.as_ref().map_or([0.0; 3], |made| made.manufactured_force(label, t));
-        self.whole(made, body, (label, t), u)
+        self.whole(made, body, label, t, u)
     }
 
     fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> Option<PlacedBodyForce> {
@@ -259,7 +253,7 @@ impl ForceSource for SceneForce {
         Some(Box::new(move |t, into| {
             forcing.at(t, into, |made| made);
             for (into, (body, label)) in into.iter_mut().zip(&places) {
-                *into = force.whole(*into, *body, (label, t), &[0.0; 3]);
+                *into = force.whole(*into, *body, label, t, &[0.0; 3]);
             }
         }))
     }

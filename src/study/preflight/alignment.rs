@@ -2,7 +2,7 @@
 
 use super::subject::Preflight;
 use crate::suite::model::Scene;
-use crate::suite::scene::grid_size::grid_axis;
+use crate::suite::scene::grid_axis;
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};

@@ -13,7 +13,7 @@ use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::scene::grid_size::{grid_axis, per_axis};
+use crate::suite::scene::{grid_axis, per_axis};
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::FEWEST_LEVELS;

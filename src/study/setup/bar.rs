@@ -9,7 +9,7 @@ use crate::subject::{Start, SubjectError};
 use crate::suite::grammar::EquationName;
 use crate::suite::model::method::Method;
 use crate::suite::model::{ConvergencePlan, ReferencePlan, Scene};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
 pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<Bar, SubjectError> {

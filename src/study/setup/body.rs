@@ -13,10 +13,10 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::boundary::{FaceSite, build as build_boundary};
-use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{LatticeOffsets, block};
 use crate::suite::scene::load;
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
 
 /// Model of a body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -67,7 +67,7 @@ pub(crate) fn setup<const D: usize>(
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
-    let mut effects = effects_of(body, (&grid, basis), &mut particles)?;
+    let mut effects = effects_of(body, &grid, basis, &mut particles)?;
     if scene.plane == PlaneState::Axisymmetric {
         effects.insert(0, Box::new(Hoop::default()));
     }
@@ -111,7 +111,7 @@ pub(crate) fn quasi_static<const D: usize>(
 ) -> Result<QuasiStatic<D>, SubjectError> {
     let body = Body::of(plan, &plan.scene);
     let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
-    let effects = effects_of(&body, (&grid, basis), &mut particles)?;
+    let effects = effects_of(&body, &grid, basis, &mut particles)?;
     let boundary = boundary(&plan.scene, &grid, basis);
     let material = plan.scene.material.build();
     Ok(QuasiStatic::new(QuasiStaticSetup {
@@ -131,7 +131,8 @@ pub(crate) fn quasi_static<const D: usize>(
 /// The reason why the effects cannot be created.
 pub fn effects<const D: usize>(
     suite: &Suite,
-    (grid, basis): (&Grid<D>, BasisName),
+    grid: &Grid<D>,
+    basis: BasisName,
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
     let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is not a convergence study")?;
@@ -178,7 +179,8 @@ fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D
 /// Creates the effects of the body's loads. A manufactured force comes before loads on sets.
 fn effects_of<const D: usize>(
     body: &Body<'_>,
-    (grid, basis): (&Grid<D>, BasisName),
+    grid: &Grid<D>,
+    basis: BasisName,
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
     let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));

@@ -4,7 +4,7 @@ mod handed;
 pub(crate) mod run;
 use self::run::CaseRun;
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::study::describe::statement::{Rows, push, scene};
+use crate::study::describe::{Rows, push, scene};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::time_series::SeriesError;
 use crate::suite::compile::stability::setup::RunSetup;

@@ -6,6 +6,7 @@ use super::expect::any_method;
 use super::run::{self, places, reference, refine};
 use super::scene;
 use super::truth::{self, conduction, judged_box, refuse_need_of_truth};
+use crate::exact::Survey;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
@@ -21,6 +22,8 @@ struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
     plan: &'a ConvergencePlan,
+    /// Survey of the exact motion of a single body.
+    survey: Option<Survey>,
     /// Paths of the levels in the file.
     levels: Vec<LevelPaths>,
     /// End of the longest run (s).
@@ -34,7 +37,7 @@ type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
-    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan),
+    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan, suite.survey.as_ref()),
     |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
     |suite| refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
@@ -61,11 +64,13 @@ pub(crate) fn convergence_plan(
         None => truth::exact(evaluator, spec, &scene, latest)?,
     };
     let within = judged_box::judged_box(evaluator, spec, &scene, exact.as_ref())?;
-    let exact = match (&within, exact) {
-        (Some(within), Some(exact)) => {
-            Some(judged_box::without_distant_faces(evaluator, within, exact)?)
+    // Several bodies are surveyed together, with the conditions on their common faces.
+    let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
+    let exact = match (&within, exact, &survey) {
+        (Some(within), Some(exact), Some(survey)) => {
+            Some(judged_box::without_distant_faces(evaluator, within, exact, survey)?)
         }
-        (_, exact) => exact,
+        (_, exact, _) => exact,
     };
     let dimension = scene.dimension();
     let reference =
@@ -99,7 +104,7 @@ pub(crate) fn convergence_plan(
         acknowledged: acknowledged(evaluator, &spec.acknowledge)?,
     };
     plan.cases = run::cases(evaluator, spec, &plan, &until)?;
-    let compiled = Compiled { evaluator, spec, plan: &plan, levels, latest };
+    let compiled = Compiled { evaluator, spec, plan: &plan, survey, levels, latest };
     CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
     // The exact value of the sum needs the solution, which has been checked above.
     plan.sum = sums::judged(evaluator, spec, &plan)?;

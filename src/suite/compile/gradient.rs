@@ -1,5 +1,6 @@
 //! Compiles a gradient study: functional, parameters, exact sensitivities, and expectations.
 
+use super::check::refuse_first;
 use super::convergence::convergence_plan;
 use super::expect::assign;
 use super::scene;
@@ -116,10 +117,7 @@ fn refuse_unfit_problem(
             "the time step of a gradient study must not depend on the method",
         ),
     ];
-    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        Some((_, path, message)) => Err(evaluator.diagnostic_at_key(&path, message)),
-        None => Ok(()),
-    }
+    refuse_first(&refused, |path, message| evaluator.diagnostic_at_key(path, message))
 }
 
 /// Evaluates an index, which must be an integer from 0 to `count - 1`.
@@ -127,7 +125,8 @@ fn index(
     evaluator: &Evaluator<'_>,
     path: &Path,
     text: &NumberText,
-    (what, count): (&str, usize),
+    what: &str,
+    count: usize,
 ) -> Result<usize, Diagnostic> {
     let value = evaluator.number(path, text)?;
     if value >= 0.0 && value.fract() == 0.0 && value < count as f64 {
@@ -144,8 +143,8 @@ fn functional(
 ) -> Result<Functional, Diagnostic> {
     let path = Path::top("gradient").then("of");
     let axis = |name: &str, text: &NumberText| {
-        let count = ("axis", problem.scene.dimension());
-        index(evaluator, &path.then(name).then("axis"), text, count)
+        let count = problem.scene.dimension();
+        index(evaluator, &path.then(name).then("axis"), text, "axis", count)
     };
     Ok(match &spec.gradient.of {
         FunctionalSpec::MeanDisplacement { axis: text } => {
@@ -154,9 +153,9 @@ fn functional(
         FunctionalSpec::MeanSquareDisplacement => Functional::MeanSquareDisplacement,
         FunctionalSpec::KineticEnergy => Functional::KineticEnergy,
         FunctionalSpec::PositionOf { particle, axis: text } => {
-            let count = ("index of the particle", coarsest_particles(problem));
+            let count = coarsest_particles(problem);
             let at = path.then("position_of").then("particle");
-            let particle = index(evaluator, &at, particle, count)?;
+            let particle = index(evaluator, &at, particle, "index of the particle", count)?;
             Functional::PositionOf { particle, axis: axis("position_of", text)? }
         }
     })
@@ -192,7 +191,7 @@ fn parameters(
             let diagnostic = evaluator.diagnostic_at_key(&path, &message);
             return Err(diagnostic.with_help(&suggestion("parameters", key, &known)));
         };
-        differentiated(evaluator, source, spec, problem, &path, (*parameter, name))
+        differentiated(evaluator, source, spec, problem, &path, *parameter, name)
     };
     let all = entries.iter().map(one).collect::<Result<Vec<Differentiated>, Diagnostic>>()?;
     let has_velocity = all.iter().any(|one| one.parameter == GradientParameter::InitialVelocity);
@@ -217,7 +216,8 @@ fn differentiated(
     spec: &GradientSpec,
     problem: &ConvergencePlan,
     path: &Path,
-    (parameter, name): (GradientParameter, &String),
+    parameter: GradientParameter,
+    name: &String,
 ) -> Result<Differentiated, Diagnostic> {
     let declared = spec.parameters.as_slice();
     if spec.parameters.get(name).is_none() {
@@ -245,7 +245,7 @@ fn differentiated(
     let growth = factor * value;
     let other = value * (1.0 + CHANGE);
     let is_set = sets(parameter, &problem.scene, value, growth)
-        && with_value(source, spec, (name, other), |evaluator| {
+        && with_value(source, spec, name, other, |evaluator| {
             let scene = scene::scene(evaluator, &spec.scene)?;
             Ok(sets(parameter, &scene, other, growth))
         })?;
@@ -265,7 +265,7 @@ fn differentiated(
     let check = |evaluator: &Evaluator<'_>| {
         convergence_plan(evaluator, &spec.convergence(vec![solver])).map(|_| ())
     };
-    with_value(source, spec, (name, other), check).map_err(|error| {
+    with_value(source, spec, name, other, check).map_err(|error| {
         let reason = error.message();
         let message = format!("the suite is not valid for {name} = {}: {reason}", shown(other));
         evaluator.diagnostic(path, &message)
@@ -296,7 +296,8 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
 fn with_value<T>(
     source: &Source,
     spec: &GradientSpec,
-    (name, value): (&str, f64),
+    name: &str,
+    value: f64,
     check: impl FnOnce(&Evaluator<'_>) -> Result<T, Diagnostic>,
 ) -> Result<T, Diagnostic> {
     let number = ParameterSpec::Number(NumberText::Number(value));

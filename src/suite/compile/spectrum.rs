@@ -3,7 +3,7 @@
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
-use crate::suite::compile::check::size;
+use crate::suite::compile::check::{refuse_first, size};
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{NamedMethod, count, methods, named};
 use crate::suite::compile::scene;
@@ -14,7 +14,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{AMPLITUDE, SpectrumExpectation};
 use std::f64::consts::TAU;
@@ -91,10 +91,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
         (!scene.initial_stress.is_none(), top("initial_stress"), "a body without stress"),
         (!starts_at_rest, Path::top("scene"), "a body at rest, whose wave the study starts"),
     ];
-    match refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        Some((_, path, property)) => Err(needs(evaluator, &path, property)),
-        None => Ok(()),
-    }
+    refuse_first(&refused, |path, property| needs(evaluator, path, property))
 }
 
 /// Compiles the translation of the particles (m). The translation must keep every particle in its

@@ -120,8 +120,7 @@ impl<'a> Evaluator<'a> {
         variables: &[&str],
     ) -> Result<Formula, Diagnostic> {
         self.refuse_taken(variables)?;
-        let bound = Expr::parse(&text.to_string())
-            .and_then(|expr| Formula::bind(&expr, &self.scope, variables));
+        let bound = bind(text, &self.scope, variables);
         let formula = bound.map_err(|error| self.in_text(path, &error))?;
         self.used.borrow_mut().extend(formula.uses().iter().cloned());
         Ok(formula)
@@ -159,6 +158,12 @@ impl<'a> Evaluator<'a> {
             return Ok(value);
         }
         Err(self.not_finite(path, text, value))
+    }
+
+    /// Whether `text` cannot be a number because it depends on a coordinate.
+    pub(crate) fn depends_on_coordinate(&self, text: &NumberText) -> bool {
+        let unknown = bind(text, &self.scope, &[]).err().and_then(|error| error.unknown);
+        unknown.is_some_and(|name| COORDINATES.contains(&name.as_str()))
     }
 
     pub(crate) fn positive(
@@ -280,6 +285,11 @@ impl<'a> Evaluator<'a> {
     }
 }
 
+/// Binds a formula in the given `variables`, with the names of `scope`.
+fn bind(text: &NumberText, scope: &Scope, variables: &[&str]) -> Result<Formula, FormulaError> {
+    Formula::bind(&Expr::parse(&text.to_string())?, scope, variables)
+}
+
 fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
     match &error.help {
         Some(help) => diagnostic.with_help(help),
@@ -346,8 +356,7 @@ impl Evaluator<'_> {
     /// Returns names and values of the parameters that a formula uses, directly or through
     /// functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
-        let formula =
-            Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &self.scope, &[]));
+        let formula = bind(text, &self.scope, &[]);
         let uses = formula.map(|formula| formula.uses().clone()).unwrap_or_default();
         let constants = self.scope.constants().filter(|(name, _)| uses.contains(*name));
         constants.map(|(name, value)| (name.to_owned(), value)).collect()
@@ -355,8 +364,7 @@ impl Evaluator<'_> {
 
     fn is_finite_with(&self, text: &NumberText, name: &str, value: f64) -> bool {
         let scope = self.scope.with(name, value);
-        let formula =
-            Expr::parse(&text.to_string()).and_then(|expr| Formula::bind(&expr, &scope, &[]));
+        let formula = bind(text, &scope, &[]);
         formula.is_ok_and(|formula| formula.constant().is_some_and(f64::is_finite))
     }
 

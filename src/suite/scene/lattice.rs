@@ -7,7 +7,7 @@
 //! of the grid.
 
 use super::Scene;
-use super::grid_size::grid_axis;
+use super::grid_axis;
 use crate::dimension::with_dimension;
 use crate::exact::Cut;
 use crate::mpm::{Block, Vector};

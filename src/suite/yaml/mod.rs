@@ -29,7 +29,6 @@ pub(crate) mod diagnostic;
 pub(crate) mod locate;
 pub(crate) mod number;
 pub(crate) mod one_or_many;
-pub(crate) mod ordered;
 pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
@@ -47,12 +46,11 @@ pub use locate::Step;
 pub use number::NumberText;
 pub(crate) use number::{InPlaceOfNumber, NumberOr};
 pub use one_or_many::OneOrMany;
-pub use ordered::Ordered;
 pub use place::Place;
 pub use read::read;
 pub(crate) use read::{CheckedShape, read_again, written};
 pub(crate) use shape::TopValue;
-pub use shape::refuse;
+pub use shape::{Ordered, refuse};
 pub use source::{MAX_BYTES, Source};
 
 /// Maximum number of entries in a list or a map.

@@ -16,7 +16,7 @@ pub(crate) fn add<const D: usize>(
 ) {
     let source = Source::from_text("effect.yaml", suite(name, D, size)).unwrap();
     let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let made = study::effects(&suite, (&setup.grid, basis), &mut setup.particles).unwrap();
+    let made = study::effects(&suite, &setup.grid, basis, &mut setup.particles).unwrap();
     setup.effects.extend(made);
 }
 

@@ -5,7 +5,7 @@ use super::{shape, symbols};
 use crate::report::figure::plot::canvas::{canvas, wrap};
 use crate::report::figure::plot::style::{GRID, INK, NEUTRAL, TEXT, WIDTH};
 use crate::report::figure::plot::svg::{Pt, SvgElement};
-use crate::study::describe::statement::{self, stated};
+use crate::study::describe::{self, stated};
 use crate::subject::PlaneState;
 use crate::suite::model::Suite;
 use crate::suite::scene::face::FACES;
@@ -100,8 +100,8 @@ fn words(view: &View) -> Vec<Row> {
     if !view.is_to_scale() {
         rows.push(("scale".to_owned(), "Y is drawn larger than X".to_owned()));
     }
-    let mut statement = statement::Rows::new();
-    statement::scene(&view.scene, &mut statement);
+    let mut statement = describe::Rows::new();
+    describe::scene(&view.scene, &mut statement);
     rows.extend(statement.into_iter().filter(|(name, _)| name != "grid"));
     // Neighbouring faces with equal text share a row.
     let is_face = |name: &str| FACES.contains(&name);

@@ -4,7 +4,7 @@ use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
 use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{ConvergencePlan, Scene, Suite};
-use crate::suite::scene::grid_size::grid_axis;
+use crate::suite::scene::grid_axis;
 
 /// Distance of the grid from the edges of the canvas (px).
 pub(super) const MARGIN: f64 = 52.0;

@@ -179,3 +179,18 @@ pub(crate) fn check_drift(
     let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
     Err(diagnostic.with_help("restrict this expectation to MPM cases"))
 }
+
+/// Refuses a suite to which one of the entries applies. An entry is whether it applies, the place
+/// in the file, and the text for the `diagnostic`.
+///
+/// # Errors
+/// The diagnostic of the first entry that applies.
+pub(crate) fn refuse_first(
+    entries: &[(bool, Path, &str)],
+    diagnostic: impl FnOnce(&Path, &str) -> Diagnostic,
+) -> Result<(), Diagnostic> {
+    match entries.iter().find(|(applies, ..)| *applies) {
+        Some((_, path, text)) => Err(diagnostic(path, text)),
+        None => Ok(()),
+    }
+}

@@ -5,8 +5,8 @@ use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
-use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, Path};
 
 /// Maximum number of particles per level, and of nodes per level.

@@ -1,7 +1,7 @@
 use super::size::LevelPaths;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::model::{Against, Case, ConvergencePlan};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 

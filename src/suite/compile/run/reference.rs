@@ -7,7 +7,7 @@ use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
 use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan, RefinePlan};
 use crate::suite::model::{ReferencePlan, SameMethod, Scene};
-use crate::suite::scene::grid_size::cell_size;
+use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 

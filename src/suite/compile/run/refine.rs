@@ -8,7 +8,7 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RefineSpec, StepSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
-use crate::suite::scene::grid_size::{cell_size, per_axis};
+use crate::suite::scene::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 

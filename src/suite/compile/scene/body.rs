@@ -2,7 +2,7 @@
 
 use super::bodies::Listed;
 use super::outline::BodyShape;
-use super::outline::quadrilateral::faces_are_sides;
+use super::outline::polygon::faces_are_sides;
 use super::{density, material, outline, sets};
 use crate::exact::Density;
 use crate::mpm::MaterialPlan;

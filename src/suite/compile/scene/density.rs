@@ -17,18 +17,11 @@ pub(crate) fn uniform(
     evaluator: &Evaluator<'_>,
     own: &Listed<'_>,
 ) -> Result<Option<Density>, Diagnostic> {
-    let number = evaluator.positive(&path(own), own.material.density(), "the density");
-    match number {
-        Ok(density) => Ok(Some(density.into())),
-        Err(diagnostic) if names_coordinate(&diagnostic) => Ok(None),
-        Err(diagnostic) => Err(diagnostic),
+    let text = own.material.density();
+    if evaluator.depends_on_coordinate(text) {
+        return Ok(None);
     }
-}
-
-/// Whether `diagnostic` reports that the formula of a constant uses a coordinate.
-pub(crate) fn names_coordinate(diagnostic: &Diagnostic) -> bool {
-    let names = |name: &&str| diagnostic.message() == format!("unknown name `{name}`");
-    COORDINATES.iter().any(names)
+    Ok(Some(evaluator.positive(&path(own), text, "the density")?.into()))
 }
 
 /// Compiles the varying density of a body with the shape of `scene`.
@@ -45,7 +38,7 @@ pub(crate) fn varying(
         return Err(evaluator.diagnostic(&path, &message));
     }
     let density = Density::of_place(formula, &scene.from, &scene.to, scene.outline.as_deref())
-        .map_err(|place| not_positive(evaluator, (&path, text), &place))?;
+        .map_err(|place| not_positive(evaluator, &path, text, &place))?;
     let properties = scene.material.properties();
     if density.smallest() == 0.0 && !properties.wave_speed(0.0).is_finite() {
         let message = format!(
@@ -60,7 +53,8 @@ pub(crate) fn varying(
 
 fn not_positive(
     evaluator: &Evaluator<'_>,
-    (path, text): (&Path, &NumberText),
+    path: &Path,
+    text: &NumberText,
     place: &NoDensity,
 ) -> Diagnostic {
     let label: Vec<String> = place.label.iter().map(|x| shown(*x)).collect();

@@ -1,10 +1,9 @@
 //! Compiles the material of a body and its initial state.
 
 use super::bodies::Listed;
-use super::density::names_coordinate;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
-use crate::mpm::{Contradiction, MaterialPlan, MaterialSpec, Range};
+use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
@@ -15,15 +14,16 @@ pub(crate) fn material(
 ) -> Result<MaterialPlan, Diagnostic> {
     let path = path.then(spec.name());
     let material = spec.numbers(|key, parameter, text| {
-        let at = path.then(key);
-        let value = match parameter.range {
-            Range::Positive => evaluator.positive(&at, text, parameter.what),
-            Range::AboveOne => above_one(evaluator, &at, text, parameter.what),
-            Range::NotNegative => not_negative(evaluator, &at, text, parameter.what),
-            Range::PoissonsRatio => poissons_ratio(evaluator, &at, text),
-            Range::Angle => angle(evaluator, &at, text, parameter.what),
-        };
-        value.map_err(uniform)
+        let value = number_in_range(evaluator, &path.then(key), text, parameter);
+        value.map_err(|diagnostic| {
+            if !evaluator.depends_on_coordinate(text) {
+                return diagnostic;
+            }
+            diagnostic.with_help(
+                "only the density of a material can vary over a body: for several materials, list \
+                 several `bodies` in `scene`",
+            )
+        })
     })?;
     if let Some(Contradiction { key, reason, explanation }) = material.properties().contradiction()
     {
@@ -32,70 +32,34 @@ pub(crate) fn material(
     Ok(material)
 }
 
-/// Adds help to a diagnostic if it reports a parameter that varies in space.
-fn uniform(diagnostic: Diagnostic) -> Diagnostic {
-    if !names_coordinate(&diagnostic) {
-        return diagnostic;
-    }
-    diagnostic.with_help(
-        "only the density of a material can vary over a body: for several materials, list several \
-         `bodies` in `scene`",
-    )
-}
-
-fn not_negative(
+/// Evaluates a parameter of a material, which must be in its range.
+fn number_in_range(
     evaluator: &Evaluator<'_>,
     path: &Path,
     text: &NumberText,
-    what: &str,
+    parameter: &MaterialParameter,
 ) -> Result<f64, Diagnostic> {
-    let value = evaluator.number(path, text)?;
-    if value >= 0.0 {
+    let (what, value) = (parameter.what, evaluator.number(path, text)?);
+    let (is_valid, reason, expected) = match parameter.range {
+        Range::Positive => return evaluator.positive(path, text, what),
+        Range::NotNegative => {
+            (value >= 0.0, ", but must not be below zero", "expected zero or a positive number")
+        }
+        Range::AboveOne => (value > 1.0, ", but must be above one", "expected a number above 1"),
+        Range::PoissonsRatio => {
+            (value > -1.0 && value < 0.5, "", "expected a number above -1 and below 0.5")
+        }
+        Range::Angle => (
+            (0.0..90.0).contains(&value),
+            " degrees",
+            "expected at least 0 and less than 90 degrees",
+        ),
+    };
+    if is_valid {
         return Ok(value);
     }
-    let message = format!("{what} is {}, but must not be below zero", shown(value));
-    Err(evaluator.unusable(path, text, &message, "expected zero or a positive number"))
-}
-
-fn above_one(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-    what: &str,
-) -> Result<f64, Diagnostic> {
-    let value = evaluator.number(path, text)?;
-    if value > 1.0 {
-        return Ok(value);
-    }
-    let message = format!("{what} is {}, but must be above one", shown(value));
-    Err(evaluator.unusable(path, text, &message, "expected a number above 1"))
-}
-
-fn angle(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-    what: &str,
-) -> Result<f64, Diagnostic> {
-    let degrees = evaluator.number(path, text)?;
-    if (0.0..90.0).contains(&degrees) {
-        return Ok(degrees);
-    }
-    let message = format!("{what} is {} degrees", shown(degrees));
-    Err(evaluator.unusable(path, text, &message, "expected at least 0 and less than 90 degrees"))
-}
-
-fn poissons_ratio(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-) -> Result<f64, Diagnostic> {
-    let poisson = evaluator.number(path, text)?;
-    if poisson > -1.0 && poisson < 0.5 {
-        return Ok(poisson);
-    }
-    let message = format!("Poisson's ratio is {poisson}");
-    Err(evaluator.unusable(path, text, &message, "expected a number above -1 and below 0.5"))
+    let message = format!("{what} is {}{reason}", shown(value));
+    Err(evaluator.unusable(path, text, &message, expected))
 }
 
 const COMPONENTS: [(&str, usize, usize); 6] =

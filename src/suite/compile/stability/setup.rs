@@ -11,7 +11,7 @@ use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
-use crate::suite::scene::grid_size::{cell_size, grid_axis, per_axis};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::Scales;
 

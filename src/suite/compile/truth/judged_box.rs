@@ -72,7 +72,7 @@ pub(crate) fn judged_box(
 }
 
 /// Returns `exact` without the faces whose condition the motion violates, so that the check of the
-/// solution skips them.
+/// solution skips them. `survey` is that of `exact`.
 ///
 /// # Errors
 /// A diagnostic about a box that an elastic wave from such a face reaches before the end of the
@@ -81,9 +81,9 @@ pub(crate) fn without_distant_faces(
     evaluator: &Evaluator<'_>,
     within: &JudgedBox,
     exact: Problem,
+    survey: &Survey,
 ) -> Result<Problem, Diagnostic> {
-    let survey = Survey::new(&exact);
-    let violates = |face: &usize| exact.violation_on_face(*face, &survey).is_some();
+    let violates = |face: &usize| exact.violation_on_face(*face, survey).is_some();
     let violated: Vec<usize> = (0..exact.faces.len()).filter(violates).collect();
     let reach = exact.wave_speed() * exact.until;
     for number in &violated {

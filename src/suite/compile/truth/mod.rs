@@ -59,11 +59,12 @@ pub(crate) fn exact(
 }
 
 /// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
-/// conditions.
+/// conditions. `survey` is that of a single body; several bodies are surveyed here.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
+    survey: Option<&Survey>,
 ) -> Result<(), Diagnostic> {
     let path = Path::top(match (&spec.equilibrium, &spec.exact) {
         (Some(_), _) => "equilibrium",
@@ -74,8 +75,8 @@ pub(crate) fn refuse_violated(
         conduction::refuse_wrong_temperature(evaluator, &path, problem)?;
     }
     let Some(problem) = &plan.exact else { return Ok(()) };
-    if problem.bodies.is_empty() {
-        return refuse_wrong_solution(evaluator, &path, problem, &Survey::new(problem));
+    if let Some(survey) = survey {
+        return refuse_wrong_solution(evaluator, &path, problem, survey);
     }
     interface::refuse_violated_conditions(
         evaluator,

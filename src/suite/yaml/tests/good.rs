@@ -1,6 +1,6 @@
 //! Tests that valid input is parsed as intended and located correctly.
 
-use super::sample::{Basis, Load, Material, Method, SAMPLE, Scheme, Suite};
+use super::{Basis, Load, Material, Method, SAMPLE, Scheme, Suite};
 use crate::suite::yaml::{NumberText, OneOrMany, Ordered, Source, Step, read};
 use rstest::rstest;
 use serde::Deserialize;

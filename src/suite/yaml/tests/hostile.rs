@@ -1,6 +1,6 @@
 //! Tests of malicious and accidentally harmful files.
 
-use super::sample::{SAMPLE, Suite};
+use super::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, Source, read};
 use rstest::rstest;
 use serde::de::IgnoredAny;

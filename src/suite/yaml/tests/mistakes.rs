@@ -1,6 +1,6 @@
 //! Tests of single mistakes in the sample: position, message and advice.
 
-use super::sample::{SAMPLE, Suite};
+use super::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, OneOrMany, Ordered, Source, read, refuse};
 use rstest::rstest;
 use serde::de::DeserializeOwned;

@@ -1,6 +1,6 @@
 //! Property tests: no text causes a panic, and diagnostics are printable.
 
-use super::sample::{SAMPLE, Suite};
+use super::{SAMPLE, Suite};
 use crate::suite::yaml::{Source, Step, read};
 use proptest::prelude::*;
 use serde_yaml::Value;

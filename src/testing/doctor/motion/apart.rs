@@ -1,6 +1,6 @@
 //! Determines the cause if the parts of a stress-free body move differently.
 
-use super::seen::UniformMotion;
+use super::as_one::UniformMotion;
 use crate::testing::doctor::course::{
     displacement, dot, minus, shown, shown_vector, size, times, velocity,
 };

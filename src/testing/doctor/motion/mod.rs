@@ -1,21 +1,19 @@
 //! Examines a body that should move at constant speed, and determines the cause of deviations.
 //!
 //! ```text
-//! as_one   the body keeps its shape: drag, units, times
+//! as_one   errors of the motion; the body keeps its shape: drag, units, times
 //! apart    the body changes its shape: weights, gradients, cells, limits
-//! seen     errors of the motion
 //! ```
 
 mod apart;
 mod as_one;
-mod seen;
 
 use super::course::shown;
 use super::finding::SolverFinding;
 use super::patient::{Examined, Hindrance, Patient};
 use super::scene::BoxScene;
 use crate::subject::Precision;
-use seen::UniformMotion;
+use as_one::UniformMotion;
 
 /// Maximum relative error of a motion that single precision can explain.
 const SINGLE: f64 = 1e-4;

@@ -1,15 +1,13 @@
 //! Compiles the shape of a body: a box or another outline.
 
-mod polygon;
-pub(crate) mod quadrilateral;
-mod round;
+pub(crate) mod polygon;
 
-use crate::exact::Outline;
+use crate::exact::{Outline, Round};
 use crate::mpm::Quadrilateral;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{BodySpec, BoxSpec, SceneSpec};
-use crate::suite::scene::grid_size::{LONGEST, SHORTEST};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
+use crate::suite::scene::{LONGEST, SHORTEST};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
 pub(crate) enum BodyShape<'a> {
@@ -42,20 +40,20 @@ pub(crate) fn shape<'a>(
     match spec {
         BodySpec::Box(spec) => Ok(BodyShape::Box(spec)),
         BodySpec::Annulus(spec) => {
-            round::annulus(evaluator, &of_kind("annulus", 2)?, spec).map(BodyShape::Free)
+            annulus(evaluator, &of_kind("annulus", 2)?, spec).map(BodyShape::Free)
         }
         BodySpec::Disk(spec) => {
-            round::filled(evaluator, &of_kind("disk", 2)?, spec, 2).map(BodyShape::Free)
+            filled(evaluator, &of_kind("disk", 2)?, spec, 2).map(BodyShape::Free)
         }
         BodySpec::Ball(spec) => {
-            round::filled(evaluator, &of_kind("ball", 3)?, spec, 3).map(BodyShape::Free)
+            filled(evaluator, &of_kind("ball", 3)?, spec, 3).map(BodyShape::Free)
         }
         BodySpec::Polygon(corners) => {
             polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners).map(BodyShape::Free)
         }
         BodySpec::Quadrilateral(spec) => {
             let at = of_kind("quadrilateral", 2)?;
-            let (outline, panel) = quadrilateral::quadrilateral(evaluator, &at, spec)?;
+            let (outline, panel) = polygon::quadrilateral(evaluator, &at, spec)?;
             Ok(BodyShape::Mapped(outline, panel))
         }
     }
@@ -144,4 +142,41 @@ pub(crate) fn corners(
         }
     }
     Ok((from, to))
+}
+
+fn annulus(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    AnnulusSpec { centre, inner, outer }: &AnnulusSpec,
+) -> Result<Arc<dyn Outline>, Diagnostic> {
+    let centre = evaluator.point(&path.then("centre"), centre, 2)?;
+    let inner = radius(evaluator, &path.then("inner"), inner)?;
+    let outer = radius(evaluator, &path.then("outer"), outer)?;
+    if inner < outer {
+        return Ok(Arc::new(Round { centre, inner, outer }));
+    }
+    let message = format!("the outer radius is {}, the inner {}", shown(outer), shown(inner));
+    let diagnostic = evaluator.diagnostic(&path.then("outer"), &message);
+    Err(diagnostic.with_label("expected a number above `inner`"))
+}
+
+fn filled(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &RoundSpec,
+    dimension: usize,
+) -> Result<Arc<dyn Outline>, Diagnostic> {
+    let centre = evaluator.point(&path.then("centre"), &spec.centre, dimension)?;
+    let outer = radius(evaluator, &path.then("radius"), &spec.radius)?;
+    Ok(Arc::new(Round { centre, inner: 0.0, outer }))
+}
+
+fn radius(evaluator: &Evaluator<'_>, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
+    let radius = evaluator.positive(path, text, "the radius")?;
+    if (SHORTEST..=LONGEST).contains(&radius) {
+        return Ok(radius);
+    }
+    let message = format!("the radius is {} m", shown(radius));
+    let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
