@@ -507,7 +507,8 @@ class Mpm:
 
     def refuse(self, of: Message) -> None:
         """Raises `Cannot` if the functional `of` has no derivatives here."""
-        if self.d > {self.hencky: 1, self.corotated: 2}.get(self.update_stress, 3):
+        most = {self.polytropic: 0, self.hencky: 1, self.corotated: 2}  # dimensions
+        if self.d > most.get(self.update_stress, 3):
             raise Cannot("no gradients of this law in so many dimensions")
         if of["functional"] == "position_of" and of["particle"] >= len(self.x):
             raise Cannot(f"there is no particle {of['particle']}")
