@@ -15,7 +15,11 @@ LAGRANGIAN = ["translating-block", "falling-block", "free-bar-pulse", "free-bar-
               "moving-bar-pulse", "square-between-rollers", "shear-wave", "mms-axis-aligned-2d",
               "vibrating-bar", "vibrating-bar-small-amplitude", "free-bar-second-mode",
               "released-bar", "mms-fixed-bar-small", "mms-periodic-bar-sin",
-              "mms-periodic-bar-cos", "free-bar-pulse-small-3d", "mms-axis-aligned-3d"]
+              "mms-periodic-bar-cos", "free-bar-pulse-small-3d", "mms-axis-aligned-3d",
+              "two-shears-nearly-incompressible"]
+# For the MPM clients of this repository: locking and gases.
+EXACT = ["two-shears-nearly-incompressible", "mms-graded-bar", "gas-cloud", "gas-cloud-2d",
+         "gas-cloud-3d", "spinning-cloud", "spinning-cloud-radius"]
 
 # Own methods for comparison with the codes, by the names of their cases.
 OWN = {
@@ -30,6 +34,20 @@ OWN = {
     "mpm-quadratic-bspline-apic-usl": "quadratic, APIC",
     "mpm-quadratic-bspline-apic-usl-at-zero": "quadratic, APIC",
 }
+
+# Own methods in the table of the suites EXACT.
+OWN_EXACT = {
+    "mpm-linear-flip-musl": "linear",
+    "mpm-linear-flip-musl-particle": "linear",
+    "mpm-linear-flip-musl-averaged": "linear, averaged",
+    "mpm-quadratic-bspline-flip-musl": "quadratic",
+    "mpm-cubic-bspline-flip-musl": "cubic",
+}
+
+
+def own_cases(suite: str) -> dict[str, str]:
+    """The own methods that are compared on a suite."""
+    return OWN_EXACT if suite in EXACT else OWN
 
 
 def is_gradient(suite: str) -> bool:
@@ -64,7 +82,7 @@ class Code:
     further: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
     changes: dict[str, dict[str, str]] = field(default_factory=dict)
     crate: str | None = None
-    adapter: str | None = None  # path from this folder, if it differs from the name
+    adapter: str | None = None  # path from this folder, if it differs from the name; C++ is compiled
     takes_any_law: bool = True  # option `--any-law` for suites in which nothing deforms
     # Runs of gradient suites: the settings of each, and its suites.
     gradients: dict[str, tuple[list[str], list[str]]] = field(default_factory=dict)
@@ -138,4 +156,10 @@ CODES = [
                                              "free-bar-second-mode", "mms-axis-aligned-2d"]),
         "dt as h": ([], ["vibrating-bar-small-amplitude"]),
     }, {"dt as h": DT_AS_H}, adapter="../solvers/sph.py", takes_any_law=False),
+    Code("numpy", "NumPy client", EXACT,
+         {basis: ["--start", "half_step_back", "--basis", name] for basis, name in
+          [("linear", "linear"), ("quadratic", "quadratic_bspline"), ("cubic", "cubic_bspline")]},
+         adapter="../solvers/numpy_mpm.py", takes_any_law=False),
+    Code("cpp", "C++ client", EXACT, {"linear": ["--start", "half_step_back"]},
+         adapter="../solvers/cpp/mpm.cpp", takes_any_law=False),
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from plan import CODES, LAGRANGIAN, OWN, PLANE, SPACE
+from plan import CODES, EXACT, LAGRANGIAN, PLANE, SPACE, own_cases
 
 PAGE = Path(__file__).resolve().parent.parent.parent / "docs" / "atlas.md"
 
@@ -36,12 +36,16 @@ def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
     """Suites against the variants of codes. The MPM codes are compared with methods of this crate,
     finite elements and SPH have a table without them."""
     lagrangian = suites is LAGRANGIAN
+    own_tables = (LAGRANGIAN, EXACT)
     columns = [(f"{code.title}, {variant}", code.name, variant) for code in CODES
-               if (code.suites is LAGRANGIAN) == lagrangian and set(code.suites) & set(suites)
+               if set(code.suites) & set(suites)
+               and (code.suites is suites if suites in own_tables else code.suites not in own_tables)
                for variant in code.variants]
-    own = [run for run in reports["own"] if run["suite"] in suites and not lagrangian]
-    methods = [label for label in dict.fromkeys(OWN.values())
-               if any(OWN[run["case"]] == label for run in own)]
+    names = own_cases(suites[0])
+    own = [run for run in reports["own"]
+           if run["suite"] in suites and run["case"] in names and not lagrangian]
+    methods = [label for label in dict.fromkeys(names.values())
+               if any(names[run["case"]] == label for run in own)]
     rows = []
     for suite in suites:
         row = [f"`{suite}`"]
@@ -50,7 +54,7 @@ def matrix(suites: list[str], reports: dict[str, list[dict]]) -> str:
                      if (run["suite"], run["variant"]) == (suite, variant)]
             row.append(cell(found[0]) if found else "not run yet")
         for label in methods:
-            found = [run for run in own if run["suite"] == suite and OWN[run["case"]] == label]
+            found = [run for run in own if run["suite"] == suite and names[run["case"]] == label]
             row.append("; ".join(start(run["case"]) + cell(run) for run in found))
         rows.append(row)
     return table(["suite", *(title for title, _, _ in columns), *methods], rows)
@@ -111,7 +115,8 @@ def write(folder: Path) -> None:
     of_gradients = {name: file.get("gradients", []) for name, file in files.items()}
     page = PAGE.read_text()
     for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
-                       ("lagrangian", matrix(LAGRANGIAN, reports)), ("further", further(reports)),
+                       ("lagrangian", matrix(LAGRANGIAN, reports)),
+                       ("exact", matrix(EXACT, reports)), ("further", further(reports)),
                        ("gradients", gradients(of_gradients))]:
         begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
         head, rest = page.split(begin)

@@ -135,13 +135,14 @@ class Mpm:
     capabilities = {
         "dimensions": [1, 2, 3],
         "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated", "drucker_prager",
-                 "mohr_coulomb"],
+                 "mohr_coulomb", "polytropic"],
         "conditions": ["free", "fixed", "roller", "periodic", "velocity"],
         "loads": ["gravity", "body_force", "damping", "traction", "force"],
         "columns": ["stress", "deformation_gradient"],
         "manufactured": True,
         "initial_deformation": True,
         "initial_stress": True,
+        "varying_density": True,
     }
 
     def __init__(self, basis: str, scheme: str, flip: float, start: str,
@@ -159,13 +160,16 @@ class Mpm:
         law, parameters = problem.materials[0]["law"], problem.materials[0]["parameters"]
         if law == "j2" and self.d > 1:
             raise Cannot("plasticity in one dimension only")
-        self.set_moduli(parameters["young"], parameters["poisson"])
+        self.parameters = parameters
+        if law != "polytropic":
+            self.set_moduli(parameters["young"], parameters["poisson"])
         self.yield_stress = parameters.get("yield")
         self.hardening = parameters.get("hardening", 0.0)
         self.update_stress = {"linear_elastic": self.rate, "neo_hookean": self.neo_hookean,
                               "hencky": self.hencky, "corotated": self.corotated,
                               "j2": self.j2, "drucker_prager": self.plasticity,
-                              "mohr_coulomb": self.plasticity}[law]
+                              "mohr_coulomb": self.plasticity,
+                              "polytropic": self.polytropic}[law]
         self.x, self.v = problem.position.copy(), problem.velocity.copy()
         self.f, self.sigma = problem.deformation_gradient.copy(), problem.stress.copy()
         self.m, self.vol = problem.mass, problem.volume.copy()
@@ -174,7 +178,7 @@ class Mpm:
         if law in ("drucker_prager", "mohr_coulomb"):
             if not np.allclose(self.f, np.eye(self.d), rtol=0, atol=1e-12) or self.sigma.any():
                 raise Cannot("soils that start undeformed and without stress only")
-            self.soil, self.parameters = getattr(self, law), parameters
+            self.soil = getattr(self, law)
             self.plastic = np.broadcast_to(np.eye(3), (len(self.x), 3, 3))  # Cp^-1
         # With knots repeated at walls, the first and the last function alone do not vanish there.
         self.counts = [n if periodic else n + self.degree
@@ -478,6 +482,12 @@ class Mpm:
         shear = 2 * self.mu * (self.f - rotation(self.f)) @ self.f.transpose(0, 2, 1)
         self.kirchhoff(shear + self.lam * (j - 1) * j * np.eye(self.d))
 
+    def polytropic(self, _: Array) -> None:
+        """sigma = -K rho^g I with the density rho of the particle, its mass per volume."""
+        self.vol = np.linalg.det(self.f) * self.vol0
+        pressure = self.parameters["stiffness"] * (self.m / self.vol) ** self.parameters["exponent"]
+        self.sigma = -pressure[:, None, None] * np.eye(self.d)
+
     def kirchhoff(self, tau: Array) -> None:
         """Stress and volume of a law of the whole deformation, from its Kirchhoff stress and the
         stress S0 of the reference configuration: sigma = (tau + F S0 F^T)/J."""
@@ -497,7 +507,8 @@ class Mpm:
 
     def refuse(self, of: Message) -> None:
         """Raises `Cannot` if the functional `of` has no derivatives here."""
-        if self.d > {self.hencky: 1, self.corotated: 2}.get(self.update_stress, 3):
+        most = {self.polytropic: 0, self.hencky: 1, self.corotated: 2}  # dimensions
+        if self.d > most.get(self.update_stress, 3):
             raise Cannot("no gradients of this law in so many dimensions")
         if of["functional"] == "position_of" and of["particle"] >= len(self.x):
             raise Cannot(f"there is no particle {of['particle']}")

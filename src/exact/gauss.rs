@@ -3,17 +3,17 @@
 /// Number of points per panel and axis; exact for polynomials of degree 15.
 const POINTS: usize = 8;
 
-/// Returns points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the
-/// Legendre polynomial, computed by Newton's method (sufficient for eight roots; an alternative is
-/// Golub & Welsch 1969).
-fn rule() -> [(f64, f64); POINTS] {
-    let n = POINTS as f64;
+/// Returns `N` points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the
+/// Legendre polynomial, computed by Newton's method (sufficient for up to eight roots; an
+/// alternative is Golub & Welsch 1969).
+fn rule<const N: usize>() -> [(f64, f64); N] {
+    let n = N as f64;
     std::array::from_fn(|k| {
         let mut x = libm::cos(std::f64::consts::PI * (k as f64 + 0.75) / (n + 0.5));
         let mut slope = 0.0;
         for _ in 0..20 {
             let (mut before, mut now) = (1.0, x);
-            for m in 2..=POINTS {
+            for m in 2..=N {
                 let m = m as f64;
                 (before, now) = (now, ((2.0 * m - 1.0) * x * now - (m - 1.0) * before) / m);
             }
@@ -27,7 +27,7 @@ fn rule() -> [(f64, f64); POINTS] {
 /// Returns points and weights on the box with the intervals `axes`, each divided into `panels`.
 /// Without axes, returns a single point of weight 1.
 pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)> {
-    let rule = rule();
+    let rule = rule::<POINTS>();
     let mut all = vec![(Vec::new(), 1.0)];
     for (low, high) in axes {
         let half = 0.5 * (high - low) / panels as f64;
@@ -43,6 +43,60 @@ pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)>
         all = all.into_iter().flat_map(extended).collect();
     }
     all
+}
+
+/// Points and weights for integrals over lattice cells: 8 points per axis in one and two
+/// dimensions, and 4 in three dimensions, where a cell has 64 points instead of 512.
+#[derive(Debug, Clone)]
+pub struct CellQuadrature {
+    /// Points of the cube from -1 to 1, with weights whose sum is 1; unused coordinates are zero.
+    points: Vec<([f64; 3], f64)>,
+    dimension: usize,
+}
+
+impl CellQuadrature {
+    /// Creates the quadrature for cells in `dimension` dimensions.
+    pub fn new(dimension: usize) -> Self {
+        let along: Vec<(f64, f64)> =
+            if dimension < 3 { rule::<POINTS>().into() } else { rule::<4>().into() };
+        let mut points = vec![([0.0; 3], 1.0)];
+        for axis in 0..dimension {
+            let extended = |(place, weight): &([f64; 3], f64)| {
+                let (mut place, weight) = (*place, *weight);
+                let longer = move |(xi, share): &(f64, f64)| {
+                    place[axis] = *xi;
+                    (place, 0.5 * weight * share)
+                };
+                along.iter().map(longer).collect::<Vec<_>>()
+            };
+            points = points.iter().flat_map(extended).collect();
+        }
+        Self { points, dimension }
+    }
+
+    /// Returns the integral of `value` over the part of a cell where `holds` returns true. The cell
+    /// is a box with the given centre and half-lengths (m).
+    pub(super) fn integral(
+        &self,
+        centre: &[f64],
+        half: &[f64],
+        holds: impl Fn(&[f64]) -> bool,
+        value: impl Fn(&[f64]) -> f64,
+    ) -> f64 {
+        let mut sum = 0.0;
+        for (xi, weight) in &self.points {
+            let mut place = [0.0; 3];
+            for axis in 0..self.dimension {
+                place[axis] = centre[axis] + half[axis] * xi[axis];
+            }
+            let place = &place[..self.dimension];
+            if holds(place) {
+                sum += weight * value(place);
+            }
+        }
+        let volume: f64 = half.iter().map(|half| 2.0 * half).product();
+        volume * sum
+    }
 }
 
 #[cfg(test)]
@@ -71,5 +125,21 @@ mod tests {
         let moment: f64 = all.iter().map(|(x, weight)| weight * x[0] * x[0] * x[1]).sum();
         assert_eq!(all.len(), 256);
         assert_relative_eq!(moment, 8.0 / 3.0 * 1.5, max_relative = 1e-14);
+    }
+
+    /// The integral of X^6 Y^2 Z over the box from (0, 0, 0) to (1, 2, 4), and volumes of halves.
+    #[test]
+    fn cells_have_the_integrals_of_polynomials() {
+        let value = |x: &[f64]| x.iter().zip([6, 2, 1]).map(|(x, n)| x.powi(n)).product::<f64>();
+        for (d, exact) in [(1, 1.0 / 7.0), (2, 8.0 / 21.0), (3, 64.0 / 21.0)] {
+            let (cells, half) = (CellQuadrature::new(d), &[0.5, 1.0, 2.0][..d]);
+            let whole = cells.integral(half, half, |_| true, value);
+            assert_relative_eq!(whole, exact, max_relative = 1e-14);
+            let lower = cells.integral(half, half, |x| x[0] < 0.5, |_| 1.0);
+            let upper = cells.integral(half, half, |x| x[0] > 0.5, |_| 1.0);
+            let volume: f64 = half.iter().map(|h| 2.0 * h).product();
+            assert_relative_eq!(lower, 0.5 * volume, max_relative = 1e-14);
+            assert_relative_eq!(lower, upper, max_relative = 1e-14);
+        }
     }
 }

@@ -35,6 +35,7 @@ pub use condition::{Condition, Face, FacePoint};
 pub use correction::FirstCorrection;
 pub use density::{Density, NoDensity};
 pub use expansion::Expansion;
+pub use gauss::CellQuadrature;
 pub use initial_stress::InitialStress;
 pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
 pub use motion::{Derivatives, Motion, Places, variables};

@@ -1428,3 +1428,22 @@ GRADIENT_FAULTS = {fault.name: fault for fault in [
                   return super().differentiate(of, names, steps - 1, dt)
           """),
 ]}
+
+# Mistakes in the masses of a body whose density varies: all suites of bodies with a uniform density are sound.
+DENSITY_FAULTS = {fault.name: fault for fault in [
+    Fault("density-largest",
+          "Multiplies volumes by the density of the material, which is the largest of the body.",
+          "the density does not vary",
+          edits={MASS: 'self.m, self.vol = problem.materials[0]["density"] * problem.reference_volume, problem.volume.copy()'}),
+    Fault("density-at-centres",
+          "Multiplies volumes by the density at the centre of each particle.",
+          "masses are not integrals of the density: particles at a rim without density are too light or too heavy",
+          patch="""
+              def setup(self, problem):
+                  text = problem.materials[0]["varying_density"].replace("^", "**")
+                  place = dict(zip("XYZ", problem.reference_position.T))
+                  names = {"A": 1.0, "rho": 1e3, "sqrt": np.sqrt, "max": np.maximum, **place}
+                  problem.mass = eval(text, names) * problem.reference_volume
+                  super().setup(problem)
+          """),
+]}

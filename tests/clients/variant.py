@@ -17,9 +17,9 @@ from pathlib import Path
 import numpy as np
 
 sys.dont_write_bytecode = True
-from faults import FAULTS, GRADIENT_FAULTS, VARIATIONS
+from faults import DENSITY_FAULTS, FAULTS, GRADIENT_FAULTS, VARIATIONS
 
-ALL = {**FAULTS, **VARIATIONS, **GRADIENT_FAULTS}
+ALL = {**FAULTS, **VARIATIONS, **GRADIENT_FAULTS, **DENSITY_FAULTS}
 CLIENTS = Path(__file__).resolve().parent
 SOLVERS = CLIENTS.parents[1] / "examples/solvers"
 # Client name -> files to load in order, class name.

@@ -5,16 +5,21 @@ use approx::assert_abs_diff_eq;
 use mpm_verify::exact::Truth;
 use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
 use rstest::rstest;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
-/// Returns the displacement by the exact solution of an embedded suite.
+/// Returns the displacement by the exact solution of an embedded suite in one dimension.
 fn displacement(name: &str, x: f64, t: f64) -> f64 {
+    displacements(name, [x], t)[0]
+}
+
+/// Returns the displacements by the exact solution of an embedded suite.
+fn displacements<const D: usize>(name: &str, place: [f64; D], t: f64) -> [f64; D] {
     let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
     let suite = Suite::load(&source).expect("a sound suite");
     let plan: &ConvergencePlan = suite.plan().expect("a convergence study");
-    let mut u = [0.0];
-    plan.exact.as_ref().expect("an exact solution").motion.displacement(&[x], t, &mut u);
-    u[0]
+    let mut u = [0.0; D];
+    plan.exact.as_ref().expect("an exact solution").motion.displacement(&place, t, &mut u);
+    u
 }
 
 /// Returns `u = us + sum_n a_n cos(c l_n t) sin(l_n y)`, `l_n = (2n - 1) pi/(2H)`. The series
@@ -74,4 +79,46 @@ fn free_fall_first_and_twice_the_static_solution_later() {
         epsilon = 1e-15
     );
     assert_abs_diff_eq!(displacement("oedometer", 1.0, 0.2), -9.81 / 100.0, epsilon = 1e-15);
+}
+
+/// Stretches of gas clouds at t = 1, `sqrt(1 + C)` with C = 3/4, 1 and 5/4, were checked by
+/// integration of `a'' = C/a^3`.
+#[test]
+fn gas_clouds_have_the_stretches_of_their_equation_of_motion() {
+    let stretches = [
+        1.0 + displacements("gas-cloud", [0.3], 1.0)[0] / 0.3,
+        1.0 + displacements("gas-cloud-2d", [0.3, -0.4], 1.0)[1] / -0.4,
+        1.0 + displacements("gas-cloud-3d", [0.3, -0.4, 0.5], 1.0)[2] / 0.5,
+    ];
+    for (stretch, expected) in stretches.into_iter().zip([1.322_875_655_5, SQRT_2, 1.5]) {
+        assert_abs_diff_eq!(stretch, expected, epsilon = 1e-10);
+    }
+}
+
+/// Positions in a spinning cloud were computed independently, from residuals of Euler's equations
+/// below 1e-12.
+#[rstest]
+#[case(0.5, [0.479_098_471, -0.337_030_644])]
+#[case(1.0, [0.720_381_798, -0.321_791_960])]
+#[case(2.0, [1.278_263_630, -0.325_641_048])]
+fn a_spinning_cloud_has_the_positions_of_its_equation_of_motion(
+    #[case] t: f64,
+    #[case] expected: [f64; 2],
+) {
+    let place = [0.3, -0.4];
+    let u = displacements("spinning-cloud", place, t);
+    for axis in 0..2 {
+        assert_abs_diff_eq!(place[axis] + u[axis], expected[axis], epsilon = 1e-9);
+    }
+}
+
+/// A fluid hits a wall with U = 0.2 c, c^2 = 1000. The speeds of fluid and front, U and
+/// D = 1.395 316 674 7 c, follow from the jumps of mass and momentum for Tait's fluid.
+#[test]
+fn a_shock_has_the_speed_of_its_jump_conditions() {
+    let c = 1000.0_f64.sqrt();
+    let (speed, front, t) = (0.2 * c, 1.395_316_674_7 * c, 0.4 / c);
+    assert_abs_diff_eq!(displacement("thrown-fluid", 0.9, t), -speed * t, epsilon = 1e-12);
+    let behind = displacement("thrown-fluid", 0.3, t);
+    assert_abs_diff_eq!(behind, -speed * 0.3 / front, epsilon = 1e-10);
 }

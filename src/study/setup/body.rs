@@ -2,7 +2,7 @@
 
 use super::initial_state::Initial;
 use crate::exact::heat::Conduction;
-use crate::exact::{Cut, Forcing, Piece, Problem, Random, join_small};
+use crate::exact::{CellQuadrature, Cut, Forcing, Piece, Problem, Random, join_small};
 use crate::mpm::{
     BasisName, BodyForce, Boundary, Effect, Fragment, Grid, HeatSolver, Hoop, Kernel, Matrix,
     Particles, QuasiStatic, QuasiStaticSetup, Setup, Side, Vector, kernel,
@@ -268,8 +268,9 @@ fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
     }
     let half = particles.spacing * 0.5;
     let holds = |label: &[f64]| scene.outline.as_ref().is_none_or(|o| o.holds(label));
+    let cells = CellQuadrature::new(D);
     for (mass, x0) in particles.mass.iter_mut().zip(&particles.x0) {
-        *mass = scene.density.mass(x0.as_slice(), half.as_slice(), holds);
+        *mass = scene.density.mass(&cells, x0.as_slice(), half.as_slice(), holds);
     }
 }
 

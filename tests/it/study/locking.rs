@@ -8,16 +8,16 @@ use rstest::rstest;
 const SHEARS: &str =
     include_str!("../../../verification/equilibrium/two-shears-nearly-incompressible.yaml");
 
-/// Returns the errors (m) on the levels of the suite with this Poisson's ratio, without
+/// Returns the errors (m) on the levels `cells` of the suite with this Poisson's ratio, without
 /// expectations.
-fn errors(nu: &str, method: &str) -> Vec<f64> {
+fn errors(nu: &str, method: &str, cells: &str) -> Vec<f64> {
     let (suite, _) = SHEARS.split_once("methods:").expect("a list of methods");
     let (suite, _) = suite.split_once("any_method:").unwrap_or((suite, ""));
     assert!(suite.contains("nu: 0.4999"));
     let text = suite.replace("nu: 0.4999", &format!("nu: {nu}"));
     let levels = "cells: [8, 10, 12, 16], full: [24, 32]";
     assert!(text.contains(levels));
-    let text = text.replace(levels, "cells: [8, 12, 16]");
+    let text = text.replace(levels, &format!("cells: [{cells}]"));
     let text = format!("{text}methods:\n  - mpm: {{{method}, start: half_step_back}}\n");
     let source = Source::from_text("shears.yaml", text).expect("a YAML file");
     let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
@@ -31,14 +31,14 @@ fn errors(nu: &str, method: &str) -> Vec<f64> {
 #[case::domains("basis: cpdi")]
 fn averaged_volume_ratios_give_the_error_of_a_compressible_body(#[case] basis: &str) {
     let method = format!("{basis}, transfer: flip, scheme: musl");
-    let compressible = errors("0.3", &method);
-    let averaged = errors("0.4999", &format!("{method}, volume: averaged"));
-    assert_eq!((compressible.len(), averaged.len()), (3, 3));
+    let compressible = errors("0.3", &method, "8, 16");
+    let averaged = errors("0.4999", &format!("{method}, volume: averaged"), "8, 16");
+    assert_eq!((compressible.len(), averaged.len()), (2, 2));
     for (averaged, compressible) in averaged.iter().zip(&compressible) {
         let ratio = averaged / compressible;
         assert!(ratio <= 1.2, "{basis}: {averaged:.3e} m is {ratio:.3} times {compressible:.3e} m");
     }
-    let plain = errors("0.4999", &method);
-    let ratio = plain[2] / compressible[2];
+    let plain = errors("0.4999", &method, "16");
+    let ratio = plain[0] / compressible[1];
     assert!(ratio > 1.2, "{basis}: without the average {ratio:.3} times");
 }
