@@ -9,8 +9,8 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
     /// impossible. This holds for compositions of analytic functions.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because functions of a pole,
-    /// such as `tanh(1/x)`, jump. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
+    /// A quotient counts as smooth only if its divisor is constant, because a
+    /// function such as `tanh(1/x)` jumps where its divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
     /// smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
@@ -30,7 +30,8 @@ impl Formula {
     /// Returns whether each register depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
-        // A sum reads values that its previous iteration wrote, so the search is repeated.
+        // A `sum` of the formula reads values of its previous iteration, so the loop below is
+        // repeated.
         loop {
             let before = varying.clone();
             for step in self.code() {

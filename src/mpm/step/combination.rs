@@ -23,7 +23,7 @@ macro_rules! refusal {
 /// Rejects an invalid combination of basis, transfer, mass matrix and frame.
 ///
 /// # Errors
-/// One line with both parts and the reason.
+/// One line with the parts that do not fit and the reason.
 pub fn combine(
     basis: BasisName,
     transfer: impl Into<TransferChoice>,
@@ -154,7 +154,7 @@ pub fn combine_across(
     ))
 }
 
-/// Rejects volume ratios that are invalid in this frame, or for a body with this material,
+/// Rejects a kind of volume ratio that is invalid in this frame, or for a body with this material,
 /// `dimension` and out-of-plane state.
 ///
 /// # Errors

@@ -1,12 +1,12 @@
-//! Compares two runs: the changes between two JSON documents, the most important first.
+//! Lists the changes between the JSON documents of two runs, the most important first.
 //!
 //! The comparison shows whether a pull request makes a method less accurate, less stable or more
 //! expensive. Cases are paired by suite and name, and levels by cells, spacing and particles per
-//! cell. Cases and levels without a counterpart are listed but not judged. Work is counted in
-//! particle-node transfers, which are equal on all machines. Work is compared at equal error
+//! cell. Cases and levels without a counterpart are listed but not judged. Work is the number of
+//! particle-node transfers, which is the same on all machines. Work is compared at equal error
 //! (`equal_error`) if the errors of both runs have a common range.
 //!
-//! Cases that have only bounds on drifts have no errors, so only their verdicts are compared.
+//! A case that has only bounds on drifts has no error to compare, so only its verdict is compared.
 
 mod accuracy;
 mod changes;

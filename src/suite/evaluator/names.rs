@@ -109,7 +109,8 @@ fn name_in(head: &str) -> &str {
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns its text, and its value if its argument is a parameter.
+    /// Declares the table `name`. Returns the text of the table. If the table is evaluated at a
+    /// parameter, also returns the value there.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

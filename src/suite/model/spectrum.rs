@@ -1,4 +1,4 @@
-//! Checked values of a spectrum study.
+//! A spectrum study after all checks of its suite.
 
 use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
@@ -10,7 +10,7 @@ use crate::mpm::WaveMethod;
 use crate::verify::{Gating, SpectrumExpectation};
 use std::sync::Arc;
 
-/// A spectrum study.
+/// A study of the phase speed and damping of waves.
 #[derive(Debug, Clone)]
 pub struct SpectrumPlan {
     /// The body at rest.

@@ -66,8 +66,8 @@ pub(super) struct BoxScene {
     pub(super) gravity: Option<Vec<f64>>,
     /// Names of faces and their conditions; all other faces are free.
     pub(super) faces: Vec<(&'static str, &'static str)>,
-    /// Number of steps and step length (s).
     pub(super) steps: u64,
+    /// Step length (s).
     pub(super) dt: f64,
 }
 
@@ -234,8 +234,8 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// Runs this crate's MPM with PIC and the named basis, to measure the effect of averaging
-    /// alone.
+    /// Runs this crate's MPM with PIC and the named basis, to measure the effect of the averaging
+    /// of velocities alone.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }

@@ -1,9 +1,9 @@
 //! Declarations of the judged quantities: values at labels (points, identified by their reference
 //! positions), and sums over the body or its walls.
 //!
-//! Errors of sums are relative to a size that is zero only for a body at rest. The size of an
-//! energy is its value; the size of a vector is the sum of the lengths of its terms. An energy is
-//! stored as the first of three components.
+//! Errors of sums are divided by a number, called size, that is zero only for a body at rest. The
+//! size of an energy is its value. The size of a vector sum is the sum of the lengths of the added
+//! vectors. All sums have three components; an energy has only the first.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
@@ -51,7 +51,7 @@ pub(super) struct SumDeclaration {
     pub(super) needs: SumNeed,
 }
 
-/// How a subject's value of a sum is computed.
+/// How a sum over the body is computed for a solver.
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),

@@ -12,7 +12,7 @@ use crate::suite::scene::numbers::{LoadNumbers, scalar};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Pressure (Pa) on a face or rim that follows the surface: a formula of the coordinates and t.
+/// A pressure load on a face or rim. Its direction follows the moving surface.
 #[derive(Debug, Clone, serde::Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
