@@ -9,9 +9,9 @@ impl Formula {
     /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
     /// impossible. This holds for compositions of analytic functions.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because a
-    /// function such as `tanh(1/x)` jumps where its divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not count as
-    /// smooth.
+    /// A quotient counts as smooth only if its divisor is constant, because a function such as
+    /// `tanh(1/x)` jumps where its divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`,
+    /// does not count as smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);

@@ -1,6 +1,6 @@
 //! Assigns laws of exact solutions to materials.
 
-/// Declares [`Equation`] with a variant for each line of [`each_material`](crate::members) that has
+/// Declares `Equation` with a variant for each line of [`each_material`](crate::members) that has
 /// a law.
 macro_rules! laws {
     (@new $law:ident, $value:ident, {

@@ -259,7 +259,8 @@ mod tests {
         let axes = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
         for size in [0.0, 1e-12, 1e-3, 0.1, 0.2, 0.29, 0.31, 0.5, 2.0] {
             let strains = Vector::<3>::new(size, -0.5 * size, 0.25 * size);
-            let turned = |values: Vector<3>| axes * Matrix::from_diagonal(&values) * axes.transpose();
+            let turned =
+                |values: Vector<3>| axes * Matrix::from_diagonal(&values) * axes.transpose();
             let log = logarithm(&turned(strains.map(libm::exp)));
             assert_relative_eq!(log, turned(strains), epsilon = 1e-15, max_relative = 1e-13);
         }

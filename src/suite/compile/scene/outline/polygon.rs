@@ -62,7 +62,6 @@ fn corners(
 }
 
 /// Compiles the quadrilateral in `spec` at `path`, and its outline.
-
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,
