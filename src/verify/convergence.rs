@@ -167,7 +167,7 @@ impl Convergence {
             (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());
         match self.scale.map(|scale| self.of.shown_scale(scale)) {
             Some(scale) => {
-                format!("{norm} error of {name} over {scale} {unit}").trim_end().to_owned()
+                format!("{norm} error of {name}, divided by {scale} {unit}").trim_end().to_owned()
             }
             None if unit.is_empty() => format!("{norm} error of {name}"),
             None => format!("{norm} error of {name} ({unit})"),

@@ -141,7 +141,7 @@ fn otherwise(
     if !comparable {
         let of = |case: &CaseDocument| {
             case.judge.as_ref().map_or_else(String::new, |judge| {
-                let scale = judge.scale.map(|scale| format!(" over {}", scale.0));
+                let scale = judge.scale.map(|scale| format!(", divided by {}", scale.0));
                 let within = judge.within.as_ref().map(|within| {
                     let corner = |corner: &[JsonNumber]| corner.iter().map(|x| x.0).collect();
                     let (from, to) = (corner(&within.from), corner(&within.to));
