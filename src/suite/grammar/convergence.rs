@@ -11,41 +11,42 @@ use crate::verify::{NormName, Quantity};
 use serde::Deserialize;
 
 study_spec! {
-    /// A convergence study.
+    /// A convergence study: errors on levels of increasing refinement.
     struct ConvergenceSpec {
-        /// Kind of study; `convergence` unless stated.
+        /// Kind of study: `convergence`, the default.
         study: Option<StudyName>,
-        /// The body with its conditions and loads.
+        /// Body, material, boundary conditions and loads.
         scene: SceneSpec,
-        /// The exact solution as formulas, checked before any solver runs.
+        /// Exact solution as formulas. It is checked before any solver runs.
         exact: Option<ExactSpec>,
-        /// A motion from which the body force is computed by differentiation.
+        /// Motion or temperature field from which the body force or the heat source is computed.
         manufactured: Option<ManufacturedSpec>,
         /// Equilibrium in which the body comes to rest, as formulas of the coordinates.
         equilibrium: Option<ExactSpec>,
-        /// A fine computation to compare with, if no exact solution is known.
+        /// Fine computation with which runs are compared, instead of or in addition to an exact
+        /// solution.
         reference: Option<ReferenceSpec>,
-        /// End, time step and instants of a run.
+        /// End and time step of a run, and the number of instants at which the error is measured.
         run: RunSpec,
         /// Refinement levels, from coarse to fine.
         refine: RefineSpec,
-        /// Offsets of particles from their lattice.
+        /// Displacements of particles from their regular lattice.
         particles: Option<ScatterSpec>,
-        /// Methods to be judged. List values give one case for each combination.
+        /// Methods to be tested. Each combination of list values is a case.
         methods: Vec<MethodSpec>,
         /// Quantity and norm of the error from which the order is determined.
         #[serde(default)]
         judge: JudgeSpec,
-        /// Point whose velocity history and extrapolated displacement are reported.
+        /// Point for which the velocity history and the extrapolated displacement are reported.
         observe: Option<ObserveSpec>,
-        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
-        /// fail.
+        /// Expected results. Each case needs exactly one matching entry. Without this key, cases
+        /// neither pass nor fail.
         #[serde(default)]
         expect: Vec<ExpectSpec>,
-        /// Accepted warnings of `check`, each with its reason.
+        /// Warnings of `mpm-verify check` that are accepted, each with the reason.
         #[serde(default)]
         acknowledge: Vec<AcknowledgeSpec>,
-        /// Accuracy that any method can reach, which `run --gate` requires of external solvers.
+        /// Accuracy that any method can reach. `run --gate` requires it of external solvers.
         any_method: Option<AnyMethodSpec>,
     }
 }
@@ -68,20 +69,20 @@ impl ConvergenceSpec {
 pub(crate) struct ReferenceSpec {
     /// Equation that the FEM computation solves.
     pub(crate) equation: Option<EquationName>,
-    /// A fine FEM computation.
+    /// Reference computed with FEM on a fine mesh.
     pub(crate) fem: Option<ReferenceFemSpec>,
-    /// A reference run by the same method, with much shorter steps or on a much finer grid.
+    /// Reference computed with the tested method, with much shorter steps or on a much finer grid.
     pub(crate) same_method: Option<SameMethodSpec>,
 }
 
-/// A reference run by the same method, with shorter steps or on a finer grid.
+/// A reference that is computed with the tested method, with shorter steps or on a finer grid.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SameMethodSpec {
     /// Time step (s), at most 1/8 of the step on the finest level.
     pub(crate) dt: Option<NumberText>,
-    /// Cells along the first axis, at least 4 times those of the finest level.
+    /// Number of cells along the first axis, at least 4 times that of the finest level.
     pub(crate) cells: Option<NumberText>,
 }
 
@@ -109,25 +110,25 @@ pub(crate) struct JudgeSpec {
     /// Norm of the error.
     #[serde(default)]
     pub(crate) norm: NormName,
-    /// Face whose reaction force is measured; default: the sum over all walls.
+    /// Face whose reaction force is measured; default: all walls together.
     pub(crate) face: Option<String>,
-    /// Box of reference positions in which the error is measured; default: the body.
+    /// Box of reference positions in which the error is measured; default: the whole body.
     pub(crate) within: Option<BoxSpec>,
-    /// Value by which the error is divided.
+    /// Number by which the error is divided.
     pub(crate) scale: Option<NumberText>,
-    /// Whether the order may use levels on which particles change their cell.
+    /// Whether levels on which particles cross cells count for the order.
     #[serde(default)]
     pub(crate) crossing_levels: CrossingLevels,
 }
 
 named! {
-    /// Whether the order may use levels on which particles change their cell.
+    /// Whether levels on which particles cross cells count for the order.
     #[derive(Default)]
     pub enum CrossingLevels {
-        /// The order uses these levels.
+        /// Levels with cell crossings count.
         #[default]
         Counted = "counted",
-        /// These levels are shown but not used.
+        /// Levels with cell crossings are reported but do not count.
         Excluded = "excluded",
     }
 }
@@ -136,7 +137,7 @@ named! {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObserveSpec {
-    /// Reference position (m).
+    /// Reference position of the point (m).
     pub(crate) at: Vec<NumberText>,
 }
 
@@ -144,17 +145,17 @@ pub(crate) struct ObserveSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RunSpec {
-    /// End of the run (s), or a list of ends; absent with `load_steps`.
+    /// End of the run (s), or a list of ends with one case each. Not allowed with `load_steps`.
     pub(crate) until: Option<OneOrMany<NumberText>>,
-    /// Number of load steps to an equilibrium, or a list of numbers, in place of `until`.
+    /// Number of quasi-static load steps, in place of `until`, or a list with one case each.
     pub(crate) load_steps: Option<OneOrMany<NumberText>>,
-    /// Time step; absent if `refine` lists time steps.
+    /// Time step. Not allowed if `refine` lists time steps.
     pub(crate) dt: Option<StepSpec>,
-    /// Number of instants at which the error is measured.
+    /// Number of instants at which the error is measured; default: 50.
     pub(crate) instants: Option<NumberText>,
 }
 
-/// Refinement plan. The key with a list of values is refined, from coarse to fine.
+/// Refinement levels. Each value of a list is one level, from coarse to fine.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -165,11 +166,11 @@ pub(crate) struct RefineSpec {
     pub(crate) dt: Option<OneOrMany<NumberText>>,
     /// Particles per cell.
     pub(crate) ppc: Option<OneOrMany<NumberText>>,
-    /// Additional finer levels, for full runs only.
+    /// Finer levels that `run --full` adds to the list.
     pub(crate) full: Option<OneOrMany<NumberText>>,
 }
 
-/// Offsets of particles from their lattice points, as shares of the particle spacing.
+/// Displacements of particles from their lattice points, as fractions of the particle spacing.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -21,22 +21,23 @@ pub(crate) struct ExpectSpec {
     /// Expected verdict; default: `converging` if an `order` is stated.
     #[cfg_attr(feature = "schemas", schemars(schema_with = "verdicts", default))]
     pub(crate) verdict: Option<String>,
-    /// Lowest and highest order, between which the whole confidence interval must lie.
+    /// Lowest and highest order. The whole confidence interval of the observed order must lie
+    /// between them.
     pub(crate) order: Option<Vec<NumberText>>,
-    /// Lowest and highest order between the two finest levels.
+    /// Lowest and highest order, computed from the two finest levels alone.
     pub(crate) finest_pair: Option<Vec<NumberText>>,
-    /// Whether particles change their cell on the finest level.
+    /// Whether particles cross cells on the finest level.
     pub(crate) crossings: Option<CrossingsName>,
-    /// Axis whose spacing causes the error floor (the error that no longer falls).
+    /// Cause of the error floor, where the error no longer falls.
     pub(crate) floor: Option<FloorCause>,
             $($(#[$doc])* pub(crate) $key: Option<NumberText>,)+
-    /// Bounds on the relative change of sums over the body, such as the mass.
+    /// Bounds on the relative change of sums over the body during a run, such as the mass.
     pub(crate) drift: Option<DriftSpec>,
-    /// Bounds on the relative growth rate of the energy (1/s).
+    /// Lowest and highest relative growth rate of the energy (1/s).
     pub(crate) energy_rate: Option<Vec<NumberText>>,
     /// Reason for the expectation.
     pub(crate) because: String,
-    /// Different expectation for a full run (`run --full`).
+    /// Expectation for `run --full`, if it differs.
     pub(crate) full: Option<Box<ExpectSpec>>,
 }
 
@@ -59,12 +60,12 @@ each_case_figure!(expect_spec);
 pub(crate) struct AnyMethodSpec {
     /// Highest order along the refined axis that the regularity of the solution allows.
     pub(crate) order: Option<NumberText>,
-    /// Errors at or below this bound are accepted for any order.
+    /// Errors at or below this bound are accepted, even if the order is too low.
     pub(crate) error_below: Option<NumberText>,
-    /// Whether a solver may use any law, because no body deforms.
+    /// Whether a solver may use any of its laws, because the body does not deform.
     #[serde(default)]
     pub(crate) any_law: bool,
-    /// Whether `run --gate` applies to external solvers; default: true.
+    /// Whether `run --gate` requires anything of external solvers; default: true.
     pub(crate) gated: Option<bool>,
     /// Reason for these values.
     pub(crate) because: String,
@@ -77,18 +78,18 @@ fn verdicts(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
     schemars::json_schema!({"type": "string", "enum": names})
 }
 
-/// Whether particles change their cell on the finest level.
+/// Whether particles cross cells on the finest level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum CrossingsName {
-    /// No particle changes its cell.
+    /// No particle crosses cells.
     None,
-    /// At least one particle changes its cell.
+    /// At least one particle crosses cells.
     Some,
 }
 
-/// Bounds on the relative drift of sums over the body.
+/// Bounds on the largest relative change of sums over the body during a run.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -104,11 +105,11 @@ pub(crate) struct DriftSpec {
 named! {
     /// A warning or note of `mpm-verify check` about a suite that can run.
     pub enum WarningName {
-        /// Fewer levels than an order needs.
+        /// Too few levels to determine an order.
         FewLevels = "few_levels",
-        /// A time step above the stable one, or equal on all levels.
+        /// A time step that is longer than the stable one, or the same on all levels.
         TimeStep = "time_step",
-        /// A motion that leaves the grid.
+        /// An exact motion that leaves the grid.
         LeavesGrid = "leaves_grid",
         /// An exact solution that holds for small strains only, or for a linearised law.
         SmallStrain = "small_strain",
@@ -118,9 +119,9 @@ named! {
         InsideCell = "inside_cell",
         /// A tolerance of a linearised solution that is much larger than necessary.
         LooseTolerance = "loose_tolerance",
-        /// A box whose outermost particles start exactly on nodes.
+        /// A box whose outermost particles start exactly on nodes, with linear basis functions.
         EndOnNode = "end_on_node",
-        /// An equilibrium study without dissipation.
+        /// An equilibrium study in which nothing removes energy.
         Undamped = "undamped",
     }
 }

@@ -7,27 +7,27 @@ use crate::verify::GradientState;
 use serde::Deserialize;
 
 study_spec! {
-    /// A study of the derivatives that a differentiable solver reports.
+    /// A study of the derivatives that a differentiable solver returns.
     struct GradientSpec {
         /// Kind of study: `gradient`.
         study: StudyName,
-        /// The body, its boundary conditions and its loads.
+        /// Body, material, boundary conditions and loads.
         scene: SceneSpec,
-        /// The exact solution as formulas, checked before any solver runs.
+        /// Exact solution as formulas. It is checked before any solver runs.
         exact: Option<ExactSpec>,
         /// Equilibrium at the end of the run as formulas of the coordinates, instead of `exact`.
         equilibrium: Option<ExactSpec>,
-        /// The derivatives that are verified.
+        /// The derivatives to be verified.
         gradient: DerivativeSpec,
         /// End and time step of a run.
         run: RunSpec,
         /// Refinement levels: numbers of cells from coarse to fine.
         refine: RefineSpec,
-        /// External solvers for which the suite states expectations.
+        /// External solvers whose results are expected below.
         #[serde(default)]
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
-        /// fail.
+        /// Expected results. Each case needs exactly one matching entry. Without this key, cases
+        /// neither pass nor fail.
         #[serde(default)]
         expect: Vec<GradientExpectSpec>,
     }
@@ -73,7 +73,7 @@ impl GradientSpec {
     }
 }
 
-/// The derivatives that are verified.
+/// The derivatives to be verified.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -118,7 +118,7 @@ pub(crate) enum FunctionalSpec {
 pub(crate) struct GradientSweepSpec {
     /// Name of the parameter, as in `with_respect_to`.
     pub(crate) parameter: String,
-    /// Half the length of the interval, as a share of the parameter value.
+    /// Half the length of the interval, as a fraction of the parameter value.
     pub(crate) within: NumberText,
     /// Number of points.
     pub(crate) points: NumberText,

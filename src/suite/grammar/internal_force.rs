@@ -6,22 +6,22 @@ use crate::suite::yaml::{NumberText, OneOrMany};
 use serde::Deserialize;
 
 study_spec! {
-    /// A study of the internal force.
+    /// A study of the internal force on a node while one particle moves past the node.
     struct InternalForceSpec {
         /// Kind of study: `internal_force`.
         study: StudyName,
         /// Cells, particles, stress and predicted force.
         internal_force: ForceSpec,
-        /// Basis functions that are compared.
+        /// Basis functions to be tested.
         methods: Vec<ForceMethodSpec>,
-        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
-        /// fail.
+        /// Expected results. Each case needs exactly one matching entry. Without this key, cases
+        /// neither pass nor fail.
         #[serde(default)]
         expect: Vec<ForceExpectSpec>,
     }
 }
 
-/// The set-up of an internal-force study.
+/// Set-up of an internal-force study: equal particles under one stress in two cells.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -34,9 +34,10 @@ pub(crate) struct ForceSpec {
     pub(crate) volume: NumberText,
     /// Uniform stress (Pa).
     pub(crate) stress: NumberText,
-    /// Number of positions of the moving particle.
+    /// Number of positions of the moving particle at which the force is computed.
     pub(crate) positions: NumberText,
-    /// Formula of the predicted force.
+    /// Predicted force (N), a formula of `n_left` and `n_right`, the numbers of particles in the
+    /// cells on the left and on the right of the node.
     pub(crate) prediction: NumberText,
 }
 

@@ -1,4 +1,4 @@
-//! Keys of a method: components, transfer and step length.
+//! Keys of a method and of a time step.
 
 use super::EquationName;
 use crate::fem::{Element, Mass, Sampling};
@@ -13,7 +13,7 @@ use serde::de::value::StrDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use std::fmt;
 
-/// One method, or one for each combination of its list values.
+/// A method. If settings are lists, each combination of their values is a method.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -22,7 +22,7 @@ pub(crate) enum MethodSpec {
     Mpm {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
-        /// Velocity transfer between particles and grid; absent with `quasi_static`.
+        /// Velocity transfer between particles and grid. Not allowed with `quasi_static`.
         transfer: Option<OneOrMany<TransferChoice>>,
         /// Time scheme: when stresses are updated, or quasi-static load steps.
         scheme: OneOrMany<SchemeKey>,
@@ -34,7 +34,7 @@ pub(crate) enum MethodSpec {
         frame: Option<OneOrMany<FrameName>>,
         /// Volume ratio at which the law computes its stress; default: `particle`.
         volume: Option<OneOrMany<VolumeName>>,
-        /// Precision of the state; default: `double`.
+        /// Floating-point precision of the state; default: `double`.
         precision: Option<OneOrMany<Precision>>,
     },
     /// Finite elements in one dimension.
@@ -47,7 +47,7 @@ pub(crate) enum MethodSpec {
         law: Option<OneOrMany<EquationName>>,
         /// Time at which the initial velocity applies; default: `at_zero`.
         start: Option<OneOrMany<Start>>,
-        /// Points at which the error is measured.
+        /// Points at which the error is measured; default: `inside`.
         sampling: Option<OneOrMany<Sampling>>,
     },
     /// MPM for heat conduction in a body at rest.
@@ -65,7 +65,7 @@ pub(crate) enum MethodSpec {
         name: String,
         /// Theoretical order of the displacements; default: 2.
         formal_order: Option<NumberText>,
-        /// Precision of the solver's numbers.
+        /// Floating-point precision of the solver.
         precision: Option<Precision>,
     },
 }
@@ -81,7 +81,7 @@ pub(crate) enum SchemeKey {
     Usl,
     /// Modified update stress last.
     Musl,
-    /// Equilibrium after each of several load steps, without time.
+    /// Quasi-static load steps: each step solves for an equilibrium, without time integration.
     QuasiStatic,
 }
 
@@ -181,25 +181,25 @@ impl<'de> Visitor<'de> for NameOrParameter {
     }
 }
 
-/// Length of a step.
+/// Length of a time step.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(from = "NumberOr<Rule>")]
 pub(crate) enum StepSpec {
     /// A number (s), or a formula.
     Length(NumberText),
-    /// A share of the stable time step.
+    /// A fraction of the stable time step.
     Courant(NumberText),
-    /// An automatic share of the stable time step, with a margin for changes during the run.
+    /// Half of the stable time step, which leaves a margin for changes during the run.
     Auto,
 }
 
-/// Share of the stable time step, as in `{courant: 0.5}`.
+/// Fraction of the stable time step, as in `{courant: 0.5}`.
 #[derive(Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct Rule {
-    /// The share.
+    /// The fraction.
     courant: NumberText,
 }
 

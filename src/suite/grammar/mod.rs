@@ -1,10 +1,10 @@
-//! The grammar of a suite: the allowed contents of a YAML file, before any number is computed.
+//! Keys of a suite file (YAML) and the types of their values. Formulas are not evaluated here.
 //!
-//! Every map refuses unknown keys. A number may be a formula of declared parameters. Settings of a
-//! method may be lists; each combination of their values is a case.
+//! Unknown keys are errors. A number may be a formula of the suite's parameters. A setting of a
+//! method may be a list. Each combination of list values is a case.
 
-/// Declares the keys of one kind of study, after the keys that all kinds of study have.
-/// `serde(flatten)` is not used, because its errors have no position.
+/// Declares the keys of one kind of study: the keys that all studies have, then the given ones.
+/// `serde(flatten)` is not used, because its errors have no position in the file.
 macro_rules! study_spec {
     (
         $(#[$about:meta])*
@@ -24,17 +24,17 @@ macro_rules! study_spec {
             $(#[$about_study])*
             #[serde(rename = "study")]
             pub(crate) _study: $study,
-            /// Headline of the report.
+            /// Title of the suite in reports and figures, on one line.
             pub(crate) title: String,
             /// Source of the problem, such as a textbook.
             pub(crate) source: String,
-            /// Remarks for a reader of the report.
+            /// Description of the suite, printed at the head of the report.
             #[serde(default)]
             pub(crate) about: String,
-            /// Numbers, formulas of preceding parameters, or tables. Each parameter must be used.
+            /// Named numbers, formulas of preceding parameters, or tables. All must be used.
             #[serde(default)]
             pub(crate) parameters: crate::suite::yaml::Ordered<crate::suite::grammar::ParameterSpec>,
-            /// Functions that formulas may use, such as `s(tau): "..."`.
+            /// Functions for use in formulas, such as `s(tau): "sin(3*tau)"`.
             #[serde(default)]
             pub(crate) functions: crate::suite::yaml::Ordered<String>,
             $($(#[$about_key])* pub(crate) $key: $keys,)*
@@ -80,17 +80,17 @@ use serde::Deserialize;
 pub(crate) enum SuiteSpec {
     /// Convergence study: errors on levels of increasing refinement.
     Convergence(Box<ConvergenceSpec>),
-    /// Internal-force study: force on a node while a particle moves through the node.
+    /// Internal-force study: force on a node while a particle moves past the node.
     InternalForce(Box<InternalForceSpec>),
-    /// Stability study: whether runs stay bounded, and the largest stable value of a parameter.
+    /// Stability study: whether the energy of runs stays bounded, and up to which parameter value.
     Stability(Box<StabilitySpec>),
-    /// Gradient study: derivatives that a differentiable solver reports.
+    /// Gradient study: derivatives that a differentiable solver returns.
     Gradient(Box<GradientSpec>),
     /// Spectrum study: phase speed and damping of waves.
     Spectrum(Box<SpectrumSpec>),
 }
 
-/// Keys that every study has.
+/// The key that selects the kind of study.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 pub(crate) struct Head {
@@ -105,11 +105,11 @@ pub(crate) struct Head {
 pub(crate) enum StudyName {
     /// Errors on levels of increasing refinement.
     Convergence,
-    /// Internal force on a node while a particle moves through the node.
+    /// Internal force on a node while a particle moves past the node.
     InternalForce,
-    /// Whether runs stay bounded, and the largest stable value of a parameter.
+    /// Whether the energy of runs stays bounded, and up to which parameter value.
     Stability,
-    /// Derivatives that a differentiable solver reports.
+    /// Derivatives that a differentiable solver returns.
     Gradient,
     /// Phase speed and damping of waves.
     Spectrum,

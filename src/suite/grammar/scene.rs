@@ -1,4 +1,4 @@
-//! Keys of a scene.
+//! Keys of a scene: body, material, boundary conditions and loads.
 
 use crate::mpm::MaterialSpec;
 use crate::subject::PlaneState;
@@ -15,32 +15,32 @@ use serde::Deserialize;
 pub(crate) struct SceneSpec {
     /// Number of space dimensions: 1, 2 or 3.
     pub(crate) dimension: NumberText,
-    /// Out-of-plane state of two-dimensional bodies.
+    /// Plane strain, plane stress or axial symmetry, in two dimensions.
     pub(crate) plane: Option<PlaneState>,
-    /// The body.
+    /// Shape of the body.
     pub(crate) body: Option<BodySpec>,
-    /// Several bodies, in place of `body` and `material`.
+    /// Several bodies, each with its own material and initial state, in place of `body`.
     pub(crate) bodies: Option<Vec<OneBodySpec>>,
-    /// Contact between the bodies; without it they share one velocity field.
+    /// Contact between several bodies. Without this key they share one velocity field.
     pub(crate) contact: Option<ContactSpec>,
-    /// Corners of the grid (m); by default those of the body, with spare cells outside free faces.
+    /// Corners of the grid (m); default: those of the body, with more cells beyond free faces.
     pub(crate) grid: Option<BoxSpec>,
-    /// The material.
+    /// Material of the body.
     pub(crate) material: Option<MaterialSpec<NumberText>>,
-    /// Conditions on faces; other faces are free.
+    /// Boundary condition of each face. A face without an entry is free.
     #[serde(default)]
     #[cfg_attr(feature = "schemas", schemars(schema_with = "by_face::<BoundarySpec>"))]
     pub(crate) boundary: Ordered<BoundarySpec>,
-    /// Residual or geostatic stress of the reference body.
+    /// Residual or geostatic stress of the undeformed body.
     pub(crate) initial_stress: Option<StressSpec>,
-    /// Displacement at the start (m), formulas of the coordinates.
+    /// Displacement at the start (m), one formula of the coordinates for each axis.
     pub(crate) initial_displacement: Option<Vec<NumberText>>,
-    /// Velocity at the start (m/s), formulas of the coordinates.
+    /// Velocity at the start (m/s), one formula of the coordinates for each axis.
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
-    /// Named sets of material points.
+    /// Named sets of material points, which loads can refer to.
     #[serde(default)]
     pub(crate) sets: Ordered<SetSpec>,
-    /// Loads and effects.
+    /// Loads, and effects such as damping and heat conduction.
     #[serde(default)]
     pub(crate) loads: Vec<LoadSpec>,
 }
@@ -50,7 +50,7 @@ pub(crate) struct SceneSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct OneBodySpec {
-    /// The body.
+    /// Shape of the body.
     pub(crate) body: BodySpec,
     /// Material of the body.
     pub(crate) material: MaterialSpec<NumberText>,
@@ -62,7 +62,7 @@ pub(crate) struct OneBodySpec {
     pub(crate) initial_velocity: Option<Vec<NumberText>>,
 }
 
-/// A symmetric stress (Pa) by its components; missing components are zero.
+/// Components of a symmetric stress (Pa). Missing components are zero.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -88,7 +88,7 @@ pub(crate) struct ContactSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum BodySpec {
-    /// A box along the axes.
+    /// A box whose faces are normal to the axes.
     Box(BoxSpec),
     /// A ring, in two dimensions; its rims are free.
     Annulus(AnnulusSpec),
@@ -96,9 +96,9 @@ pub(crate) enum BodySpec {
     Disk(RoundSpec),
     /// A ball, in three dimensions; its surface is free.
     Ball(RoundSpec),
-    /// A polygon, by its corners in their order around the body.
+    /// A polygon, in two dimensions, given by its corners in order around the body.
     Polygon(Vec<Vec<NumberText>>),
-    /// A bilinear map of a square, in two dimensions.
+    /// A convex quadrilateral, in two dimensions, with particles placed by a bilinear map.
     Quadrilateral(QuadrilateralSpec),
 }
 
@@ -106,9 +106,9 @@ pub(crate) enum BodySpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BoxSpec {
-    /// Lowest corner (m).
+    /// Corner with the lowest coordinates (m).
     pub(crate) from: Vec<NumberText>,
-    /// Highest corner (m).
+    /// Corner with the highest coordinates (m).
     pub(crate) to: Vec<NumberText>,
 }
 

@@ -9,16 +9,16 @@ study_spec! {
     struct SpectrumSpec {
         /// Kind of study: `spectrum`.
         study: StudyName,
-        /// The body with its conditions.
+        /// Body, material and periodic boundary.
         scene: SceneSpec,
         /// Cells and particles.
         particles: RowSpec,
         /// Wavelengths and time steps.
         spectrum: WavesSpec,
-        /// Methods to be studied. List values give one case for each combination.
+        /// Methods to be tested. Each combination of list values is a case.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
-        /// fail.
+        /// Expected results. Each case needs exactly one matching entry. Without this key, cases
+        /// neither pass nor fail.
         #[serde(default)]
         expect: Vec<SpectrumExpectSpec>,
     }
@@ -60,8 +60,8 @@ pub(crate) struct SpectrumExpectSpec {
     pub(crate) case: Option<OneOrMany<String>>,
     /// Maximum deviation of the phase error from the prediction, relative to the prediction.
     pub(crate) phase_within: Option<NumberText>,
-    /// Maximum deviation of the logarithm of the amplitude from the prediction, relative to the
-    /// prediction.
+    /// Maximum deviation of the logarithm of the amplitude per period from the prediction,
+    /// relative to the prediction.
     pub(crate) damping_within: Option<NumberText>,
     /// Reason for the expectation.
     pub(crate) because: String,

@@ -6,28 +6,27 @@ use crate::verify::Stability;
 use serde::Deserialize;
 
 study_spec! {
-    /// A stability study.
+    /// A stability study: whether the energy of runs stays bounded.
     struct StabilitySpec {
         /// Kind of study: `stability`.
         study: StudyName,
-        /// The body with its conditions and loads.
+        /// Body, material, boundary conditions and loads.
         scene: SceneSpec,
         /// Cells and particles.
         particles: ParticleSpec,
         /// Time step and number of steps.
         run: StabilityRunSpec,
-        /// The swept parameter and its values.
+        /// Parameter with a list of values. Each value gives a row of the report.
         sweep: Ordered<OneOrMany<NumberText>>,
-        /// The parameter whose largest stable value is determined, for each value of the swept
-        /// parameter.
+        /// Another parameter, whose largest stable value is determined for each row.
         critical: Option<CriticalSpec>,
-        /// Measured quantities in the report.
+        /// Measured quantities that the report shows.
         #[serde(default)]
         show: Vec<crate::verify::RunFigure>,
-        /// Methods to be studied. List values give one case for each combination.
+        /// Methods to be tested. Each combination of list values is a case.
         methods: Vec<MethodSpec>,
-        /// Expectations, exactly one for each case. Without expectations, cases neither pass nor
-        /// fail.
+        /// Expected results. Each case needs exactly one matching entry. Without this key, cases
+        /// neither pass nor fail.
         #[serde(default)]
         expect: Vec<StabilityExpectSpec>,
     }
@@ -56,22 +55,22 @@ pub(crate) struct ParticleSpec {
 pub(crate) struct StabilityRunSpec {
     /// Time step (s): a number, `auto`, or `{courant: ...}`.
     pub(crate) dt: StepSpec,
-    /// A second step length, which alternates with `dt`.
+    /// A second time step (s), which alternates with `dt`.
     pub(crate) alternate: Option<NumberText>,
-    /// Number of consecutive steps of each length.
+    /// Number of consecutive steps with each time step; default: 1.
     pub(crate) every: Option<NumberText>,
     /// Number of steps.
     pub(crate) steps: NumberText,
-    /// Number of steps of a full run, if larger.
+    /// Number of steps in `run --full`; default: `steps`.
     pub(crate) full_steps: Option<NumberText>,
-    /// Whether the particles do not move.
+    /// Whether particles keep their positions, so that every step is the same linear map.
     #[serde(default)]
     pub(crate) frozen: bool,
-    /// Amplitude of the random perturbation at the start.
+    /// Size of the random perturbation of the whole state at the start, in natural units.
     pub(crate) perturb: Option<NumberText>,
-    /// Maximum energy of a stable run, relative to the energy at the start.
+    /// Maximum energy of a stable run, relative to the energy at the start; default: 1e3.
     pub(crate) stable_below: Option<NumberText>,
-    /// Minimum energy of an unstable run, relative to the energy at the start.
+    /// Minimum energy of an unstable run, relative to the energy at the start; default: 1e8.
     pub(crate) unstable_above: Option<NumberText>,
 }
 
@@ -113,7 +112,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// Expected value, as a formula of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Maximum deviation from `is`, relative to `is` (or to one, if `is` is smaller).
+    /// Maximum deviation from `is`, relative to `is` or to one, whichever is larger.
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

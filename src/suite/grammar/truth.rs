@@ -1,4 +1,4 @@
-//! Keys of an exact solution given by formulas.
+//! Keys of an exact solution or a manufactured motion, given by formulas.
 
 use crate::exact::Equation;
 use crate::fem::BarLaw;
@@ -6,20 +6,20 @@ use crate::suite::yaml::NumberText;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-/// An exact solution, or an equilibrium.
+/// An exact solution of the motion, or an equilibrium at the end of the run.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExactSpec {
-    /// Equation of motion, required together with `displacement` if the body moves.
+    /// Equation of motion, named after its law. Required with `displacement`.
     pub(crate) equation: Option<EquationName>,
     /// Displacement (m), formulas of `X`, `Y`, `Z` and `t`.
     pub(crate) displacement: Option<Vec<NumberText>>,
     /// Temperature (K), in a body that conducts heat.
     pub(crate) temperature: Option<NumberText>,
-    /// Maximum residual relative to the terms of a condition, up to 1e-2; default 1e-8.
+    /// Maximum residual of a condition, relative to its terms; at most 1e-2, default: 1e-8.
     pub(crate) tolerance: Option<NumberText>,
-    /// Residual of a solution that satisfies its law to first order only.
+    /// Accepted residual of a formula that solves only the linearised problem.
     pub(crate) linearised: Option<LinearisedSpec>,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct ExactSpec {
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinearisedSpec {
-    /// Maximum residual relative to the terms.
+    /// Maximum residual of the equation of motion and of tractions, relative to their terms.
     pub(crate) tolerance: NumberText,
     /// Reason for accepting the residual.
     pub(crate) because: String,
