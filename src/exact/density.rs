@@ -20,8 +20,8 @@ const NODES: usize = 33;
 /// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
-/// Densities below this share of the largest density count as zero, because of rounding errors: 1 -
-/// X^2 - Y^2 is not exactly zero on the rim of a disk.
+/// Densities below this share of the largest density count as zero. Rounding makes 1 - X^2 - Y^2
+/// slightly negative or positive on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
 /// A position in the body where the density is not positive.
@@ -196,8 +196,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor, or a uniform
-    /// density, leaves a residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2).
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -214,8 +213,7 @@ pub(super) mod tests {
         }
     }
 
-    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The forces at
-    /// fixed positions and at single points are equal, and the force passes the check in weak form.
+    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`.
     #[test]
     fn manufactured_force_has_the_density_of_the_place() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();

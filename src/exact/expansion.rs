@@ -92,7 +92,7 @@ pub(super) fn swollen_cauchy(
     equation.cauchy(&elastic)
 }
 
-/// Computes Div P (N/m3), like [`Equation::divergence`] but with thermal expansion.
+/// Computes Div P (N/m3) with thermal expansion.
 pub(super) fn swollen_divergence(
     equation: &Equation,
     dimension: usize,

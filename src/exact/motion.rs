@@ -72,8 +72,8 @@ impl Motion {
         })
     }
 
-    /// Like [`Self::at_places`], but with first derivatives only, at a third of the cost. Second
-    /// derivatives are not written.
+    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only, at a
+    /// third of the cost. Second derivatives are not written.
     pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -177,7 +177,7 @@ impl Truth for Motion {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Batch lanes without a point repeat the last point.
+            // Batch lanes without a point use the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {

@@ -145,8 +145,8 @@ fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
-/// The weak-form raster must also be fine enough for plane stress, where a stretched plate becomes
-/// thinner, and for bodies of revolution.
+/// The weak-form raster must also be fine enough for plane stress, where the thickness changes, and
+/// for bodies of revolution.
 #[rstest]
 fn a_sound_motion_passes_whatever_happens_across(
     #[values(
@@ -196,8 +196,6 @@ impl Term for Given {
     }
 }
 
-/// [`Forcing`] evaluates all positions at one time. The forces are bit-identical to those at single
-/// points.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
@@ -265,8 +263,7 @@ fn two_differentiations_that_disagree_are_refused() {
     assert!(found.condition.starts_with("two differentiations"), "{found}");
 }
 
-/// The strain is 1/50 in the first half of the bar, and 1/100 in the second half, which is twice as
-/// stiff.
+/// The strain is 1/50 in the first half of the bar, and 1/100 in the stiffer second half.
 #[test]
 fn the_stress_of_several_bodies_is_that_of_each() {
     let whole = bar("(X - max(0, X - 0.5)/2)/50", free());

@@ -1,9 +1,9 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
-//! mass and energies the scale is the largest value during the run. Momenta may be zero, so their
-//! scale is the largest sum of the magnitudes of their terms. The energy is NaN for a law without
-//! stored energy.
+//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. The
+//! scale is the largest value of a mass or an energy during the run. For momenta, which may be
+//! zero, it is the largest sum of the magnitudes of their terms. The energy is NaN for a law
+//! without stored energy.
 
 use super::error::norm::larger;
 use crate::named::named;

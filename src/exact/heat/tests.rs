@@ -133,7 +133,6 @@ fn heat_flows_through_a_periodic_face() {
     refused(&ring("5 + cos(pi*X)*exp(-t)"), "is periodic, but the temperature");
 }
 
-/// The kink is detected at any mean temperature.
 #[rstest]
 fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     let kink = format!("{warm} + abs(X - 0.4)");
@@ -171,7 +170,6 @@ fn a_wrong_condition_on_a_face_is_refused(#[case] wrong: Ends, #[case] words: &s
     }
 }
 
-/// A jump is detected for any magnitude of the temperature.
 #[rstest]
 fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str) {
     let bar = |shape: &str| bar(&format!("{size}*{shape}"), [Ends::Periodic, Ends::Periodic]);

@@ -7,8 +7,8 @@
 //! d tau11/de = M - (K eta + s A)(K etab + s A)/D
 //! ```
 //!
-//! After yield both invariants are linear in the strain. Per unit strain, `sqrt(J2)` changes by
-//! `A - mu g` and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
+//! Both invariants are then linear in the strain. Per unit strain, `sqrt(J2)` changes by `A - mu g`
+//! and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};

@@ -14,7 +14,7 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 /// The basis added by `docs/exercises/basis.md`.
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/quadratic_bernstein.rs"]
 pub(in crate::mpm) mod exercise;
 

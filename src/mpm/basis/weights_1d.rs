@@ -151,9 +151,8 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
-    /// the inverse of the variance. Offsets are multiplied by weights before any sum. Otherwise
-    /// rounding would affect the inertia tensor near a wall, where the offset is small and the
-    /// weight is not.
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum, so that
+    /// rounding does not affect the inertia tensor near a wall.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,

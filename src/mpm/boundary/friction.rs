@@ -10,8 +10,8 @@
 //! the wall, the node is free. This is the contact law of Bardenhagen, Brackbill & Sulsky (2000,
 //! CMAME 187, section 3) between a body and a fixed wall.
 //!
-//! Nodes store their contact state between two advances. Velocities mapped in this interval are
-//! constrained by the stored state. Contact between two bodies uses the same states.
+//! Nodes store their contact state until the next advance. The stored state constrains velocities
+//! that are mapped in this interval.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;

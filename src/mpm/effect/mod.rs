@@ -7,7 +7,7 @@ mod hoop;
 mod rim;
 /// The effect added by `docs/exercises/effect.md`.
 #[cfg(test)]
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/spin.rs"]
 mod spin;
 mod surface;

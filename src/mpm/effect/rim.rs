@@ -35,7 +35,6 @@ pub(super) struct Facet<const D: usize> {
     area: Vector<D>,
 }
 
-/// Reports do not print the entries of a column of facets.
 impl<const D: usize> Entry for Facet<D> {}
 
 /// Number of arcs per particle spacing along the rim.

@@ -40,8 +40,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Whether every number of a column is finite. The check runs on all threads. Without an early
-/// exit, the compiler can vectorise the check.
+/// Whether every number of a column is finite. The loop has no early exit, so that the compiler can
+/// vectorise it.
 pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     column: &[SMatrix<f64, R, C>],
 ) -> bool {

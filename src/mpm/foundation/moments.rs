@@ -50,7 +50,7 @@ pub(in crate::mpm) struct InertiaTensor<const D: usize> {
 
 impl<const D: usize> InertiaTensor<D> {
     /// Computes the moments of products of one-dimensional functions from mean and variance along
-    /// each axis. D_p is diagonal.
+    /// each axis.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };

@@ -102,7 +102,6 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.checkpoint(checkpoint);
     }
 
-    /// Returns the energy per radian.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let mut space = none();
         enter(particles, &mut space);

@@ -10,7 +10,7 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
 /// The material added by `docs/exercises/material.md`.
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
@@ -32,9 +32,8 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F. The stress of such a law is objective under any rotation in one step. A
-/// law that reads only the velocity gradient is objective only in the rate: a rotation during a
-/// step causes an error of second order in the angle.
+/// Whether the law reads F. The stress of such a law is objective under any rotation in one step.
+/// For other laws, a rotation during a step causes an error of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -76,8 +75,7 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// The stored energy is the potential of the stress. At rest the energy equals its closed form
-/// (zero for a solid). For small strains, the energy must be accurate to second order.
+/// Compares the stored energy with its closed form, at rest and after large and small strains.
 fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
@@ -97,7 +95,8 @@ fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// Tests `sigma(Q f F) = Q sigma(f F) Q^T`, also after plastic flow in the previous step.
+/// Tests `sigma(Q dF F) = Q sigma(dF F) Q^T` for a step dF and a rotation Q, also after plastic
+/// flow in the previous step.
 fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
     let error = |size: f64, angle: f64| {
         let (before, step) = (Matrix::identity() + scattered(0.2, 0.3), scattered(size, 1.1));
@@ -144,8 +143,8 @@ fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// A body that starts deformed has the same stress as after one step to this deformation, to second
-/// order in the strain. For a law in rate form the error is larger, because only one step is made.
+/// A body that starts deformed has the stress that one step from rest to this deformation causes,
+/// up to a relative error proportional to the strain.
 fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
     if plan.properties().starts_deformed().is_err() {
         return;

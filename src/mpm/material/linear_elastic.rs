@@ -5,9 +5,8 @@
 //! integrates to `sigma = E ln F`. This stress agrees with small-strain elasticity only to first
 //! order in the strain. Reports list this difference separately from the discretisation error.
 //!
-//! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
-//! step, a spin adds no stress, but the law does not rotate the current stress either. In more than
-//! one dimension, the law is objective only for small rotations.
+//! The stress rate has no Jaumann or Green-Naghdi terms, so the law does not rotate the current
+//! stress. In more than one dimension, the law is objective only for small rotations.
 //!
 //! For a body that starts deformed, the rate is integrated along the straight path `x = X + s u`, s
 //! from 0 to 1. This path has `grad v = H (I + s H)^-1` with `H = F - I`, and so `eps = sym(ln F)`
@@ -62,7 +61,7 @@ fn logarithmic_work(eps: f64) -> f64 {
 /// Maximum number of terms of the logarithm series, sufficient for stretches from 1/100 to 100.
 const MOST_TERMS: u32 = 2000;
 
-/// Squared norm of Z up to which the number of terms follows from the norm.
+/// Largest squared norm of Z for which the number of terms is computed from the norm.
 const SMALL_SQUARE: f64 = 1.0 / 16.0;
 
 /// Returns `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5). NaN if the series
@@ -88,8 +87,8 @@ pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     nothing
 }
 
-/// Sums the series of [`logarithm`] by Horner's scheme. A step of a rate law has small Z, and this
-/// form takes half the time, because it needs no norm after each term.
+/// Sums the series of [`logarithm`] for small Z by Horner's scheme. This form takes half the time,
+/// because it needs no norm after each term.
 fn small_logarithm<const D: usize>(z: &Matrix<D>, square: &Matrix<D>, size: f64) -> Matrix<D> {
     // Term k is at most size^k times the first term.
     let (mut terms, mut power) = (0_u32, 1.0);
@@ -150,9 +149,8 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with
-    /// `eps = ln J`. The work per reference volume, the integral of `J sigma d eps`, is
-    /// `M (eps e^eps - e^eps + 1)`. The function computes eps from the stress. In 2-D and 3-D the
+    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with `eps = ln
+    /// J`, and the work per reference volume is `M (eps e^eps - e^eps + 1)`. In 2-D and 3-D the
     /// work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;

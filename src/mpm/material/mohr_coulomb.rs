@@ -86,8 +86,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. From
-    /// derivatives of `f_a` and `f_b`, the function returns derivatives of the flows.
+    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. If `f_a`
+    /// and `f_b` are derivatives, the results are derivatives of the flows.
     fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
@@ -117,7 +117,7 @@ impl Pyramid {
         if stress[high] >= stress[middle] && stress[middle] >= stress[low] {
             return (stress, Landing::Plane(plane));
         }
-        // On an edge two stresses are equal: only the third one can be out of order.
+        // On an edge two stresses are equal, so only the order of the third stress is checked.
         let high_edge = || {
             let stress = self.on_edge([plane, [middle, low]], trial)?;
             let landing = Landing::Edge([plane, [middle, low]]);

@@ -31,7 +31,6 @@ impl<const D: usize> Prestressed<D> {
         Self { law, stress: if keeps { stress } else { Vec::new() } }
     }
 
-    /// Adds the stress due to S0 to the stresses computed by the law.
     fn add(&self, particles: &mut Particles<D>) {
         let Particles { sigma, def_grad, vol, vol0, .. } = particles;
         let states = def_grad.iter().zip(vol.iter().zip(vol0.iter()));

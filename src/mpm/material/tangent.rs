@@ -87,7 +87,6 @@ pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
-/// Returns the components in the dimensions of the body.
 fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }

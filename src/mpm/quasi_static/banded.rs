@@ -1,10 +1,9 @@
 //! Direct solution of a banded linear system: LU with partial pivoting (Golub & Van Loan, *Matrix
 //! Computations*, 4th ed., 2013, section 4.3.5).
 //!
-//! The tangent of a quasi-static step is symmetric only for elastic and associated laws, and may be
-//! indefinite, so Cholesky factorisation does not apply. The operations have a fixed order and no
-//! fused products, so results are bit-identical on any machine. A library that chooses its
-//! instructions at run time does not guarantee this.
+//! The tangent of a quasi-static step may be indefinite, and is symmetric only for elastic and
+//! associated laws, so Cholesky factorisation does not apply. The operations have a fixed order and
+//! no fused products, so results are bit-identical on any machine.
 
 /// A square matrix with `band` diagonals on either side of the main diagonal.
 #[derive(Debug, Clone)]

@@ -27,9 +27,9 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
-    /// requires this orientation, because GIMP replaces domains by boxes whose half-lengths are the
-    /// diagonal entries of the domain matrix.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. The
+    /// boxes of GIMP require this orientation, because their half-lengths are the diagonal entries
+    /// of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -58,7 +58,6 @@ impl Quadrilateral {
         (0..4).any(|i| at_end(i) && at_end(i + 1))
     }
 
-    /// Returns the vector from corner i to the next corner (m).
     fn side(&self, i: usize) -> Vector<2> {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
@@ -163,8 +162,7 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // The middles of domain sides are inside the panel, up to rounding at the
-                    // boundary.
+                    // The middles of domain sides are inside the panel, up to rounding.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));
@@ -232,9 +230,8 @@ mod tests {
         (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// The parallelograms of CPDI tile any panel without gaps or overlaps. The boxes of contiguous
-    /// GIMP tile only a panel with two upright sides. Boxes of equal size (uniform GIMP) do not
-    /// tile a panel with two upright sides, and no boxes tile a rotated panel, at any refinement.
+    /// The parallelograms of CPDI tile any panel. The boxes of contiguous GIMP tile only a panel
+    /// with two upright sides, and the equal boxes of uniform GIMP do not tile this panel either.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);

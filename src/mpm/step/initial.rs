@@ -1,9 +1,8 @@
 //! Initial state of the particles: columns, stresses and domains before the first step.
 //!
 //! A body may start deformed ([`Particles::deform`]). The material then computes the stress from F
-//! ([`Material::start_deformed`]), and the basis computes the domains from F, as if the body had
-//! been deformed to this state before. A viscous fluid that starts in motion also has viscous
-//! stress.
+//! ([`Material::start_deformed`]), and the basis computes the domains from F. A viscous fluid that
+//! starts in motion also has viscous stress.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::particles::Particles;

@@ -1,11 +1,10 @@
 //! Observables of a body: conserved sums, samples of the particles, and the reaction of fixed
 //! walls.
 //!
-//! The reaction follows from the weak form with the functions of fixed nodes. Without the wall, the
-//! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall must
-//! balance the forces. The reaction is therefore `-sum f_i` over the fixed components of internal
-//! and external forces. Only the functions of these nodes are non-zero on the wall, and their sum
-//! there is one. For small cells the reaction therefore converges to the integral of the traction.
+//! Without the wall, the nodal forces would accelerate the fixed nodes. The reaction is therefore
+//! `-sum f_i` over the fixed components of internal and external forces. Only the functions of
+//! these nodes are non-zero on the wall, where their sum is one, so the reaction converges to the
+//! integral of the traction for small cells.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};

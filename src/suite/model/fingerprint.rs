@@ -1,9 +1,7 @@
 //! Hash of a text.
 
-/// Computes a 64-bit FNV-1a hash (Fowler, Noll & Vo), modified to read eight bytes per step. Large
-/// steps save time for programs of tens of millions of bytes, because each step must wait for the
-/// previous one. A shift after each product moves high bits down, where the next product spreads
-/// them. Every step is a bijection of the hash.
+/// Computes a 64-bit FNV-1a hash (Fowler, Noll & Vo), modified for speed to read eight bytes per
+/// step. A shift after each product moves high bits down, where the next product spreads them.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     let next = |hash: u64, word: u64| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);

@@ -4,11 +4,11 @@
 //! seconds = a transfers + b particle updates + c steps x nodes + d steps
 //! ```
 //!
-//! The coefficients are non-negative and minimise the relative errors at measured levels. Within
-//! one refinement the four counts grow nearly in proportion, and noise would make some coefficients
-//! negative. Therefore a fit is computed for each of the fifteen subsets of the four terms. The
-//! best fit without a negative coefficient is used (non-negative least squares, Lawson & Hanson
-//! 1974, chapter 23).
+//! The coefficients are non-negative and minimise the relative errors at measured levels
+//! (non-negative least squares, Lawson & Hanson 1974, chapter 23). The four counts grow nearly in
+//! proportion within one refinement, so noise would make some coefficients negative. A fit is
+//! therefore computed for each of the fifteen subsets of the four terms, and the best one without a
+//! negative coefficient is used.
 
 /// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +49,7 @@ impl Model {
         let mut best: Option<(f64, [f64; COLUMNS])> = None;
         for subset in 1_u32..1 << COLUMNS {
             let chosen: Vec<usize> = (0..COLUMNS).filter(|k| subset >> k & 1 == 1).collect();
-            // A fit needs at least two runs for each coefficient. Otherwise it would follow the
-            // noise.
+            // With fewer than two runs for each coefficient, a fit would follow the noise.
             if chosen.len() > (rows.len() / 2).max(1) {
                 continue;
             }

@@ -132,7 +132,7 @@ fn predicted(samples: &[Sample]) -> PredictedError {
     PredictedError::of(samples, &ConvergingPart::of(samples), Verdict::Converging, 2.0)
 }
 
-/// Without noise the interval covers an order that changes by 0.25 over an octave.
+/// Without noise the interval covers a change of the order by 0.25 from one level to the next.
 #[test]
 fn a_power_law_goes_on_within_what_counts_as_settled() {
     let found = predicted(&power(2.0, 3.0, 5)).at(1.0 / 64.0).unwrap();
@@ -142,8 +142,8 @@ fn a_power_law_goes_on_within_what_counts_as_settled() {
     assert_relative_eq!(found.high, wanted * libm::exp2(0.25), max_relative = 1e-12);
 }
 
-/// By hand: four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032.
-/// One octave finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
+/// Four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032. One octave
+/// finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
 #[test]
 fn noise_widens_the_interval_of_a_predicted_error() {
     let mut samples = power(2.0, 3.0, 4);

@@ -3,9 +3,9 @@
 //! The expectations of a suite bound the order of its own methods on both sides, because an order
 //! that is too high shows a defect of the suite. The order of an external solver has a lower bound
 //! only, because superconvergence at its sample points is not a defect. The 95 % interval of the
-//! order must reach this bound. It must also exclude orders that are lower by 0.5, the typical
-//! effect of a defect. The interval may extend below the bound: with few levels, the interval of a
-//! correct solver extends 0.1 or more to each side.
+//! order must reach this bound, and must exclude orders that are lower by 0.5, the typical effect
+//! of a defect. The interval may extend below the bound, because with few levels it extends 0.1 or
+//! more to each side even for a correct solver.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -33,12 +33,12 @@ pub enum Gating {
 /// A required order or bound on errors. It is enough to meet one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// Required order, before [`OrderHypothesis::TOLERANCE`] is subtracted.
+    /// Required order, from which [`OrderHypothesis::TOLERANCE`] is subtracted.
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is given. Other methods
-    /// need not satisfy this bound if they have too few levels for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is given. It accepts a
+    /// method with too few levels for an order, but never rejects one.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -146,7 +146,7 @@ impl Requirement {
             && match above {
                 0 => true,
                 // Coarse levels that are too few for an order may be pre-asymptotic. Without a
-                // bound, their errors must decrease until they reach the rounding error.
+                // bound, their errors must decrease down to the rounding error.
                 1..FEWEST_LEVELS => {
                     bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
                 }
@@ -169,8 +169,8 @@ impl Requirement {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval of the order reaches the lowest accepted order. It must also
-    /// exclude orders that are lower by 0.5 or by half.
+    /// Whether the 95 % interval of the order reaches the lowest accepted order, and excludes
+    /// orders that are lower by 0.5 or by half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &of_order(order, 5)).ok(), met);
     }
 
-    /// The errors on five levels have order 2, but the finest error is multiplied by a factor.
+    /// Five levels of order 2, with the finest error multiplied by a factor.
     #[rstest]
     #[case::a_little_noise(1.2, Some(Acceptance::Order))]
     #[case::noise_that_hides_the_order(2.5, None)]

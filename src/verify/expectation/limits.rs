@@ -179,8 +179,7 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Formats a drift. One digit is enough, because a drift is either a rounding error or far too
-/// large.
+/// Formats a drift with one digit.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }

@@ -66,8 +66,7 @@ impl Expectation {
         }
     }
 
-    /// Returns one sentence for each unmet expectation; empty if all are met. A failure is reported
-    /// only once.
+    /// Returns one sentence for each unmet expectation; empty if all are met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
         // A failed run has no measured values, and its failure is already reported.
@@ -77,8 +76,7 @@ impl Expectation {
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Describes an unmet verdict or observed order. Both are in one sentence because they describe
-    /// one result.
+    /// Describes an unmet verdict or observed order.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {

@@ -108,7 +108,6 @@ mod tests {
         assert_eq!(EXPECTED.unmet(&unknown).len(), 1);
     }
 
-    /// The amplitude changes by the strain of the wave in each of twenty steps.
     #[test]
     fn an_amplitude_that_remains_may_change_with_the_strain_only() {
         let undamped = |log_kept| SpectrumRow {

@@ -1,9 +1,9 @@
 //! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! A Fourier mode of a linear scheme is described by two numbers on the grid. A step multiplies
-//! them by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state
-//! satisfies `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a part that the grid
-//! does not resolve. This part is constant, so the fit includes a constant.
+//! The grid state of a Fourier mode of a linear scheme is two numbers, which a step multiplies by a
+//! 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state satisfies
+//! `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a constant part that the grid
+//! does not resolve, so the fit includes a constant.
 
 use std::f64::consts::TAU;
 

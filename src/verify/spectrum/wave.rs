@@ -52,9 +52,9 @@ pub struct ObservedWave {
     pub steps: u64,
 }
 
-/// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles. The
-/// wave number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes
-/// the initial state, because possibly no step can produce this state.
+/// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles, with
+/// the wave number `k = 2 pi/length` and X from the beginning of the row. The series excludes the
+/// initial state, because this state may not result from a step.
 ///
 /// # Errors
 /// Message that names the failed step.

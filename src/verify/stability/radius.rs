@@ -7,8 +7,8 @@ use nalgebra::linalg::Schur;
 /// the matrix.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours.
-/// Thresholds below some tens of rounding errors are never reached.
+/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours. Much
+/// smaller thresholds are never reached because of rounding errors.
 const SMALL: f64 = 1e-13;
 
 /// Number of times that the matrix is squared: powers up to 2^30.
@@ -70,8 +70,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// Squares the matrix, with sums in column order. The matrix product of the library adds in another
-/// order, and uses fused operations on processors with wider registers.
+/// Squares the matrix, with sums in column order. The order of sums in the library depends on the
+/// processor.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {
