@@ -121,8 +121,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     if lines.is_empty() {
         return Err(Diagnostic::about(file, "the series has no level").with_help(FORMAT_HELP));
     }
-    // A program may omit trailing zeros. The value with the most digits therefore determines the
-    // resolution.
+    // The value with the most digits determines the resolution, because a program may omit trailing
+    // zeros.
     let units = lines.iter().map(|line| line.point.resolution);
     let unit = units.fold(f64::INFINITY, f64::min);
     for line in &mut lines {
@@ -132,7 +132,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
 }
 
 /// Returns the byte ranges of the fields of a line that begins at byte `start`. A comma or
-/// semicolon with spaces around it is one separator. Two successive separators enclose an empty
+/// semicolon with spaces around it is one separator, and two successive separators enclose an empty
 /// field.
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');

@@ -1,6 +1,6 @@
 //! Standard output and standard error. All commands print through this module, which records the
-//! first failed write. Verdicts and errors are coloured. The streams remove the colours unless they
-//! are terminals.
+//! first failed write. The streams remove the colours of verdicts and errors unless they are
+//! terminals.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;

@@ -2,7 +2,7 @@
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
 //! Numbers are stored without names, as eight bytes in little-endian order on any machine. The
-//! bytes are therefore valid only for the same program and set-up. The caller must ensure this.
+//! caller must ensure that bytes are read by the same program with the same set-up.
 
 use super::{Samples, Totals};
 
@@ -114,8 +114,8 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// Visits all entries in one call. Analyses restore a state before each of many steps, so speed
-    /// matters.
+    /// Visits all entries in one call, for speed: analyses restore a state before each of many
+    /// steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -142,7 +142,7 @@ impl Memory for bool {
     }
 }
 
-/// The length of a slice is fixed. It is stored only to detect bytes that do not fit.
+/// The length of a slice is fixed, and is stored only to detect bytes that do not fit.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -159,7 +159,7 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
 }
 
 /// The length is stored, because vectors may grow during a run. Every entry must contain at least
-/// one number: a wrong length then ends with an error when no bytes remain.
+/// one number, so that reading with a wrong length ends when no bytes remain.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut len = self.len() as u64;
@@ -288,7 +288,6 @@ mod tests {
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// A visit terminates for any bytes, and reports bytes that do not fit.
         #[test]
         fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);

@@ -55,8 +55,7 @@ impl RunProgress {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
         suite.name.clone_into(&mut state.suite);
-        // Cases run in parallel, each from coarse to fine. The cheapest levels therefore finish
-        // first.
+        // Cases run in parallel from coarse to fine, so the cheapest levels finish first.
         state.units = unit_seconds(suite, extent);
         state.units.sort_by(|a, b| b.total_cmp(a));
         self.bar.set_message(state.message());

@@ -22,10 +22,8 @@ const UNTIL: f64 = 0.5;
 const DT: f64 = 2e-5;
 
 /// For elements of degree k, the order is k + 1 inside the elements and 2k at the nodes. Lumping
-/// does not reduce the order of the quadratic element. Lumping is equivalent to quadrature at the
-/// Lobatto points, and this quadrature is exact for the mass up to degree 2k - 1. This degree is
-/// sufficient for the order 2k of the frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11,
-/// 1975).
+/// preserves the order 2k, because the quadrature at the Lobatto points to which it is equivalent
+/// is exact for the mass up to degree 2k - 1 (Fried & Malkus, *Int. J. Solids Struct.* 11, 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -47,8 +45,7 @@ fn the_vibrating_bar_shows_the_formal_order(
     };
     let observed = orders(&[4, 8, 16, 32, 64].map(error));
     println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
-    // At the nodes of lumped quadratic elements, the first pair of meshes is not yet in the
-    // asymptotic range.
+    // At the nodes of lumped quadratic elements, the first pair of meshes is pre-asymptotic.
     for order in &observed[1..] {
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
@@ -68,9 +65,9 @@ fn seen(start: Start, steps: u32) -> [f64; 2] {
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
 }
 
-/// All runs use the same mesh, so a run with a much smaller step is an accurate reference. From
-/// rest and under a constant load, [`Start::AtZero`] computes the exact motion shifted by half a
-/// step. The displacement is therefore of first order; the velocity is of second order.
+/// A run with a much smaller step on the same mesh is the reference. From rest and under a constant
+/// load, [`Start::AtZero`] computes the exact motion shifted by half a step, so the displacement is
+/// of first order and the velocity of second order.
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]
@@ -100,8 +97,7 @@ fn a_change_of_step_keeps_the_second_order() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
 }
 
-/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. Each step evaluates the load at
-/// the time of the displacements, the start of the step.
+/// A free bar under the load `b = 6 t` moves by `u = t^3`.
 #[test]
 fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
     let error = |steps| {

@@ -13,8 +13,7 @@ fn neo_hookean(def_grad: f64) -> f64 {
     50.0 * (def_grad - 1.0 / def_grad)
 }
 
-/// Patch test: the discrete space contains a uniform strain, and the stress of this strain is in
-/// equilibrium.
+/// Patch test: a uniform strain is in the discrete space, and its stress is in equilibrium.
 #[rstest]
 fn a_uniform_stretch_stays(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
@@ -87,8 +86,8 @@ fn samples_cover_the_bar(
     }
 }
 
-/// Eight elements have two points and two nodes each. Each pair of a point and a node is visited
-/// once for the strain and once for the forces.
+/// Eight elements have two points and two nodes each, and each pair is visited once for the strain
+/// and once for the forces.
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
