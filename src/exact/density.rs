@@ -162,7 +162,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn density_that_is_not_positive_inside_is_refused_with_its_place() {
+    fn non_positive_density_is_refused_with_its_position() {
         let refused = in_box("X + 0.5", 1).unwrap_err();
         assert!(refused.label[0] < -0.5 && refused.value < 0.0, "{refused:?}");
         assert!(in_box("1 - X^2 - Y^2", 2).is_err(), "negative in the corners of the square");
@@ -215,7 +215,7 @@ pub(super) mod tests {
 
     /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`.
     #[test]
-    fn manufactured_force_has_the_density_of_the_place() {
+    fn manufactured_force_uses_the_local_density() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
         let problem = Problem { density, ..held(2) };
         assert_eq!(problem.check(), Ok(()));
@@ -234,7 +234,7 @@ pub(super) mod tests {
     /// A plane cloud with K = 1/4 and rho0 = 1 - R^2 has the motion x = a X. Its energies are I
     /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
     #[test]
-    fn energies_of_a_round_cloud_have_their_closed_forms() {
+    fn energies_of_a_round_cloud_match_closed_forms() {
         let plane = |text: &str| {
             let variables = ["X", "Y", "t"];
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &variables).unwrap()
@@ -271,7 +271,7 @@ pub(super) mod tests {
     /// Checks d/dX and d/dY of X^2 Y. A density that is negative by rounding has zero value and
     /// slope.
     #[test]
-    fn slopes_are_those_of_the_formula() {
+    fn slopes_are_derivatives_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };
         let slope = density.with_slopes(&[3.0, 2.0]);
         assert_eq!([slope.value(), slope.d(0), slope.d(1), slope.d(2)], [18.0, 12.0, 9.0, 0.0]);

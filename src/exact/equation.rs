@@ -132,7 +132,7 @@ mod tests {
     /// Simple shear along X, u_X = g Y. The top face keeps its area and normal; the right face
     /// rotates, `n da = (1, -g) dA` (Nanson).
     #[test]
-    fn the_face_of_a_sheared_body_turns() {
+    fn side_face_of_a_sheared_body_rotates() {
         let g = 0.4;
         let grad = [[0.0, g, 0.0], [0.0; 3], [0.0; 3]];
         let law: Equation = NeoHookeanLaw::new(7.2, 0.3).into();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[rstest]
-    fn a_plate_is_free_across(
+    fn plate_has_no_out_of_plane_stress(
         #[values(
             SmallStrainLaw::new(7.2, 0.3).into(),
             NeoHookeanLaw::new(7.2, 0.3).into(),

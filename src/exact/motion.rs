@@ -216,7 +216,7 @@ mod tests {
     use crate::exact::formula::{Expr, Scope};
 
     #[test]
-    fn slopes_at_places_have_the_bits_of_all_derivatives() {
+    fn slopes_are_bit_identical_to_full_derivatives() {
         let bind = |text: &str| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
         };
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_varies_along_the_axes_that_it_reads() {
+    fn motion_varies_only_along_axes_in_its_formulas() {
         let bind = |text: &str| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
         };

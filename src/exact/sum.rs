@@ -296,7 +296,7 @@ mod tests {
     /// A line with density 2 + X is stretched by 1 + t from the origin. Then `sum m x^2` is (1 +
     /// t)^2 times `int (2 + X) X^2 dX` = 11/12.
     #[test]
-    fn second_moments_have_the_density_of_the_place() {
+    fn second_moments_use_the_local_density() {
         let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
         let density = Density::of_place(formula, &[0.0], &[1.0], None).unwrap();
         let problem = Problem { density, ..bar("X*t", free()) };
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn each_body_has_its_density() {
+    fn each_body_uses_its_own_density() {
         let whole = swinging();
         let half = |from: f64, to: f64, density: f64| Problem {
             from: vec![from],
@@ -352,7 +352,7 @@ mod tests {
     #[rstest]
     #[case::a_body_at_rest("0*X", "is zero at all times")]
     #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be integrated to 1e-10")]
-    fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
+    fn sums_without_an_exact_value_are_refused(#[case] displacement: &str, #[case] reason: &str) {
         let problem = bar(displacement, fixed());
         let density = |point: &SumPoint<'_>| of_vector(point.momentum());
         let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap_err().to_string();

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_particle_or_axis_that_does_not_exist_has_no_value() {
+    fn missing_particle_or_axis_has_no_value() {
         let value = |of: Functional| of.value(&[1.0, 3.0], &samples());
         assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
         let beyond = value(Functional::MeanDisplacement { axis: 2 });

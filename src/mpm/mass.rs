@@ -282,7 +282,7 @@ mod tests {
     proptest! {
         /// Tests columns with few and with many entries, which are sorted by different algorithms.
         #[test]
-        fn the_bits_are_those_of_the_library(
+        fn sums_are_bit_identical_to_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),
         ) {
             // Row and column 5 belong to fixed nodes.

@@ -158,7 +158,7 @@ mod tests {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
         #[test]
-        fn what_is_kept_is_what_was_there(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
+        fn stored_result_is_read_back_bit_for_bit(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
             let run = some(x, Some(why));
             let text = text("key", &run).unwrap();
             prop_assert_eq!(shown(&read::<RunResult>(&text, "key").unwrap()), shown(&run));
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_torn_or_of_another_level_is_not_taken() {
+    fn truncated_results_and_other_keys_are_ignored() {
         let text = text("key", &some(1.5, None)).unwrap();
         assert!(read::<RunResult>(&text, "key").is_some());
         assert!(read::<RunResult>(&text, "another").is_none());

@@ -281,7 +281,7 @@ mod tests {
 
         /// All bits are restored, including those of NaN and -0, for any previous state.
         #[test]
-        fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
+        fn every_bit_is_restored(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
             let bytes = written(&mut some(x, n));
             let mut back = some(0.5, m);
             prop_assert!(taken_back(&mut back, &bytes));
@@ -289,7 +289,7 @@ mod tests {
         }
 
         #[test]
-        fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        fn arbitrary_bytes_are_rejected(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);
             bytes.truncate(bytes.len() / 8 * 8 + 1);
             prop_assert!(!taken_back(&mut some(1.0, 0), &bytes), "no whole number of words");
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_short_or_too_long_does_not_fit() {
+    fn wrong_number_of_bytes_is_rejected() {
         let bytes = written(&mut some(1.5, 6));
         for end in 0..bytes.len() {
             assert!(!taken_back(&mut some(1.5, 6), &bytes[..end]), "{end}");
@@ -308,7 +308,7 @@ mod tests {
     #[rstest]
     #[case::shorter(&mut [0.0; 2])]
     #[case::longer(&mut [0.0; 4])]
-    fn a_column_of_another_length_is_left_alone(#[case] column: &mut [f64]) {
+    fn column_of_another_length_is_not_changed(#[case] column: &mut [f64]) {
         assert!(!taken_back(column, &written(&mut [1.0, 2.0, 3.0][..])));
         assert!(column.iter().all(|entry| *entry == 0.0));
     }

@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn one_nan_is_the_largest_and_the_smallest() {
+    fn nan_is_the_largest_and_the_smallest_value() {
         for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
             let [most, least, ..] = measure(&errors.map(|e| level(true, e, None))).figures;
             assert!(least.unwrap().is_nan() && most.unwrap().is_nan());
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_alone_make_the_headline() {
+    fn headline_of_bounds_starts_with_the_bounded_values() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];
         let limits = Limits { bounds, ..Limits::default() };
         let bound =

@@ -261,7 +261,7 @@ pub(in crate::verify) mod tests {
     #[case(Verdict::Oscillatory, true)]
     #[case(Verdict::Divergent, true)]
     #[case(Verdict::Failed, true)]
-    fn a_verdict_against_the_order_fails(#[case] verdict: Verdict, #[case] fails: bool) {
+    fn verdicts_that_contradict_the_order_fail(#[case] verdict: Verdict, #[case] fails: bool) {
         let mut study = study(&[1.0, 0.25]);
         study.judgement.verdict = verdict;
         assert_eq!(study.fails(), fails);

@@ -62,7 +62,7 @@ mod tests {
     #[case::kept(0.0)]
     #[case::lost(-0.01)]
     #[case::made(3e-5)]
-    fn an_exponential_has_its_rate(#[case] rate: f64) {
+    fn exponential_energy_has_its_exact_rate(#[case] rate: f64) {
         let found = energy_rate(&account(203, |t| 7.0 * libm::exp(rate * t))).unwrap();
         assert_abs_diff_eq!(found.value, rate, epsilon = 1e-12);
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
@@ -71,7 +71,7 @@ mod tests {
     /// An oscillation of 10 % with a period of twenty instants. If each part contains whole
     /// periods, it hardly changes the rate. Otherwise it widens the interval.
     #[test]
-    fn a_swing_is_no_drift() {
+    fn oscillation_is_not_a_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);
         let whole = energy_rate(&account(1000, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
         assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn without_enough_to_see_there_is_no_rate() {
+    fn too_few_or_invalid_energies_have_no_rate() {
         assert_eq!(energy_rate(&account(49, |_| 1.0)), None);
         assert_eq!(energy_rate(&account(100, |t| 50.0 - t)), None);
         assert_eq!(energy_rate(&account(100, |t| if t > 98.0 { f64::NAN } else { 1.0 })), None);

@@ -159,7 +159,7 @@ mod tests {
     #[case::nothing(0.0, None)]
     #[case::too_large(1e39, None)]
     #[case::unknown(f64::NAN, None)]
-    fn the_spacing_is_that_below_the_largest_coordinate(
+    fn spacing_is_that_below_the_largest_coordinate(
         #[case] largest: f64,
         #[case] exponent: Option<i32>,
     ) {

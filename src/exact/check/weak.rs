@@ -302,7 +302,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_along_an_axis_of_no_change_are_one_place() {
+    fn points_that_differ_along_constant_axes_share_a_place() {
         let of = |varying: &[bool; 3]| (0..27).map(|point| place(point, 3, varying)).collect();
         let all: Vec<usize> = of(&[true, true, true]);
         assert!(all.into_iter().eq(0..27));

@@ -267,7 +267,7 @@ mod tests {
     /// The plastic strain rates along the path, from central differences, satisfy the flow rule,
     /// the elastic law, the hardening rule and zero lateral strain.
     #[rstest]
-    fn the_path_obeys_the_rates_of_the_law(
+    fn path_satisfies_the_rate_equations(
         #[values(100.0, 150.0, 400.0)] preconsolidation: f64,
         #[values(0.001, 0.02, 0.1, 0.3)] beyond: f64,
     ) {
@@ -291,7 +291,7 @@ mod tests {
 
     /// The stress is elastic up to yield, continuous at yield, and undefined for softening clay.
     #[test]
-    fn yield_is_on_the_elastic_path() {
+    fn yield_point_lies_on_the_elastic_path() {
         let law = clay(150.0);
         let p = law.yields[0];
         let q = 1.2 * (p - 100.0);
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[rstest]
-    fn stress_has_its_slope(#[values(-0.005, -0.05, -0.2)] strain: f64) {
+    fn stress_slope_agrees_with_differences(#[values(-0.005, -0.05, -0.2)] strain: f64) {
         let (law, step) = (clay(150.0), 1e-6);
         let grad = Slope::<1>::variable(libm::expm1(strain), 0);
         let [[piola]] = law.piola(&[[grad]]);

@@ -62,7 +62,7 @@ mod tests {
     #[rstest]
     #[case(1.0, [0.415_900_087_2, 0.869_783_943_7])]
     #[case(3.0, [1.766_203_744_6, 1.817_834_265_2])]
-    fn simple_shear_has_the_values_of_an_independent_program(
+    fn stress_in_simple_shear_matches_an_independent_program(
         #[case] gamma: f64,
         #[case] tau: [f64; 2],
     ) {

@@ -90,7 +90,7 @@ mod tests {
     #[case::without_dilation([20.0, 0.0], -0.01, -165.612_145_902)]
     #[case::extension_without_dilation([20.0, 0.0], 0.001, 17.153_427_590)]
     #[case::tresca([0.0, 0.0], -0.01, -113.333_333_333)]
-    fn uniaxial_strain_has_its_stress(
+    fn stress_in_uniaxial_strain_matches_an_independent_program(
         #[case] angles: [f64; 2],
         #[case] strain: f64,
         #[case] tau: f64,

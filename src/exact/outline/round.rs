@@ -355,7 +355,7 @@ mod tests {
 
         /// Splits a box at a point. Faces, edges and corners lie inside or outside the ball.
         #[test]
-        fn the_parts_of_a_box_have_its_volume(
+        fn parts_of_a_box_add_up_to_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),
             to in prop::array::uniform3(0.1..1.5_f64),
             d in 2..=3_usize,

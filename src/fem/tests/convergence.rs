@@ -71,7 +71,7 @@ fn seen(start: Start, steps: u32) -> [f64; 2] {
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]
-fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
+fn start_determines_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
     let reference = seen(Start::HalfStepBack, 51_200);
     for (quantity, formal) in formal.into_iter().enumerate() {
         let error = |steps| (seen(start, steps)[quantity] - reference[quantity]).abs();
@@ -82,7 +82,7 @@ fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f6
 }
 
 #[test]
-fn a_change_of_step_keeps_the_second_order() {
+fn change_of_step_preserves_second_order() {
     let exact = seen(Start::HalfStepBack, 51_200);
     let error = |pairs: u32| {
         let mut bar = Bar::new(column(Start::HalfStepBack)).unwrap();
@@ -99,7 +99,7 @@ fn a_change_of_step_keeps_the_second_order() {
 
 /// A free bar under the load `b = 6 t` moves by `u = t^3`.
 #[test]
-fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
+fn varying_load_is_evaluated_at_the_time_of_the_displacements() {
     let error = |steps| {
         let body_force = Some(pointwise(|_, t| 6.0 * t));
         let setup = BarSetup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
@@ -116,7 +116,11 @@ fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
 #[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]
 #[case(Quadratic, Lumped, 1.0 / libm::sqrt(6.0))]
 #[case(Quadratic, Consistent, 1.0 / libm::sqrt(15.0))]
-fn the_stable_step_is_known(#[case] element: Element, #[case] mass: Mass, #[case] limit: f64) {
+fn stability_limit_agrees_with_theory(
+    #[case] element: Element,
+    #[case] mass: Mass,
+    #[case] limit: f64,
+) {
     let survives = |courant: f64| {
         let mut bar = Bar::new(vibrating_bar(40, element, mass)).unwrap();
         let dt = courant * (25.0 / 40.0) / 10.0;
@@ -162,7 +166,7 @@ fn bits(bar: &Bar) -> (Vec<u64>, String) {
 }
 
 #[rstest]
-fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+fn resumed_run_is_bit_identical(
     #[values(Linear, Quadratic)] element: Element,
     #[values(Lumped, Consistent)] mass: Mass,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,

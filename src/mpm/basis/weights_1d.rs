@@ -197,7 +197,7 @@ mod tests {
     use crate::mpm::foundation::simd::{LANES, Plain};
 
     #[test]
-    fn an_axis_without_a_moment_has_no_inverse() {
+    fn inverse_is_zero_without_a_second_moment() {
         let mut weights = Weights1dBatch::<2>::NONE;
         for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
             weights.variance.0[LANES + lane] = variance;

@@ -111,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn expansion_is_free() {
+    fn expansion_causes_no_viscous_pressure() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };
         let mut body = Particles::fill(&block, 1.0, 1);
         body.sigma[0][(0, 0)] = 0.1;

@@ -46,7 +46,7 @@ mod tests {
     use crate::mpm::Vector;
 
     #[test]
-    fn each_component_is_opposed_by_a_share_of_its_own_force() {
+    fn each_component_is_damped_by_a_share_of_its_own_force() {
         let mut grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         grid.velocity[0] = Vector::<2>::new(1.0, -1e-9);
         grid.velocity[1] = Vector::<2>::new(-2.0, 0.0);

@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn cofactors_make_the_inverse() {
+    fn cofactors_give_the_inverse() {
         let m1 = Matrix::<1>::new(2.0);
         let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
         let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);

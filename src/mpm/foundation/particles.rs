@@ -300,7 +300,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn a_body_is_filled_with_its_own_mass() {
+    fn filled_body_has_its_exact_mass() {
         let (from, to) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::new(1.0, 3.0));
         let block = Block { from, to, density: 3.0 };
         let particles = Particles::fill(&block, 0.25, 2);
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_body_keeps_whole_shares_of_the_lattice() {
+    fn round_body_has_whole_lattice_cells() {
         let (from, to) = (Vector::<2>::new(-2.0, -2.0), Vector::<2>::new(2.0, 2.0));
         let block = Block { from, to, density: 1.0 };
         let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_does_not_end_on_a_node_keeps_its_length() {
+    fn filled_body_keeps_its_length_between_nodes() {
         let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(1.0));
         let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.15 / 20.0, 10);
         assert_eq!(particles.len(), 174);

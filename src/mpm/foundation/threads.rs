@@ -79,7 +79,7 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    fn each_row_is_met_once(
+    fn each_row_is_visited_once(
         #[values(0, 1, 7, 8, 9, 1000)] total: usize,
         #[values(1, 8)] length: usize,
         #[values(1, 3)] threads: usize,

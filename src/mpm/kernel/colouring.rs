@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[rstest]
-    fn a_long_body_is_cut(#[values(false, true)] periodic: bool) {
+    fn long_body_is_divided_into_blocks(#[values(false, true)] periodic: bool) {
         for &name in BasisName::ALL {
             with_basis!(name, B => is_cut_in_every_dimension::<B>(periodic));
         }

@@ -383,7 +383,7 @@ mod tests {
         /// After a return the yield function is zero, the flow is associated and the hardening
         /// follows the plastic compaction, on both sides of the critical state.
         #[test]
-        fn a_return_obeys_flow_rule_and_hardening(
+        fn return_satisfies_flow_rule_and_hardening(
             overconsolidation in 1.0..20.0_f64,
             compaction in -0.05..0.05_f64,
             shear in proptest::array::uniform3(-0.05..0.05_f64),
@@ -430,7 +430,7 @@ mod tests {
     }
 
     #[test]
-    fn a_large_rotation_in_a_step_only_turns_the_stress() {
+    fn large_rotation_in_a_step_only_rotates_the_stress() {
         let step = Matrix::<3>::new(1.02, 0.05, 0.0, -0.01, 0.93, 0.02, 0.0, 0.03, 0.97);
         let (c, s) = (libm::cos(2.5), libm::sin(2.5));
         let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);

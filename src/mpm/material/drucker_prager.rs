@@ -139,7 +139,10 @@ mod tests {
         &[[0.004, -0.004, 0.0], [0.01, -0.01, 0.0], [0.03, -0.03, 0.0]],
         [-28.888_888_888_9, -82.222_222_222_2, -55.555_555_555_6]
     )]
-    fn paths_end_on_the_closed_forms(#[case] path: &[[f64; 3]], #[case] expected: [f64; 3]) {
+    fn stress_at_the_end_of_a_path_matches_the_closed_form(
+        #[case] path: &[[f64; 3]],
+        #[case] expected: [f64; 3],
+    ) {
         let (young, poisson) = isotropic(1e4, 6e3);
         let plan = MaterialPlan::DruckerPrager {
             young,

@@ -223,7 +223,7 @@ mod tests {
     /// Compares the initial stress with the rate along `x = X + s u`, integrated by the midpoint
     /// rule.
     #[test]
-    fn a_deformed_start_has_the_stress_of_the_straight_path() {
+    fn initial_stress_is_that_of_the_straight_path() {
         let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);
         let f = Matrix::<3>::new(1.2, 0.3, 0.0, -0.2, 0.7, 0.1, 0.05, 0.0, 1.4);
         let grad = f - Matrix::identity();
@@ -240,7 +240,7 @@ mod tests {
     /// Expects `E ln F` in 1-D, without cancellation for small strain, and NaN for a rotation by
     /// 180 degrees.
     #[test]
-    fn a_deformed_start_has_the_stress_of_the_logarithm() {
+    fn initial_stress_is_that_of_the_logarithm() {
         let law = LinearElastic::new(100.0, 0.0);
         for stretch in [0.02, 0.7, 1.0 + 1e-9, 3.0, 50.0] {
             let sigma = started(law, Matrix::<1>::new(stretch)).sigma[0][(0, 0)];
@@ -252,7 +252,7 @@ mod tests {
 
     /// Covers both forms of the series; they meet at a strain of about 0.3.
     #[test]
-    fn the_logarithm_of_a_stretch_has_its_strains() {
+    fn logarithm_of_a_stretch_is_its_strain() {
         let (c, s) = (0.6, 0.8);
         let axes = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
         for size in [0.0, 1e-12, 1e-3, 0.1, 0.2, 0.29, 0.31, 0.5, 2.0] {
@@ -308,7 +308,7 @@ mod tests {
 
     /// An objective law would rotate the stress; this law does not.
     #[test]
-    fn spin_does_not_turn_the_stress() {
+    fn spin_does_not_rotate_the_stress() {
         let mut solid = one_particle::<2>();
         solid.sigma[0] = Matrix::<2>::new(3.0, 0.5, 0.5, -1.0);
         let before = solid.sigma[0];

@@ -190,7 +190,7 @@ mod tests {
     /// The square of a strain of 1e-9 is below the rounding error of 1. At such strains, all
     /// elastic laws have the same quadratic energy.
     #[test]
-    fn tiny_strains_store_an_energy_too() {
+    fn energy_of_tiny_strains_is_accurate() {
         let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);
         let h = scattered::<3>(1e-9, 0.4);
         let plan = MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 };

@@ -163,7 +163,7 @@ mod tests {
 
     /// Tests states before yield, on a face, on edges and at the apex, with and without dilation.
     #[test]
-    fn tangent_of_mohr_coulomb_belongs_to_its_return() {
+    fn tangent_of_mohr_coulomb_agrees_with_its_return() {
         let strains = [
             [-0.03, 0.0, 0.0],
             [0.003, 0.0, 0.0],

@@ -152,7 +152,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn particles_share_the_panel(panel in any(), h in 0.05..0.6_f64, per_axis in 1..4_usize) {
+        fn particles_fill_the_panel(panel in any(), h in 0.05..0.6_f64, per_axis in 1..4_usize) {
             let particles: Particles<2> = panel.fill(3.0, h, per_axis);
             let [n, m] = panel.counts(h, per_axis);
             prop_assert_eq!(particles.len(), n * m);
@@ -171,7 +171,7 @@ mod tests {
         }
 
         #[test]
-        fn inverse_returns_the_point_of_a_place(
+        fn inverse_maps_a_position_back(
             panel in any(),
             s in -0.1..1.1_f64,
             t in -0.1..1.1_f64,
@@ -181,7 +181,7 @@ mod tests {
         }
 
         #[test]
-        fn a_slope_is_that_of_the_places(panel in any(), s in 0.1..0.9_f64, t in 0.1..0.9_f64) {
+        fn derivative_agrees_with_differences_of_positions(panel in any(), s in 0.1..0.9_f64, t in 0.1..0.9_f64) {
             let d = 1e-3;
             let slope = panel.at(s, t).1;
             let along = (panel.at(s + d, t).0 - panel.at(s - d, t).0) / (2.0 * d);
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_that_turn_to_the_right_are_named() {
+    fn corner_with_a_right_turn_is_reported() {
         let [a, b, c, d] = *cook().corners();
         assert_eq!(Quadrilateral::new([a, d, c, b]), Err(0));
         assert_eq!(Quadrilateral::new([a, b, (a + b) * 0.5, d]), Err(1));
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn it_does_not_matter_which_corner_is_the_first() {
+    fn first_corner_does_not_affect_the_panel() {
         let [a, b, c, d] = *cook().corners();
         for corners in [[b, c, d, a], [c, d, a, b], [d, a, b, c]] {
             assert_eq!(Quadrilateral::new(corners), Ok(cook()));

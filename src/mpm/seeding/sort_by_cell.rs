@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn every_column_goes_along_and_cells_come_in_order() {
+    fn all_columns_are_sorted_by_cell() {
         let (grid, mut particles) = body();
         let before = particles.clone();
         let order = particles.sort_by_cell(&grid);

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn two_particles_that_fly_apart_have_a_size_and_no_sum() {
+    fn opposite_momenta_have_a_size_but_no_sum() {
         let mut body = two_particles::<2>();
         (body.v[0], body.v[1]) = (Vector::<2>::new(0.0, 2.0), Vector::<2>::new(0.0, -2.0));
         let totals = body.totals(|_| None);
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bar_does_not_spin() {
+    fn bar_has_no_angular_momentum() {
         let mut bar = two_particles::<1>();
         bar.v[0][0] = 1.0;
         let totals = bar.totals(|_| None);
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn tensors_are_written_row_after_row() {
+    fn tensors_are_written_row_by_row() {
         let (from, to) = (Vector::<2>::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         particles.sigma[0] = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);

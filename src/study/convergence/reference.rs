@@ -390,7 +390,7 @@ mod tests {
     #[case::one_is_missing(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 2)]
     #[case::one_is_there_twice(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0], 2)]
     #[case::one_is_off(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.1], 2)]
-    fn what_is_no_lattice(#[case] labels: &[f64], #[case] d: usize) {
+    fn incomplete_or_shifted_labels_are_no_lattice(#[case] labels: &[f64], #[case] d: usize) {
         assert!(Lattice::of(labels, d).is_none());
     }
 }

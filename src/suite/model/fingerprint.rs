@@ -18,7 +18,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_that_differ_have_other_numbers() {
+    fn different_texts_have_different_hashes() {
         let text: Vec<u8> = (1..20).collect();
         let mut seen = vec![fingerprint(&text)];
         for at in 0..text.len() {
@@ -38,7 +38,7 @@ mod tests {
 
     /// Two differences must not cancel, as they would without the shift of high bits.
     #[test]
-    fn differences_spread() {
+    fn two_differences_do_not_cancel() {
         let changed = |words: [u64; 2]| {
             let bytes: Vec<u8> = words.into_iter().flat_map(u64::to_le_bytes).collect();
             fingerprint(&bytes)

@@ -302,7 +302,7 @@ mod tests {
 
     /// The failure message names the snapshot file and the command that accepts the change.
     #[test]
-    fn a_difference_says_which_file_and_how_it_is_accepted() {
+    fn snapshot_failure_names_file_and_accept_command() {
         let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));
         fs::create_dir_all(&folder).expect("a folder");
         let said = |suite: &str| {

@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn no_time_has_no_model() {
+    fn runs_without_time_have_no_model() {
         let nothing = Workload { transfers: 0.0, updates: 0.0, node_steps: 0.0, steps: 0.0 };
         assert_eq!(Model::fit(&[]), None);
         assert_eq!(Model::fit(&[(load(8.0), f64::NAN), (load(8.0), 0.0)]), None);
@@ -189,7 +189,7 @@ mod tests {
         /// On any machine, with 3 % noise, the predicted time on a grid twice as fine is within 15
         /// %.
         #[test]
-        fn a_finer_level_is_predicted(
+        fn time_of_a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,
             noise in -0.03..0.03_f64,
         ) {

@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_measured_is_no_time() {
+    fn no_measurements_give_no_time() {
         assert_eq!(Timing::of(&[]), None);
         assert_eq!(Timing::of(&[1.0, f64::NAN]), None);
     }

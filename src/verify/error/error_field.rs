@@ -114,7 +114,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn no_part_of_a_whole_body_is_left_out() {
+    fn parts_cover_the_whole_body() {
         let mut samples = square(32);
         samples.weight.fill(1.0 / 1024.0);
         for (p, u) in samples.displacement.iter_mut().enumerate() {
@@ -136,7 +136,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_single_particle_is_no_field() {
+    fn single_particle_has_no_field() {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 

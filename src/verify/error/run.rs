@@ -368,7 +368,7 @@ mod tests {
 
     /// The run ends at cos t = 0, where errors before the end must not count.
     #[test]
-    fn a_body_that_turns_is_not_at_rest() {
+    fn oscillating_body_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;
         let clock = Clock::new(until, until / 100.0, 100).unwrap();
         let comparison = Comparison { at_rest: Some(2.0), ..Comparison::default() };

@@ -237,7 +237,7 @@ mod tests {
     #[rstest]
     #[case::a_little_noise(1.2, Some(Acceptance::Order))]
     #[case::noise_that_hides_the_order(2.5, None)]
-    fn an_uncertain_order_must_exclude_a_lost_half(
+    fn uncertain_order_must_exclude_a_loss_of_half_an_order(
         #[case] factor: f64,
         #[case] met: Option<Acceptance>,
     ) {
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn the_message_has_the_requirement_and_the_observation() {
+    fn message_contains_requirement_and_observation() {
         let message = check(Some(2.0), Some(1e-9), &of_order(1.0, 5)).unwrap_err().to_string();
         let expected = "expected order at least 1.90, or errors at most 1e-9, got `too low` with \
                         the order 1.00 [1.00, 1.00] and a largest error of 1";
@@ -302,13 +302,13 @@ mod tests {
     #[case::above(&[0.2], "one level, and an order needs 4; only the suite's own methods must have errors at most 1e-12")]
     #[case::not_a_number(&[f64::NAN], "")]
     #[case::enough_levels(&[0.2; 4], "")]
-    fn a_bound_of_own_methods_accepts_only(#[case] errors: &[f64], #[case] reason: &str) {
+    fn bound_on_own_methods_never_rejects(#[case] errors: &[f64], #[case] reason: &str) {
         let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
         assert_eq!(required.untestable(&levels(errors)).unwrap_or_default(), reason);
     }
 
     #[test]
-    fn a_level_that_fails_is_testable_on_one_level() {
+    fn single_failed_level_is_testable() {
         let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
         let failed = [Level::new(1.0, f64::NAN).failing("a particle left the grid".to_owned())];
         assert_eq!(required.untestable(&failed), None);

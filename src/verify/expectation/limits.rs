@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_limited_may_be_anything() {
+    fn values_without_limits_are_not_checked() {
         assert!(Limits::default().unmet(&Measured::NONE).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }

@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn verdict_and_order_are_told_in_one_line() {
+    fn verdict_and_order_are_reported_in_one_line() {
         let low = CaseFindings { verdict: Verdict::TooLow, order: Some((1.5, 1.6)), ..SEEN };
         let line = "expected the verdict `converging` with the order within [1.90, 2.10], \
                     got `too low` with [1.50, 1.60]";
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn figures_that_a_failed_run_cannot_have_are_not_told_again() {
+    fn failure_is_reported_only_once() {
         let failed = CaseFindings {
             verdict: Verdict::Failed,
             order: None,
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_that_is_not_asked_for_may_be_any_but_a_failure() {
+    fn without_an_expected_verdict_only_failure_is_unmet() {
         let bounded =
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
         assert!(bounded.unmet(&CaseFindings { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());

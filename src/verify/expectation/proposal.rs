@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drift_has_room_below_its_bound() {
+    fn proposed_drift_bound_has_a_margin() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
         study.drifts = vec![Conserved::Mass];
         for level in &mut study.levels {

@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_derivative_that_resembles_nothing_has_no_name() {
+    fn unexplained_derivative_has_no_cause() {
         assert_eq!(cause("young", [f64::NAN, 3.7, 3.0]), "");
         assert_eq!(cause("yield", [-3.6, 3.7, 3.0]), "");
     }

@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn tends_to_the_normal_quantile_and_does_not_exist_for_zero() {
+    fn quantile_tends_to_normal_and_is_nan_for_zero() {
         assert_abs_diff_eq!(two_sided_95(100_000), 1.959_964, epsilon = 5e-5);
         assert!(two_sided_95(0).is_nan());
     }

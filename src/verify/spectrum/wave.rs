@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn the_velocity_of_the_wave_gives_the_recurrence() {
+    fn recurrence_is_fitted_to_the_wave_velocity() {
         let mut subject = Scripted { velocity: [1.0, 0.9], step: 0 };
         let wave = ObservedWave { from: 2.0, length: 4.0, dt: 1.0, steps: 40 };
         let found = run_wave(&mut subject, wave).unwrap();

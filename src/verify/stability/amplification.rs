@@ -134,7 +134,7 @@ mod tests {
     /// In natural sizes, one unit of b equals four units of a. An entry that affects only itself
     /// has no row.
     #[test]
-    fn the_matrix_of_a_linear_step_is_that_step() {
+    fn amplification_matrix_of_a_linear_step_is_exact() {
         let found = matrix(|c| c).unwrap();
         let expected = DMatrix::from_row_slice(2, 2, &[0.5, 4.0, 0.0, 3.0]);
         assert!((found - expected).amax() < 1e-9);
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_does_not_rest_has_no_matrix() {
+    fn moving_body_has_no_amplification_matrix() {
         assert!(matrix(|c| c + 1e-9).is_err());
         assert!(matrix(|_| f64::NAN).is_err());
     }

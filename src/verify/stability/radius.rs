@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_is_no_radius() {
+    fn nan_matrix_has_an_infinite_radius() {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
@@ -121,7 +121,7 @@ mod tests {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
         #[test]
-        fn both_ways_agree(entries in prop::collection::vec(-2.0..2.0_f64, 25)) {
+        fn schur_form_and_powers_agree(entries in prop::collection::vec(-2.0..2.0_f64, 25)) {
             let matrix = DMatrix::from_row_slice(5, 5, &entries);
             let (schur, powers) = (spectral_radius(&matrix).radius, by_powers(&matrix));
             prop_assert!((schur - powers).abs() <= 1e-6 * powers, "{schur} against {powers}");

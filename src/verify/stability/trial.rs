@@ -386,7 +386,7 @@ mod tests_of_checkerboard {
     }
 
     #[test]
-    fn a_uniform_stress_has_none_and_no_stress_has_no_figure() {
+    fn uniform_stress_has_no_checkerboard() {
         assert_relative_eq!(checkerboard(&row(&[3.0; 4])), 0.0);
         assert!(checkerboard(&row(&[0.0; 4])).is_nan());
         assert!(checkerboard(&row(&[])).is_nan());
@@ -395,7 +395,7 @@ mod tests_of_checkerboard {
     /// The third particle has no neighbours, and counts neither in the differences nor in the mean
     /// size.
     #[test]
-    fn particles_without_neighbours_have_no_part_in_it() {
+    fn checkerboard_ignores_particles_without_neighbours() {
         let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };
         assert_relative_eq!(checkerboard(&apart), (8.0_f64 / 10.0).sqrt());
     }
@@ -407,7 +407,7 @@ mod tests_of_checkerboard {
     }
 
     #[test]
-    fn a_spread_is_a_share_of_the_largest_in_magnitude() {
+    fn stress_spread_is_relative_to_the_largest_magnitude() {
         assert_relative_eq!(stress_spread(&row(&[1.0, -4.0, 2.0])), 1.5);
         assert_relative_eq!(stress_spread(&row(&[8.0, 2.0])), 0.75);
     }

@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn the_change_that_moves_the_order_most_is_the_first_cause() {
+    fn largest_change_of_order_is_the_first_cause() {
         let low = (TooLow, order(1.5, 0.05));
         for (value, first) in [(1.8, "the finding"), (2.0, "the cause")] {
             let mut found = diagnosis(low, (Converging, order(value, 0.05), 0.9));

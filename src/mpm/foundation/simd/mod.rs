@@ -359,13 +359,13 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
         #[test]
-        fn logarithms_have_the_bits_of_the_library(bits in any::<[u64; BATCH]>()) {
+        fn logarithms_are_bit_identical_to_the_library(bits in any::<[u64; BATCH]>()) {
             // All numbers of each batch are positive and normal, so that the fast path is used.
             holds(bits.map(|bits| f64::from_bits(bits % (0x7fe << 52) + (1 << 52))));
         }
 
         #[test]
-        fn logarithms_near_one_have_them_too(x in proptest::array::uniform16(0.5_f64..2.0)) {
+        fn logarithms_near_one_are_bit_identical_to_the_library(x in proptest::array::uniform16(0.5_f64..2.0)) {
             holds(x);
         }
     }
@@ -382,7 +382,7 @@ mod tests {
     #[case::one(1.0)]
     #[case::root_of_half(f64::from_bits(ROOT_OF_HALF))]
     #[case::below_root_of_half(f64::from_bits(ROOT_OF_HALF - 1))]
-    fn logarithms_of_extremes_have_the_bits_of_the_library(#[case] x: f64) {
+    fn logarithms_of_extremes_are_bit_identical_to_the_library(#[case] x: f64) {
         let mut numbers = [1.5; BATCH];
         numbers[5] = x;
         holds(numbers);

@@ -415,7 +415,7 @@ mod tests {
     #[rstest]
     #[case("drucker_prager", cone)]
     #[case("mohr_coulomb", pyramid)]
-    fn expected_stress_is_that_of_the_closed_form(
+    fn expected_stress_matches_the_closed_form(
         #[case] law: &'static str,
         #[case] closed_form: fn(&BoxScene, f64) -> (f64, f64),
         #[values(1, STEPS)] steps: u64,
