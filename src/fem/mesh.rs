@@ -194,9 +194,10 @@ impl Element {
     }
 
     /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly,
-    /// and therefore the mass matrix (degree 2k) and the internal force of a linear law (degree `2k
-    /// - 2`). The error for a smooth integrand is of order `2k + 2`, above the order `k + 1` of the
-    /// element (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978, section 4.1).
+    /// and therefore the mass matrix (degree `2k`) and the internal force of a linear law (of
+    /// degree `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above the order
+    /// `k + 1` of the element (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978,
+    /// section 4.1).
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,

@@ -2,9 +2,9 @@
 //!
 //! - To find why the error has stopped decreasing (an error floor), the finest level runs again
 //!   with half the spacing on another axis.
-//! Some suites have one time step on all levels. In a solver that is accurate in space, the error
-//! of this step may dominate: the error stops decreasing, or the order is too low. If an external
-//! solver then misses the requirement of `run --gate`, its levels run again with shorter steps.
+//! - Some suites have one time step on all levels. In a solver that is accurate in space, the error
+//!   of this step may dominate: the error stops decreasing, or the order is too low. If an external
+//!   solver then misses the requirement of `run --gate`, its levels run again with shorter steps.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};

@@ -10,10 +10,10 @@
 //! f_new = f - kappa (c/h)^2 dt g,   g = w + dt f (USL) or g = w_new (MUSL, USF)
 //! ```
 //!
-//! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer, `tr = 1
-//! + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h` and coefficients b, p
-//! and q ([`WaveStep`]). While the eigenvalues are complex, each step multiplies the amplitude by
-//! `sqrt(det)`.
+//! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer,
+//! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h` and coefficients
+//! b, p and q ([`WaveStep`]). While the eigenvalues are complex, each step multiplies the amplitude
+//! by `sqrt(det)`.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,

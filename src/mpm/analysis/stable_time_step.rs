@@ -11,7 +11,6 @@
 //! particles and back, `L = P N M^-1 K` with the maps N to particles and P to nodes. This operator
 //! stays bounded if a node has little mass.
 //!
-//!
 //! A load that depends on the displacement adds a stiffness k per unit mass to each particle. The
 //! maps to nodes and back are averages, so the load increases the square of a frequency by at most
 //! k.

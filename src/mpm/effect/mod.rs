@@ -26,8 +26,7 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the registry of effects. Each line of [`each_effect`](crate::members) that names an
-/// effect registers this effect.
+/// Declares the registry of effects from the lines of [`each_effect`](crate::members).
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

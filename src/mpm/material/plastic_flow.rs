@@ -1,5 +1,6 @@
 //! Elastoplasticity at finite strain: Hencky elasticity and a return to the yield surface in
 //! logarithmic strain.
+//!
 //! The split is `F = Fe Fp`. The Kirchhoff stress is `tau = J sigma = K tr(eps) I + 2 mu dev(eps)`
 //! with the elastic strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter
 //! 14). With the exponential map, the return in `eps` has the same form as in small strain and

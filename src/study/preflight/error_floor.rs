@@ -1,7 +1,7 @@
 //! Reports errors that refinement does not lower, and the first level on which they are visible.
 //!
-//! `small_strain`: the exact solution is linearised or assumes small strains, but the solver does
-//! not.
+//! - `small_strain`: the exact solution is linearised or assumes small strains, but the solver is
+//!   not limited to small strains.
 //! - `single_precision`: the external solver uses single precision.
 //! - `loose_tolerance`: the tolerance of a linearised solution is unnecessarily large.
 

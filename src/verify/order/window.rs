@@ -3,9 +3,9 @@
 //! All usable levels count unless there is strong evidence against the coarsest or finest ones. A
 //! shorter window replaces a longer one only if three conditions hold:
 //!
-//! An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
-//! the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for all
-//! shorter windows together, small compared with the 5 % of the confidence interval.
+//! - An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
+//!   the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for
+//!   all shorter windows together, small compared with the 5 % of the confidence interval.
 //! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
 //!   side, and the outermost level departs most. An outlier among good levels is therefore kept,
 //!   and widens the interval.
