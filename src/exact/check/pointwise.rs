@@ -1,7 +1,7 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! A rim is the boundary of a body that is not a box. There P n = 0 or, under a pressure p, P n =
-//! -p J F^-T n.
+//! A rim is the boundary of a body that is not a box. There `P n = 0` or, under a pressure p,
+//! `P n = -p J F^-T n`.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 

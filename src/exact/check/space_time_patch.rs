@@ -91,7 +91,6 @@ impl SpaceTimePatch {
     /// assumed to have its `largest` density everywhere in the patch.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
-        // On one axis, the bump has the integral 32/35, and the magnitude of its slope the integral
         // On one axis, the integral of the bump is 32/35, and that of the magnitude of its slope is
         // 2.
         let points = per_axis as f64;
