@@ -181,7 +181,11 @@ mod tests {
         }
 
         #[test]
-        fn derivative_agrees_with_differences_of_positions(panel in any(), s in 0.1..0.9_f64, t in 0.1..0.9_f64) {
+        fn derivative_agrees_with_differences_of_positions(
+            panel in any(),
+            s in 0.1..0.9_f64,
+            t in 0.1..0.9_f64,
+        ) {
             let d = 1e-3;
             let slope = panel.at(s, t).1;
             let along = (panel.at(s + d, t).0 - panel.at(s - d, t).0) / (2.0 * d);

@@ -365,7 +365,9 @@ mod tests {
         }
 
         #[test]
-        fn logarithms_near_one_are_bit_identical_to_the_library(x in proptest::array::uniform16(0.5_f64..2.0)) {
+        fn logarithms_near_one_are_bit_identical_to_the_library(
+            x in proptest::array::uniform16(0.5_f64..2.0),
+        ) {
             holds(x);
         }
     }
