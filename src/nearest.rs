@@ -58,13 +58,13 @@ mod tests {
     }
 
     #[test]
-    fn one_letter_is_no_slip_for_another() {
+    fn single_letters_are_no_misspellings_of_each_other() {
         assert_eq!(nearest("y", ["x"]), None);
         assert_eq!(nearest("x", ["X"]), Some("X"));
     }
 
     #[test]
-    fn a_long_name_is_none() {
+    fn long_names_have_no_suggestion() {
         let name = "a".repeat(65);
         assert_eq!(nearest(&name, [name.as_str()]), None);
     }

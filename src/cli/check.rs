@@ -190,8 +190,7 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
-    /// Adds a suite that can run, with its findings. A run with an external solver needs no
-    /// expectations, because `run --gate` checks its results.
+    /// Adds a suite that can run, with its findings.
     pub(super) fn sound(
         &mut self,
         suite: &Suite,
@@ -309,7 +308,7 @@ fn sound(suite: &Suite, is_explored: bool) -> String {
     format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
 }
 
-/// Rounds an estimate to one significant digit, because further digits are not reliable.
+/// Rounds an estimate to one significant digit.
 fn rounded(value: f64) -> f64 {
     format!("{value:.0e}").parse().unwrap_or(value)
 }

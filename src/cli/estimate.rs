@@ -121,8 +121,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     if lines.is_empty() {
         return Err(Diagnostic::about(file, "the series has no level").with_help(FORMAT_HELP));
     }
-    // A program may omit trailing zeros. The value with the most digits therefore determines the
-    // resolution.
+    // The value with the most digits determines the resolution, because a program may omit trailing
+    // zeros.
     let units = lines.iter().map(|line| line.point.resolution);
     let unit = units.fold(f64::INFINITY, f64::min);
     for line in &mut lines {
@@ -132,7 +132,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
 }
 
 /// Returns the byte ranges of the fields of a line that begins at byte `start`. A comma or
-/// semicolon with spaces around it is one separator. Two successive separators enclose an empty
+/// semicolon with spaces around it is one separator, and two successive separators enclose an empty
 /// field.
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');
@@ -263,13 +263,13 @@ mod tests {
     #[case::twice("1 4\n0.5 2\n1.0 3\n", "a:3:1: line 1 has the same spacing")]
     #[case::second_heading("h u\nh u\n", "a:2:1: expected a finite number as spacing, found `h`")]
     #[case::empty("\n# nothing\n", "a: the series has no level")]
-    fn bad_lines_are_errors_with_their_place(#[case] text: &str, #[case] expected: &str) {
+    fn invalid_lines_are_reported_with_their_position(#[case] text: &str, #[case] expected: &str) {
         let error = parse("a", text).map(|lines| lines.len()).unwrap_err();
         assert_eq!(error.one_line(), expected);
     }
 
     #[test]
-    fn the_value_with_the_most_digits_shows_the_precision() {
+    fn value_with_the_most_digits_determines_the_resolution() {
         let lines = parse("a", "1 3\n0.5 1.75\n0.25 1.3125\n").unwrap();
         assert!(lines.iter().all(|line| (line.point.resolution - 1e-4).abs() < 1e-12));
     }

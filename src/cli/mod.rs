@@ -114,7 +114,7 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
             cli.color.write_global();
             run_command(cli.command)
         }
-        // `clap` also returns help and version as errors. They are printed to standard output.
+        // `clap` also returns help and version as errors; they go to standard output.
         Err(mut answer) => {
             // The suggestion of `clap`, `-- -1`, would pass a negative number as a suite.
             let unknown = answer.get(ContextKind::InvalidArg).map(ToString::to_string);

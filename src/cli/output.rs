@@ -1,6 +1,6 @@
 //! Standard output and standard error. All commands print through this module, which records the
-//! first failed write. Verdicts and errors are coloured. The streams remove the colours unless they
-//! are terminals.
+//! first failed write. The streams remove the colours of verdicts and errors unless they are
+//! terminals.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;
@@ -144,7 +144,7 @@ mod tests {
     #[case("  NOT AS EXPECTED a: b\n", "  \u{1b}[1m\u{1b}[31mNOT AS EXPECTED \u{1b}[0ma: b\n")]
     #[case("  about      what is as expected\n", "  about      what is as expected\n")]
     #[case("passing\n", "passing\n")]
-    fn verdicts_are_painted_and_nothing_else(#[case] text: &str, #[case] wanted: &str) {
+    fn only_verdicts_are_coloured(#[case] text: &str, #[case] wanted: &str) {
         assert_eq!(painted(text), wanted);
     }
 }

@@ -47,8 +47,8 @@ pub trait FacePoint {
     fn traction(&self, i: usize, what: &str, given: f64) -> Result<(), Violation>;
 
     /// Requires u . n = 0 and no tension. The tangential traction must be `coefficient` times the
-    /// pressure, opposite to the velocity. If the face does not move, the tangential traction must
-    /// be at most `coefficient` times the pressure.
+    /// pressure and opposite to the velocity, or at most `coefficient` times the pressure if the
+    /// face does not move.
     ///
     /// # Errors
     /// The first violation.

@@ -20,8 +20,8 @@ const NODES: usize = 33;
 /// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
-/// Densities below this share of the largest density count as zero, because of rounding errors: 1 -
-/// X^2 - Y^2 is not exactly zero on the rim of a disk.
+/// Densities below this share of the largest density count as zero. Rounding makes 1 - X^2 - Y^2
+/// slightly negative or positive on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
 /// A position in the body where the density is not positive.
@@ -162,7 +162,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn density_that_is_not_positive_inside_is_refused_with_its_place() {
+    fn non_positive_density_is_refused_with_its_position() {
         let refused = in_box("X + 0.5", 1).unwrap_err();
         assert!(refused.label[0] < -0.5 && refused.value < 0.0, "{refused:?}");
         assert!(in_box("1 - X^2 - Y^2", 2).is_err(), "negative in the corners of the square");
@@ -196,8 +196,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The motion is exact for a = sqrt(1 + 0.75 t^2). An error of 1 % in a factor, or a uniform
-    /// density, leaves a residual.
+    /// The motion is exact for a = sqrt(1 + 0.75 t^2).
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");
@@ -214,10 +213,9 @@ pub(super) mod tests {
         }
     }
 
-    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`. The forces at
-    /// fixed positions and at single points are equal, and the force passes the check in weak form.
+    /// In a solid, the density enters only the inertia, `b = u_tt - Div P/rho0`.
     #[test]
-    fn manufactured_force_has_the_density_of_the_place() {
+    fn manufactured_force_uses_the_local_density() {
         let density = Density::of_place(formula("2 + X*Y", 2), &[0.0; 2], &[1.0; 2], None).unwrap();
         let problem = Problem { density, ..held(2) };
         assert_eq!(problem.check(), Ok(()));
@@ -236,7 +234,7 @@ pub(super) mod tests {
     /// A plane cloud with K = 1/4 and rho0 = 1 - R^2 has the motion x = a X. Its energies are I
     /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
     #[test]
-    fn energies_of_a_round_cloud_have_their_closed_forms() {
+    fn energies_of_a_round_cloud_match_closed_forms() {
         let plane = |text: &str| {
             let variables = ["X", "Y", "t"];
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &variables).unwrap()
@@ -273,7 +271,7 @@ pub(super) mod tests {
     /// Checks d/dX and d/dY of X^2 Y. A density that is negative by rounding has zero value and
     /// slope.
     #[test]
-    fn slopes_are_those_of_the_formula() {
+    fn slopes_are_derivatives_of_the_formula() {
         let density = Density { formula: Some(formula("X^2*Y", 2)), ..Density::from(1.0) };
         let slope = density.with_slopes(&[3.0, 2.0]);
         assert_eq!([slope.value(), slope.d(0), slope.d(1), slope.d(2)], [18.0, 12.0, 9.0, 0.0]);

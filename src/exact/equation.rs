@@ -83,7 +83,7 @@ pub(super) fn complete_in_plane(
             let varying: Tensor<Slope<2>, 2> = tensor(|i, j| {
                 Slope::new(now.grad[i][j], [now.second[i][j][0], now.second[i][j][1]])
             });
-            // A scene whose law does not support this state has already been refused.
+            // The scene has already been refused if the law does not support this state.
             let Some(across) = equation.free_gradient(&varying) else { return };
             now.grad[2][2] = across.value();
             now.second[2][2] = [across.d(0), across.d(1), 0.0];
@@ -91,7 +91,7 @@ pub(super) fn complete_in_plane(
         PlaneState::Axisymmetric => {
             let (radius, [along_r, along_z, _]) = (label[0], now.grad[0]);
             (now.grad[2][2], now.second[2][2]) = if radius == 0.0 {
-                // The limits on the axis of revolution, where u_r = 0.
+                // Limits on the axis of revolution, where u_r = 0.
                 let [along_rr, along_rz, _] = now.second[0][0];
                 (along_r, [0.5 * along_rr, along_rz, 0.0])
             } else {
@@ -132,7 +132,7 @@ mod tests {
     /// Simple shear along X, u_X = g Y. The top face keeps its area and normal; the right face
     /// rotates, `n da = (1, -g) dA` (Nanson).
     #[test]
-    fn the_face_of_a_sheared_body_turns() {
+    fn side_face_of_a_sheared_body_rotates() {
         let g = 0.4;
         let grad = [[0.0, g, 0.0], [0.0; 3], [0.0; 3]];
         let law: Equation = NeoHookeanLaw::new(7.2, 0.3).into();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[rstest]
-    fn a_plate_is_free_across(
+    fn plate_has_no_out_of_plane_stress(
         #[values(
             SmallStrainLaw::new(7.2, 0.3).into(),
             NeoHookeanLaw::new(7.2, 0.3).into(),

@@ -92,7 +92,7 @@ pub(super) fn swollen_cauchy(
     equation.cauchy(&elastic)
 }
 
-/// Computes Div P (N/m3), like [`Equation::divergence`] but with thermal expansion.
+/// Computes Div P (N/m3) with thermal expansion.
 pub(super) fn swollen_divergence(
     equation: &Equation,
     dimension: usize,
@@ -147,7 +147,7 @@ mod tests {
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
     #[case(HenckyLaw::new(50.0, 0.3).into())]
-    fn without_expansion_the_stress_is_the_law_s(#[case] equation: Equation) {
+    fn stress_without_expansion_is_that_of_the_law(#[case] equation: Equation) {
         let (found, plain) = (swollen_piola(&equation, 2, &GRAD, 1.0), equation.piola(&GRAD));
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             assert_relative_eq!(found[i][j], plain[i][j], max_relative = 1e-12);
@@ -160,7 +160,7 @@ mod tests {
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]
     #[case(HenckyLaw::new(50.0, 0.3).into())]
-    fn a_free_body_has_no_stress(#[case] equation: Equation) {
+    fn freely_expanding_body_has_no_stress(#[case] equation: Equation) {
         let grad = [[0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.2]];
         let found = swollen_piola(&equation, 3, &grad, 1.2);
         assert!(found.iter().flatten().all(|p| p.abs() < 1e-13), "{found:?}");
@@ -178,7 +178,7 @@ mod tests {
 
     /// P is the derivative of the energy `theta^D W(F/theta)`, and `sigma = P F^T/J`.
     #[test]
-    fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
+    fn cauchy_stress_agrees_with_first_piola_kirchhoff_stress() {
         let (equation, theta) = (Equation::from(NeoHookeanLaw::new(50.0, 0.0)), 1.1);
         let piola = swollen_piola(&equation, 2, &GRAD, theta);
         let sigma = swollen_cauchy(&equation, 2, &GRAD, theta);

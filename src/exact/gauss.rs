@@ -4,8 +4,7 @@
 const POINTS: usize = 8;
 
 /// Returns `N` points in `-1 <= xi <= 1` and weights, whose sum is 2. The points are roots of the
-/// Legendre polynomial, computed by Newton's method (sufficient for up to eight roots; an
-/// alternative is Golub & Welsch 1969).
+/// Legendre polynomial, computed by Newton's method.
 fn rule<const N: usize>() -> [(f64, f64); N] {
     let n = N as f64;
     std::array::from_fn(|k| {

@@ -122,7 +122,7 @@ mod tests {
 
     /// The initial stress at (2, 5) is S0 = ((4, 10), (10, 8)), with Div S0 = (2 + 2, 5 + 1).
     #[test]
-    fn its_part_of_the_force_agrees_with_a_hand_calculation() {
+    fn divergence_agrees_with_a_hand_calculation() {
         let (s0, mut second) = (plane(), [[[0.0; 3]; 3]; 3]);
         assert_eq!(s0.at(&[2.0, 5.0])[0], [4.0, 10.0, 0.0]);
         assert_eq!(s0.piola(&[2.0, 5.0], &GRAD, true)[0][1], 10.0 + 0.1 * 10.0 + 0.2 * 8.0);
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn cauchy_stress_belongs_to_the_first_piola_kirchhoff_stress() {
+    fn cauchy_stress_agrees_with_first_piola_kirchhoff_stress() {
         let (s0, det) = (plane(), 1.1 * 1.05 + 0.3 * 0.2);
         let found = s0.cauchy(&[2.0, 5.0], &GRAD, true);
         // F S0 F^T by hand, row X, with F = ((1.1, 0.2), (-0.3, 1.05)).
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_truth_without_its_force_is_none() {
+    fn motion_without_the_required_force_is_refused() {
         let equation = SmallStrainLaw::new(10.0, 0.3).into();
         let problem = Problem { equation, manufactured: false, ..prestressed(2) };
         let found = problem.check().unwrap_err();

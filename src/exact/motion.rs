@@ -72,8 +72,8 @@ impl Motion {
         })
     }
 
-    /// Like [`Self::at_places`], but with first derivatives only, at a third of the cost. Second
-    /// derivatives are not written.
+    /// Prepares the evaluation like [`Self::at_places`], but with first derivatives only, at a
+    /// third of the cost. Second derivatives are not written.
     pub fn slopes_at_places<'a>(&self, labels: impl Iterator<Item = &'a [f64]>) -> Box<dyn Places> {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
@@ -177,7 +177,7 @@ impl Truth for Motion {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Batch lanes without a point repeat the last point.
+            // Batch lanes without a point use the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {
@@ -216,7 +216,7 @@ mod tests {
     use crate::exact::formula::{Expr, Scope};
 
     #[test]
-    fn slopes_at_places_have_the_bits_of_all_derivatives() {
+    fn slopes_are_bit_identical_to_full_derivatives() {
         let bind = |text: &str| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
         };
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_varies_along_the_axes_that_it_reads() {
+    fn motion_varies_only_along_axes_in_its_formulas() {
         let bind = |text: &str| {
             Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
         };

@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn derivatives_are_those_of_the_formula() {
+    fn derivatives_agree_with_the_formula() {
         let state = motion("X*q^2*sin(q*t)").at(&[0.5], 0.3);
         let (sin, cos) = (libm::sin(0.6), libm::cos(0.6));
         let close = |a: f64, b: f64| (a - b).abs() < 1e-14;

@@ -41,8 +41,8 @@ pub struct Problem {
     pub equation: Equation,
     /// Terms of the loads in the equation of motion.
     pub terms: Vec<Arc<dyn Term>>,
-    /// Whether the motion is an equilibrium. An equilibrium does not depend on t, is checked with
-    /// the loads at the end of the run, and need not satisfy the initial conditions.
+    /// Whether the motion is an equilibrium: it does not depend on t, is checked with the loads at
+    /// the end of the run, and need not satisfy the initial conditions.
     pub at_rest: bool,
     /// Whether an additional body force makes the motion a solution (method of manufactured
     /// solutions, Roache 2002).
@@ -120,7 +120,6 @@ impl Problem {
             let modulus = self.equation.modulus() * self.equation.density_factor(density);
             (modulus / density).sqrt()
         };
-        // Without density and pressure the speed is NaN, which `max` ignores.
         speed(self.density.largest()).max(speed(self.density.smallest()))
     }
 
@@ -346,8 +345,7 @@ impl Problem {
     }
 }
 
-/// Maximum number of stored `f64` (32 MiB). The largest built-in suite needs three quarters of this
-/// number.
+/// Maximum number of stored `f64` (32 MiB), enough for all built-in suites.
 const MOST: usize = 1 << 22;
 
 /// Cache of forces by positions and time, filled by the first run that needs them. If the cache is
@@ -390,7 +388,6 @@ impl SharedForces {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if tables.size + forces.len() <= MOST {
             let size = forces.len();
-            // Another run may have stored the same forces in the meantime.
             if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
                 tables.size += size;
             }

@@ -83,8 +83,8 @@ pub enum SumRegion {
 /// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change due to the last refinement, relative to the size of the sum. This tolerance is
-/// far below any judged discretisation error and far above rounding errors.
+/// Maximum change due to the last refinement, relative to the size of the sum, between rounding
+/// errors and discretisation errors.
 const TOLERANCE: f64 = 1e-10;
 
 /// Number of intervals between the times at which sizes and quadrature errors are computed.
@@ -296,7 +296,7 @@ mod tests {
     /// A line with density 2 + X is stretched by 1 + t from the origin. Then `sum m x^2` is (1 +
     /// t)^2 times `int (2 + X) X^2 dX` = 11/12.
     #[test]
-    fn second_moments_have_the_density_of_the_place() {
+    fn second_moments_use_the_local_density() {
         let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
         let density = Density::of_place(formula, &[0.0], &[1.0], None).unwrap();
         let problem = Problem { density, ..bar("X*t", free()) };
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn each_body_has_its_density() {
+    fn each_body_uses_its_own_density() {
         let whole = swinging();
         let half = |from: f64, to: f64, density: f64| Problem {
             from: vec![from],
@@ -352,7 +352,7 @@ mod tests {
     #[rstest]
     #[case::a_body_at_rest("0*X", "is zero at all times")]
     #[case::a_kink("abs(X - 0.3)*sin(t)", "cannot be integrated to 1e-10")]
-    fn what_is_not_known_is_refused(#[case] displacement: &str, #[case] reason: &str) {
+    fn sums_without_an_exact_value_are_refused(#[case] displacement: &str, #[case] reason: &str) {
         let problem = bar(displacement, fixed());
         let density = |point: &SumPoint<'_>| of_vector(point.momentum());
         let found = BodySum::new(&problem, &SumRegion::Body, density).unwrap_err().to_string();

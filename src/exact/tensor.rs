@@ -128,7 +128,7 @@ pub(super) fn rotation<T: Number, const D: usize>(f: &Tensor<T, D>) -> Tensor<T,
         let cofactors: Tensor<T, D> = tensor(|i, j| cofactor(&before, i, j));
         let det = det(&before, &cofactors);
         turn = tensor(|i, j| half * (before[i][j] + cofactors[i][j] / det));
-        // Each step squares the error of the values; the derivatives need one more step.
+        // Each step squares the error of the values, and the derivatives need one more step.
         let step: Tensor<T, D> = tensor(|i, j| turn[i][j] - before[i][j]);
         if size(&step) <= 1e-12 {
             return turn;

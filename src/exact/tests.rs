@@ -141,14 +141,14 @@ pub(super) fn held(dimension: usize) -> Problem {
 
 /// The weak-form raster must be fine enough in every dimension.
 #[rstest]
-fn a_sound_motion_passes(#[values(1, 2, 3)] dimension: usize) {
+fn correct_motion_passes(#[values(1, 2, 3)] dimension: usize) {
     held(dimension).check().unwrap();
 }
 
-/// The weak-form raster must also be fine enough for plane stress, where a stretched plate becomes
-/// thinner, and for bodies of revolution.
+/// The weak-form raster must also be fine enough for plane stress, where the thickness changes, and
+/// for bodies of revolution.
 #[rstest]
-fn a_sound_motion_passes_whatever_happens_across(
+fn correct_motion_passes_in_any_plane_state(
     #[values(
         SmallStrainLaw::new(10.0, 0.3).into(),
         NeoHookeanLaw::new(10.0, 0.3).into(),
@@ -167,7 +167,7 @@ fn ring() -> Problem {
 
 /// The weak form on its own detects a missing force.
 #[rstest]
-fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
+fn weak_form_detects_a_missing_force(#[values(1, 2, 3)] dimension: usize) {
     let unforced = Problem { manufactured: false, ..held(dimension) };
     let found = momentum(&unforced).unwrap_err();
     assert!(found.condition.starts_with("momentum balance"), "{found}");
@@ -175,7 +175,7 @@ fn the_weak_form_misses_the_force(#[values(1, 2, 3)] dimension: usize) {
 
 /// The weak form on its own detects a force that was computed for plane strain.
 #[rstest]
-fn the_weak_form_sees_what_happens_across(
+fn weak_form_detects_a_force_for_another_plane_state(
     #[values(PlaneState::Stress, PlaneState::Axisymmetric)] plane: PlaneState,
 ) {
     let given = Problem { terms: Vec::new(), ..ring() };
@@ -196,8 +196,6 @@ impl Term for Given {
     }
 }
 
-/// [`Forcing`] evaluates all positions at one time. The forces are bit-identical to those at single
-/// points.
 #[rstest]
 fn the_force_of_a_run_is_the_force(
     #[values(1, 2, 3)] dimension: usize,
@@ -221,7 +219,7 @@ fn the_force_of_a_run_is_the_force(
 /// The second of two runs reuses the forces of the first, and computes forces for its own positions
 /// and times.
 #[rstest]
-fn forces_that_are_shared_have_the_same_bits(#[values(1, 2, 3)] dimension: usize) {
+fn shared_forces_are_bit_identical(#[values(1, 2, 3)] dimension: usize) {
     let alone = held(dimension);
     let problem = Problem { shared_forces: Some(Arc::default()), ..alone.clone() };
     let mut random = Random::new(2);
@@ -265,8 +263,7 @@ fn two_differentiations_that_disagree_are_refused() {
     assert!(found.condition.starts_with("two differentiations"), "{found}");
 }
 
-/// The strain is 1/50 in the first half of the bar, and 1/100 in the second half, which is twice as
-/// stiff.
+/// The strain is 1/50 in the first half of the bar, and 1/100 in the stiffer second half.
 #[test]
 fn the_stress_of_several_bodies_is_that_of_each() {
     let whole = bar("(X - max(0, X - 0.5)/2)/50", free());
@@ -320,7 +317,7 @@ fn a_traction_may_depend_on_the_place() {
 /// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
 /// s, the area of a face is s^2 times the reference area. A dead load ignores this.
 #[test]
-fn a_pressure_acts_on_the_present_area() {
+fn pressure_acts_on_the_current_area() {
     let names = ["X", "Y", "Z", "t"];
     let at = |scale: &str| {
         let s = "(1 - 0.1*t)";
@@ -392,7 +389,7 @@ fn local_damping_opposes_the_motion_with_a_share_of_the_other_forces() {
 
 /// A hanging bar is in equilibrium only with the load at the end of the run.
 #[test]
-fn an_equilibrium_is_one_with_the_loads_at_the_end() {
+fn equilibrium_is_checked_with_the_loads_at_the_end() {
     let hanging = Problem {
         at_rest: true,
         follows_motion: false,

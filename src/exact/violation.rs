@@ -68,7 +68,7 @@ impl fmt::Display for Violation {
         let Some(expected) = self.expected else {
             return write!(f, "found {found:.6e}{gap}{}", self.unit);
         };
-        // Write six digits, or more if the values agree to six digits.
+        // Writes six digits, or more if the values agree to six digits.
         let differs = |n: &usize| format!("{expected:.n$e}") != format!("{found:.n$e}");
         let digits = match (6..17).find(differs) {
             Some(6) | None => 6,

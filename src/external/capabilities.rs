@@ -307,7 +307,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everything_that_is_not_named_is_lacking() {
+    fn unlisted_capabilities_are_lacking() {
         let needs = ProblemNeeds {
             dimension: 2,
             laws: vec!["neo_hookean"],

@@ -28,9 +28,8 @@ pub struct HandedValues {
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, HandedNumber>"))]
     pub values: Vec<(&'static str, HandedNumber)>,
-    /// Keys of the quantities that are not constant. The list after each key contains the arguments
-    /// of the quantity (`reference_position`, `t` or `displacement`), named as in a `values`
-    /// request.
+    /// Keys of the quantities that are not constant, each with the arguments of the quantity
+    /// (`reference_position`, `t` or `displacement`), named as in a `values` request.
     #[serde(serialize_with = "as_map")]
     #[cfg_attr(feature = "schemas", schemars(with = "BTreeMap<String, Vec<String>>"))]
     pub asked: Vec<(&'static str, Vec<&'static str>)>,

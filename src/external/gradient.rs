@@ -102,8 +102,8 @@ impl LevelProblem {
 
 impl Functional {
     /// Computes the functional for `samples` of particles with the masses `mass` (kg), and its
-    /// rounding error. Displacements are differences of positions, so their rounding error grows
-    /// with the positions. The value is NaN if the particle or axis does not exist.
+    /// rounding error, which grows with the positions. The value is NaN if the particle or axis
+    /// does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
@@ -136,7 +136,6 @@ impl Functional {
     }
 }
 
-/// Returns the largest magnitude; NaN if a number is NaN.
 fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if b <= a || a.is_nan() { a } else { b };
     numbers.map(f64::abs).fold(0.0, larger)
@@ -197,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_particle_or_axis_that_does_not_exist_has_no_value() {
+    fn missing_particle_or_axis_has_no_value() {
         let value = |of: Functional| of.value(&[1.0, 3.0], &samples());
         assert!(value(Functional::PositionOf { particle: 2, axis: 0 }).value.is_nan());
         let beyond = value(Functional::MeanDisplacement { axis: 2 });

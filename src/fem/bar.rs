@@ -6,8 +6,8 @@ use super::mesh::{Element, Mesh, dot};
 use super::setup::{BarSetup, ScalarFunction, SetupError};
 use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
 
-/// Evaluates `$body` with the constant `$nodes`, the number of nodes of `$element`. A constant lets
-/// the compiler unroll loops over the nodes.
+/// Evaluates `$body` with the constant `$nodes`, the number of nodes of `$element`, so that the
+/// compiler can unroll loops over the nodes.
 macro_rules! with_nodes {
     ($element:expr, $nodes:ident => $body:expr) => {
         match $element {
@@ -111,9 +111,8 @@ impl Bar {
     /// Returns the velocity (m/s) at the reference position `x`; outside the bar, the velocity of
     /// the nearest end.
     ///
-    /// With [`Start::HalfStepBack`] the stored velocities are half a step old. This function
-    /// advances them to the current time with the last acceleration. The result is accurate to
-    /// second order.
+    /// With [`Start::HalfStepBack`] the stored velocities are half a step old. They are advanced to
+    /// the current time with the last acceleration, which is accurate to second order.
     pub fn velocity_at(&self, x: f64) -> f64 {
         let (cell, place) = self.mesh.locate(x);
         self.velocity_in(cell, place)
@@ -130,8 +129,8 @@ impl Bar {
         velocity + self.lag * self.mesh.interpolate(cell, place, &self.acceleration)
     }
 
-    /// Computes F at every quadrature point. Fails if F is not positive or not finite. An infinite
-    /// or NaN nodal value always gives a non-finite F, so nodal values need no separate check.
+    /// Computes F at every quadrature point. Fails if F is not positive or not finite, as after any
+    /// infinite or NaN nodal value.
     fn deform(&mut self) -> Result<(), Failure> {
         with_nodes!(self.mesh.element(), N => self.deform_elements::<N>())?;
         self.count_visits();
@@ -206,8 +205,7 @@ impl Bar {
         self.count_visits();
     }
 
-    /// Adds the end tractions, positive in tension. Sets the force at a fixed end to zero, because
-    /// the support balances all forces there.
+    /// Adds the end tractions, positive in tension. The force at a fixed end becomes zero.
     fn add_ends(&mut self) {
         let last = self.acceleration.len() - 1;
         for (end, (node, normal)) in [(0, -1.0), (last, 1.0)].into_iter().enumerate() {
@@ -297,7 +295,7 @@ fn interpolant(nodes: &[f64], fixed: [bool; 2], field: &ScalarFunction) -> Vec<f
 }
 
 fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
-    // Without an early exit, the compiler can vectorise this check.
+    // The check has no early exit, so that the compiler can vectorise it.
     if nodal.iter().fold(true, |finite, value| finite & value.is_finite()) {
         return Ok(());
     }
@@ -310,13 +308,12 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 /// Sampling positions in an element, from 0 to 1: the centres of its quarters, like the positions
 /// of four particles.
 ///
-/// None of these positions is superconvergent. To leading order, the interpolation error of an
-/// element is the same polynomial in every element: `(1 - xi^2) u''` if linear,
-/// `xi (1 - xi^2) u'''` if quadratic. At the zeros of this polynomial (the nodes, including the
-/// midside node) only the error of the nodal values remains. This error may be of a higher order.
-/// At `xi = 1/4` and `3/4` the linear polynomial has the values 0.94 and 0.44 (maximum 1), and the
-/// quadratic one 0.23 and 0.33 (maximum 0.38). The positions also differ from the points
-/// `+-1/sqrt(3)`, where the *strain* of a quadratic element is superconvergent.
+/// None of these positions is superconvergent. To leading order, the interpolation error is the
+/// same polynomial in every element: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic.
+/// At its zeros (the nodes, including the midside node) only the error of the nodal values remains,
+/// which may be of a higher order. At `xi = 1/4` and `3/4` the linear polynomial has the values
+/// 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33 (maximum 0.38). At the points
+/// `+-1/sqrt(3)`, the *strain* of a quadratic element is superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {

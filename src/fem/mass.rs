@@ -12,8 +12,7 @@ use crate::subject::Failure;
 pub(super) enum BarMassMatrix {
     /// Diagonal of the lumped matrix.
     Lumped(Vec<f64>),
-    /// Cholesky factor of the consistent matrix. The matrix is banded, so reordering is
-    /// unnecessary.
+    /// Cholesky factor of the consistent matrix, which is banded and needs no reordering.
     Consistent(Box<CscCholesky<f64>>),
 }
 
@@ -89,7 +88,7 @@ fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
 }
 
 /// Restricts the matrix to free nodes: the row and column of a fixed node become those of the
-/// identity matrix. This preserves the numbering and keeps the matrix positive definite.
+/// identity matrix, so the matrix remains positive definite.
 fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
     let size = matrix.nrows();
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);

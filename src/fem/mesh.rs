@@ -86,8 +86,7 @@ impl Mesh {
         self.from + (self.to - self.from) * (cell as f64 + place) / self.cells as f64
     }
 
-    /// Returns the index of a cell's leftmost node. The indices of its other nodes follow without a
-    /// gap.
+    /// Returns the index of a cell's leftmost node. The indices of its other nodes follow.
     #[inline]
     pub(super) fn first_node(&self, cell: usize) -> usize {
         cell * self.element.degree()
@@ -194,11 +193,11 @@ impl Element {
         }
     }
 
-    /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly.
-    /// They are therefore exact for the mass matrix (degree 2k) and for the internal force of a
-    /// linear law (degree `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above
-    /// the order `k + 1` of the element. Ciarlet (*The Finite Element Method for Elliptic
-    /// Problems*, 1978, section 4.1) requires exactness only up to degree `2k - 2`.
+    /// Returns the `k + 1` Gauss points, which integrate polynomials of degree `2k + 1` exactly,
+    /// and therefore the mass matrix (degree `2k`) and the internal force of a linear law (of
+    /// degree `2k - 2`). The error for a smooth integrand is of order `2k + 2`, above the order
+    /// `k + 1` of the element (Ciarlet, *The Finite Element Method for Elliptic Problems*, 1978,
+    /// section 4.1).
     pub(super) fn quadrature(self) -> &'static [GaussPoint] {
         match self {
             Self::Linear => &GAUSS_2,
@@ -207,9 +206,8 @@ impl Element {
     }
 
     /// Returns `int N_a dxi / 2`, the fraction of the element length assigned to each node a. For
-    /// the quadratic element these fractions are also the weights of the three-point Gauss-Lobatto
-    /// rule (Simpson's rule). Row sums of the mass matrix and lumping by nodal quadrature therefore
-    /// agree (Hughes 2000, section 7.3.2).
+    /// the quadratic element these are the weights of Simpson's rule, so row sums of the mass
+    /// matrix and lumping by nodal quadrature agree (Hughes 2000, section 7.3.2).
     pub(super) fn shares(self) -> PerNode {
         match self {
             Self::Linear => [0.5, 0.5, 0.0],

@@ -1,6 +1,6 @@
 //! A finite element method in 1-D, for comparison with MPM solvers.
 //!
-//! The method is total-Lagrangian and explicit. On the interval `[from, to]`, the method solves
+//! The method is total-Lagrangian and explicit, and solves on the interval `[from, to]`
 //!
 //! ```text
 //! rho0 u_tt = dP(F)/dX + rho0 b(X, t),    F = 1 + u_X
@@ -29,8 +29,7 @@
 //! These limits follow from `dt = 2 / omega` with the highest frequency omega of a single element
 //! (Hughes 2000, section 9.1 for the limit, section 7.3.2 for the matrices).
 //!
-//! [`BarSetup`] describes the problem, and [`Bar`] solves it. Steps do not allocate: [`Bar::new`]
-//! creates all arrays and factorises the mass matrix, and the triangular solves are in place.
+//! [`BarSetup`] describes the problem, and [`Bar`] solves it. Steps do not allocate.
 
 mod bar;
 mod mass;

@@ -234,8 +234,8 @@ impl Assembly {
     /// Prepares the assembly of a matrix with `size` rows and entries at `places` (row and column).
     /// Entries whose place is `None` are ignored.
     ///
-    /// The entries at one place are added in the order of an unstable but deterministic sort.
-    /// `nalgebra_sparse` uses the same order for a `CooMatrix`, so the sums are bit-identical.
+    /// The entries at one place are added in the same order as in a `CooMatrix` of
+    /// `nalgebra_sparse`, so the sums are bit-identical.
     fn new(size: usize, places: impl Iterator<Item = Option<(usize, usize)>>) -> Self {
         let mut columns = vec![Vec::new(); size];
         let mut row = Vec::new();
@@ -280,10 +280,9 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Tests columns with few and with many entries, because the sort uses a different
-        /// algorithm for short lists.
+        /// Tests columns with few and with many entries, which are sorted by different algorithms.
         #[test]
-        fn the_bits_are_those_of_the_library(
+        fn sums_are_bit_identical_to_those_of_the_library(
             entries in proptest::collection::vec((0..6_usize, 0..6_usize, 1e-3..1.0_f64), 0..900),
         ) {
             // Row and column 5 belong to fixed nodes.

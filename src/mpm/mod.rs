@@ -2,11 +2,11 @@
 //! Schreyer (1994) in the form of Wobbes & Tielen (2015).
 //!
 //! A scheme is a list of named stages ([`SchemeName::stages`]). The set-up fuses the stages into
-//! passes over particles or nodes, and a step runs these passes. The only type parameters are the
-//! dimension and the basis, because the loops over particles and nodes depend on both. The
-//! object-safe [`Kernel`] hides both parameters. [`Transfer`], [`MassMatrix`] and [`Effect`] use
-//! the passes of the kernel. These three and [`Material`] are trait objects that are called between
-//! stages. A solver contains only the effects that its set-up lists.
+//! passes over particles or nodes, and a step runs these passes. The loops over particles and nodes
+//! have two type parameters, the dimension and the basis; the object-safe [`Kernel`] hides both.
+//! [`Transfer`], [`MassMatrix`] and [`Effect`] use the passes of the kernel. These three and
+//! [`Material`] are trait objects that are called between stages. A solver contains only the
+//! effects that its set-up lists.
 //!
 //! ```text
 //! particles --P2G--> mass, momentum, force --solve--> acceleration --G2P--> velocity, strain, x
@@ -16,7 +16,7 @@
 //!
 //! ```text
 //! foundation    vectors, registers, threads, grid, particles
-//! basis         basis functions (a family)
+//! basis         basis functions
 //! kernel        the loops over particles and nodes, compiled for each basis
 //! families      boundary, mass, material, transfer, effect
 //! step          set-up, schedule and passes of a solver

@@ -1,10 +1,9 @@
-//! Stores the results of finished levels on disk. An interrupted run can then continue with the
+//! Stores the results of finished levels on disk, so that an interrupted run can continue with the
 //! remaining levels.
 //!
 //! The result of a level is written as soon as the level ends. The file name contains a hash of all
-//! inputs: the program, the suite text, the case and the level. Results of another program or text
-//! are therefore never used, and a resumed run prints the same bytes as an uninterrupted one. Files
-//! are written atomically, by renaming.
+//! inputs: the program, the suite text, the case and the level. A resumed run prints the same bytes
+//! as an uninterrupted one. Files are written atomically, by renaming.
 
 use crate::subject::SubjectError;
 use crate::suite::model::fingerprint::fingerprint;
@@ -16,8 +15,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a complete file. Without this line, a truncated file could be valid, because the
-/// last keys are optional and a shortened number is still a number.
+/// Last line of a complete file. Without this line, a truncated file could be valid, because its
+/// last keys are optional.
 const END: &str = "# end\n";
 
 /// A folder that stores the results of finished levels.
@@ -98,7 +97,7 @@ fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }
 
-/// Writes a file such that it is complete or absent, even if the machine stops. The bytes are
+/// Writes a file such that it is complete or absent, even if the machine stops: the bytes are
 /// written to `unfinished`, which is then renamed to `path`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
@@ -159,7 +158,7 @@ mod tests {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
         #[test]
-        fn what_is_kept_is_what_was_there(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
+        fn stored_result_is_read_back_bit_for_bit(x in prop::num::f64::ANY, why in "\\PC{0,20}") {
             let run = some(x, Some(why));
             let text = text("key", &run).unwrap();
             prop_assert_eq!(shown(&read::<RunResult>(&text, "key").unwrap()), shown(&run));
@@ -167,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_torn_or_of_another_level_is_not_taken() {
+    fn truncated_results_and_other_keys_are_ignored() {
         let text = text("key", &some(1.5, None)).unwrap();
         assert!(read::<RunResult>(&text, "key").is_some());
         assert!(read::<RunResult>(&text, "another").is_none());

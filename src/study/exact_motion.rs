@@ -1,7 +1,7 @@
 //! Properties of an exact motion: amplitude, extremes, and the residual of a linearised solution.
 //!
-//! Extremes are computed at regular points of the body and the run. The points and times of a
-//! `Survey` are included, because these resolve narrow pulses.
+//! Extremes are computed at regular points of the body and the run, and at the points of a
+//! `Survey`, which resolve narrow pulses.
 
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
@@ -18,8 +18,7 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
-    // At regular times, a motion with a whole number of periods in each interval would appear to be
-    // at rest.
+    // At regular times, a motion with whole periods in each interval would appear to be at rest.
     let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
     for share in even.chain(golden) {
         motion.set_time(problem.until * share);
@@ -120,9 +119,9 @@ impl Extremes {
     }
 }
 
-/// The body responds quasi-statically if the phase of the motion changes by less than this angle
-/// (rad) while a wave crosses the body. The second harmonic of the motion then has at most a fifth
-/// of the frequency of the body's lowest mode.
+/// Angle (rad) by which the phase of a quasi-static motion changes at most while a wave crosses the
+/// body. The second harmonic of the motion then has at most a fifth of the lowest frequency of the
+/// body.
 const SLOW: f64 = 0.3;
 
 /// Residual of a linearised solution, and the error that it causes.
@@ -143,12 +142,11 @@ impl Linearisation {
     /// ([`Problem::first_correction`]). Otherwise the error is estimated from the residual, within
     /// about a factor of ten:
     ///
-    /// Inertia and stress terms are each as large as the acceleration a = omega^2 u. A residual r
-    /// is therefore a force 2 r a per unit mass. The error due to this force is r a t^2 at first.
-    /// Later the error is r a t/omega if the force is in resonance with a mode, like the second
-    /// harmonic of a wave without dispersion. A stiff body that responds quasi-statically is
-    /// displaced at most like a fixed bar of the same length L, by r a L^2/c^2. At rest the error
-    /// is about r u.
+    /// Inertia and stress terms are each as large as the acceleration a = omega^2 u, so a residual
+    /// r is a force 2 r a per unit mass. The error due to this force is r a t^2 at first. Later it
+    /// is r a t/omega if the force is in resonance with a mode, like the second harmonic of a wave
+    /// without dispersion. A stiff body of length L is displaced at most like a fixed bar, by r a
+    /// L^2/c^2. At rest the error is about r u.
     pub(crate) fn of(problem: &Problem, motion: &Extremes, t: f64, norm: NormName) -> Option<Self> {
         problem.linearised.as_ref()?;
         let (residual, u) = (problem.residual(), motion.largest_displacement());

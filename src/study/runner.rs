@@ -46,9 +46,9 @@ impl<'a> Runner<'a> {
         Self::with(self.suite, RunContext { cache, ..self.context })
     }
 
-    /// Runs each level of a convergence study `count` times and reports the spread of the runs. An
-    /// external solver starts a new process each time. The cache is then neither read nor written.
-    /// A `count` of 0 or 1 means one run without a spread.
+    /// Runs each level of a convergence study `count` times and reports the spread of the runs; 0
+    /// or 1 means one run without a spread. An external solver starts a new process each time. The
+    /// cache is then neither read nor written.
     #[must_use]
     pub fn repeating(self, count: usize) -> Self {
         Self::with(self.suite, RunContext { repeat: count.max(1), ..self.context })
@@ -63,8 +63,8 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Returns the warnings that are found without a run. They are about steps that are longer than
-    /// the predicted stable time step or differ from the requested ones.
+    /// Returns the warnings that are found without a run, about steps that are longer than the
+    /// predicted stable time step or differ from the requested ones.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };

@@ -2,7 +2,7 @@
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
 //! Numbers are stored without names, as eight bytes in little-endian order on any machine. The
-//! bytes are therefore valid only for the same program and set-up. The caller must ensure this.
+//! caller must ensure that bytes are read by the same program with the same set-up.
 
 use super::{Samples, Totals};
 
@@ -114,8 +114,8 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// Visits all entries in one call. Analyses restore a state before each of many steps, so speed
-    /// matters.
+    /// Visits all entries in one call, for speed: analyses restore a state before each of many
+    /// steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
@@ -142,7 +142,7 @@ impl Memory for bool {
     }
 }
 
-/// The length of a slice is fixed. It is stored only to detect bytes that do not fit.
+/// The length of a slice is fixed, and is stored only to detect bytes that do not fit.
 impl<T: Memory> Memory for [T] {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.same(self.len());
@@ -159,7 +159,7 @@ impl<T: Memory, const N: usize> Memory for [T; N] {
 }
 
 /// The length is stored, because vectors may grow during a run. Every entry must contain at least
-/// one number: a wrong length then ends with an error when no bytes remain.
+/// one number, so that reading with a wrong length ends when no bytes remain.
 impl<T: Memory + Default> Memory for Vec<T> {
     fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
         let mut len = self.len() as u64;
@@ -281,16 +281,15 @@ mod tests {
 
         /// All bits are restored, including those of NaN and -0, for any previous state.
         #[test]
-        fn every_bit_comes_back(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
+        fn every_bit_is_restored(x in prop::num::f64::ANY, n in any::<u64>(), m in any::<u64>()) {
             let bytes = written(&mut some(x, n));
             let mut back = some(0.5, m);
             prop_assert!(taken_back(&mut back, &bytes));
             prop_assert_eq!(written(&mut back), bytes);
         }
 
-        /// A visit terminates for any bytes, and reports bytes that do not fit.
         #[test]
-        fn bytes_of_anything_are_no_state(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        fn arbitrary_bytes_are_rejected(mut bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             bytes.push(0);
             bytes.truncate(bytes.len() / 8 * 8 + 1);
             prop_assert!(!taken_back(&mut some(1.0, 0), &bytes), "no whole number of words");
@@ -298,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_short_or_too_long_does_not_fit() {
+    fn wrong_number_of_bytes_is_rejected() {
         let bytes = written(&mut some(1.5, 6));
         for end in 0..bytes.len() {
             assert!(!taken_back(&mut some(1.5, 6), &bytes[..end]), "{end}");
@@ -309,7 +308,7 @@ mod tests {
     #[rstest]
     #[case::shorter(&mut [0.0; 2])]
     #[case::longer(&mut [0.0; 4])]
-    fn a_column_of_another_length_is_left_alone(#[case] column: &mut [f64]) {
+    fn column_of_another_length_is_not_changed(#[case] column: &mut [f64]) {
         assert!(!taken_back(column, &written(&mut [1.0, 2.0, 3.0][..])));
         assert!(column.iter().all(|entry| *entry == 0.0));
     }

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_have_their_stages() {
+    fn sums_contain_their_stages() {
         let balance = balance();
         assert_eq!(balance.change(), 1023.0);
         assert_eq!(balance.transfer_gain(), f64::from(1 + 2 + 16 + 32 + 64));
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_is_a_share_of_the_magnitudes() {
+    fn gap_is_relative_to_the_magnitudes() {
         let mut balance = balance();
         assert_eq!(balance.gap(), 0.0);
         let mut entries = [0.0; LedgerStage::ALL.len()];

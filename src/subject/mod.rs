@@ -1,8 +1,8 @@
 //! Interface between the verifier and a solver under test.
 //!
 //! A [`Subject`] is a solver under test at one refinement level: the MPM or FEM solver of this
-//! crate, or an external solver. The trait is object-safe and uses only slices of `f64`, no
-//! linear-algebra types. It can therefore wrap a solver in another language.
+//! crate, or an external solver. The trait is object-safe and uses only slices of `f64`, so that it
+//! can wrap a solver in another language.
 //!
 //! The module also defines sums over a body, wall reactions, the rules for the name and the claimed
 //! order of a solver, and the out-of-plane state of a two-dimensional body.
@@ -53,9 +53,8 @@ pub trait Subject {
         None
     }
 
-    /// Returns the reaction of all fixed walls, or of one face. A face is given by the axis of its
-    /// normal, and by `true` for the high end of this axis. `None` by default, and before the first
-    /// step.
+    /// Returns the reaction of all fixed walls, or of one face, given by the axis of its normal and
+    /// by `true` for the high end of this axis. `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
     }
@@ -69,8 +68,7 @@ pub trait Subject {
 
     /// Returns the kinetic energy (J) of the part of the velocities that the discretisation does
     /// not resolve. For particles, this part is in the null space of the map to the grid. The
-    /// computation may cost as much as tens of steps, so callers request this energy only for
-    /// reports. `None` by default.
+    /// computation may cost as much as tens of steps. `None` by default.
     fn null_space_energy(&self) -> Option<f64> {
         None
     }
@@ -82,8 +80,8 @@ pub trait Subject {
     }
 }
 
-/// A subject whose step can be run on a fixed configuration, for linear stability analysis. The
-/// step then maps a state vector to a new state vector.
+/// A subject whose step can be run on a fixed configuration, as a map of state vectors, for linear
+/// stability analysis.
 pub trait Perturbable: Subject {
     /// Fixes the configuration (positions and domains) in all later steps. All other quantities
     /// continue to advance.
@@ -115,9 +113,8 @@ named! {
     }
 }
 
-/// State at reference labels: `n` labels in `dimension` dimensions, one label after another. If a
-/// subject does not have stress, F or temperature, the column is empty and the quantity cannot be
-/// verified.
+/// State at reference labels: `n` labels in `dimension` dimensions, one label after another.
+/// Without its column, stress, F or temperature cannot be verified.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {
@@ -373,8 +370,7 @@ impl Totals {
     }
 }
 
-/// Force of walls on the body at the beginning of the last step. The force at the end of the step
-/// is computed only in the next step.
+/// Force of walls on the body at the beginning of the last step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reaction {
     /// Time (s) at which the force acts.
@@ -389,7 +385,7 @@ pub(crate) const LONGEST_NAME: usize = 64;
 /// Maximum order that a solver may claim.
 pub(crate) const HIGHEST_ORDER: f64 = 20.0;
 
-/// Whether `name` is a valid solver name. Solver names become parts of case and file names.
+/// Whether `name` is a valid solver name, which becomes part of case and file names.
 pub(crate) fn is_solver_name(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     !name.is_empty() && name.len() <= LONGEST_NAME && name.chars().all(plain)

@@ -93,8 +93,8 @@ pub fn judge_case<R: Reruns>(
 }
 
 impl JudgePlan<'_> {
-    /// Returns the verdict and its reason for a case without expectations. The reason contains the
-    /// comparison with the theoretical order, and the drifts.
+    /// Returns the verdict and its reason for a case without expectations. The reason compares the
+    /// order with theory, and lists the drifts.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);
@@ -168,7 +168,7 @@ fn headline(
         return (verdict.to_string(), format!("{reason}; {figures}"));
     }
     let within = if unmet.is_empty() { "within bounds" } else { "out of bounds" };
-    // This case has no expected order, so the reason contains only the observed order.
+    // Without an expected order, the reason contains only the observed order.
     let judged = match (verdict, judgement.order) {
         (Verdict::TooFewLevels, _) => String::new(),
         (Verdict::AtFloor | Verdict::Divergent, _) | (_, None) => format!("; {verdict}: {reason}"),
@@ -177,8 +177,8 @@ fn headline(
     (within.to_owned(), figures + &judged)
 }
 
-/// Estimates the limit of the displacement at the observed point in 1-D; `None` if fewer than two
-/// levels report this displacement.
+/// Estimates the limit of the displacement at the observed point in 1-D; `None` with fewer than two
+/// displacements.
 fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, EstimateRefusal>> {
     let point = |level: &LevelOutcome| match level.run.displacement.as_deref() {
         // One component of several does not represent the displacement.
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn one_nan_is_the_largest_and_the_smallest() {
+    fn nan_is_the_largest_and_the_smallest_value() {
         for errors in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
             let [most, least, ..] = measure(&errors.map(|e| level(true, e, None))).figures;
             assert!(least.unwrap().is_nan() && most.unwrap().is_nan());
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_alone_make_the_headline() {
+    fn headline_of_bounds_starts_with_the_bounded_values() {
         let bounds = vec![(CaseFigure::ErrorBelow, 1e-9)];
         let limits = Limits { bounds, ..Limits::default() };
         let bound =

@@ -1,9 +1,9 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
-//! mass and energies the scale is the largest value during the run. Momenta may be zero, so their
-//! scale is the largest sum of the magnitudes of their terms. The energy is NaN for a law without
-//! stored energy.
+//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. The
+//! scale is the largest value of a mass or an energy during the run. For momenta, which may be
+//! zero, it is the largest sum of the magnitudes of their terms. The energy is NaN for a law
+//! without stored energy.
 
 use super::error::norm::larger;
 use crate::named::named;
@@ -182,12 +182,12 @@ mod tests {
     #[case::then_a_number(&[Some(Totals { momentum: [f64::NAN, 0.0, 0.0], ..START }), Some(START)])]
     #[case::a_size(&[Some(Totals { momentum: [0.0; 3], momentum_size: f64::NAN, ..START })])]
     #[case::of_a_subject_that_falls_silent(&[None, Some(START)])]
-    fn nan_stays(#[case] later: &[Option<Totals>]) {
+    fn nan_remains_nan(#[case] later: &[Option<Totals>]) {
         assert!(drift(later).of(Conserved::Momentum).is_nan());
     }
 
     #[test]
-    fn a_body_at_rest_does_not_drift_and_one_that_starts_by_itself_does() {
+    fn only_momentum_from_rest_is_a_drift() {
         let rest = Totals { strain_energy: Some(0.0), ..Totals::default() };
         let mut balance = Balance::start(rest);
         balance.look(Some(&rest));
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_law_without_an_energy_keeps_none() {
+    fn law_without_energy_has_a_nan_drift() {
         let start = Totals { strain_energy: None, ..START };
         let mut balance = Balance::start(start);
         balance.look(Some(&start));

@@ -40,8 +40,8 @@ pub struct Convergence {
     pub compared: bool,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the case has bounds on measured values only. Such a case has no expected order, and
-    /// every usable level counts.
+    /// Whether the case has bounds on measured values only, and no expected order. Every usable
+    /// level then counts.
     pub bounded: bool,
     /// Reason why an external solver meets the requirement of `run --gate`, if it does.
     pub accepted: Option<Acceptance>,
@@ -261,7 +261,7 @@ pub(in crate::verify) mod tests {
     #[case(Verdict::Oscillatory, true)]
     #[case(Verdict::Divergent, true)]
     #[case(Verdict::Failed, true)]
-    fn a_verdict_against_the_order_fails(#[case] verdict: Verdict, #[case] fails: bool) {
+    fn verdicts_that_contradict_the_order_fail(#[case] verdict: Verdict, #[case] fails: bool) {
         let mut study = study(&[1.0, 0.25]);
         study.judgement.verdict = verdict;
         assert_eq!(study.fails(), fails);
@@ -279,7 +279,7 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// For order 2 the limit is 2.04, and the interval of the limit extends to the finest value, 2.
+    /// For order 2 the limit is 2.04, and its interval extends to the finest value, 2.
     #[rstest]
     #[case(2.0, true)]
     #[case(2.079, true)]

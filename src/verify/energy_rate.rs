@@ -1,11 +1,10 @@
 //! Growth or decay rate of the energy over a long run, with a confidence interval.
 //!
-//! The energy of an oscillating body oscillates too. Neighbouring instants are therefore not
-//! independent observations, and a line fitted to all of them would have too narrow an interval.
-//! Instead the run is divided into ten parts of equal length, and ln E is averaged over each part
-//! (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section 9.5.3). A
-//! line is fitted to the ten means. The slope is the rate, d ln E/dt (1/s), and the interval of the
-//! slope follows from Student's t.
+//! The energy of an oscillating body oscillates too, so neighbouring instants are not independent
+//! observations, and a line fitted to all of them would have too narrow an interval. The run is
+//! therefore divided into ten parts of equal length, and a line is fitted to the means of ln E over
+//! each part (the method of batch means; Law, *Simulation Modeling and Analysis*, 5th ed., section
+//! 9.5.3). The slope is the rate, d ln E/dt (1/s), with an interval from Student's t.
 //!
 //! The interval contains the rate with a probability of 95 % under two conditions: the parts are
 //! much longer than a period, and the deviations of the means from the line are independent noise.
@@ -26,8 +25,7 @@ pub(crate) fn energy_rate(account: &[(f64, Totals)]) -> Option<Interval> {
     if each < LEAST {
         return None;
     }
-    // The first instants are dropped if the number of instants is not a multiple of the number of
-    // parts.
+    // Drops the first instants if their number is not a multiple of the number of parts.
     let seen = &account[account.len() - PARTS * each..];
     let means = seen.chunks_exact(each).enumerate().map(|(level, part)| {
         let logarithm = |(t, totals): &(f64, Totals)| {
@@ -64,16 +62,16 @@ mod tests {
     #[case::kept(0.0)]
     #[case::lost(-0.01)]
     #[case::made(3e-5)]
-    fn an_exponential_has_its_rate(#[case] rate: f64) {
+    fn exponential_energy_has_its_exact_rate(#[case] rate: f64) {
         let found = energy_rate(&account(203, |t| 7.0 * libm::exp(rate * t))).unwrap();
         assert_abs_diff_eq!(found.value, rate, epsilon = 1e-12);
         assert_abs_diff_eq!(found.half_width(), 0.0, epsilon = 1e-12);
     }
 
-    /// An oscillation of 10 % has a period of twenty instants. If each part contains whole periods,
-    /// the oscillation hardly changes the rate. Otherwise it widens the interval.
+    /// An oscillation of 10 % with a period of twenty instants. If each part contains whole
+    /// periods, it hardly changes the rate. Otherwise it widens the interval.
     #[test]
-    fn a_swing_is_no_drift() {
+    fn oscillation_is_not_a_drift() {
         let swing = |t: f64| 1.0 + 0.1 * libm::sin(t * std::f64::consts::PI / 10.0);
         let whole = energy_rate(&account(1000, |t| swing(t) * libm::exp(-1e-4 * t))).unwrap();
         assert_relative_eq!(whole.value, -1e-4, max_relative = 1e-9);
@@ -84,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn without_enough_to_see_there_is_no_rate() {
+    fn too_few_or_invalid_energies_have_no_rate() {
         assert_eq!(energy_rate(&account(49, |_| 1.0)), None);
         assert_eq!(energy_rate(&account(100, |t| 50.0 - t)), None);
         assert_eq!(energy_rate(&account(100, |t| if t > 98.0 { f64::NAN } else { 1.0 })), None);

@@ -5,7 +5,7 @@
 //! - *Spread*: the difference between repeated runs exceeds [`MOST_SPREAD`] of the error.
 //!
 //! Both rules apply to observed orders only. Bounds on errors are checked on excluded levels too,
-//! because a small error satisfies a bound regardless of its cause.
+//! because a small error satisfies them regardless of its cause.
 
 use super::convergence::LevelOutcome;
 use super::error::norm::NormName;
@@ -31,8 +31,8 @@ named! {
 }
 
 /// Returns the distance (m) between `largest`, the largest absolute coordinate (m) of a particle,
-/// and the next smaller single-precision number: `2^-24` for `[0, 1]`, `2^-21` for `[7, 8]`. `None`
-/// if `largest` is zero or not a normal number in single precision.
+/// and the next smaller single-precision number. `None` if `largest` is zero or not a normal number
+/// in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
     // Coordinates are rounded first: a position of 1 + 1e-16 is 1 in single precision.
     let largest = largest as f32;
@@ -44,9 +44,9 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 /// steps. In each step positions are rounded to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. Increments change little from step to step and are rounded alike. In the
-/// worst case all rounding errors are equal. Their sum after N steps is then `N spacing/sqrt 12` in
-/// the RMS norm, and `N spacing/2`, larger by `sqrt 3`, in the maximum norm.
+/// `spacing/sqrt 12`. In the worst case all rounding errors are equal, because increments change
+/// little from step to step. The sum of N rounding errors is then `N spacing/sqrt 12` in the RMS
+/// norm, and `N spacing/2` in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {
@@ -78,7 +78,7 @@ fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
 
-/// Whether too few levels remain for an order after levels are excluded by rounding.
+/// Whether too few levels remain for an order without the levels that rounding excludes.
 pub(super) fn leaves_too_few(levels: &[LevelOutcome], judgement: &Judgement) -> bool {
     judgement.verdict == Verdict::TooFewLevels && !excluded(levels, Exclusion::Rounding).is_empty()
 }
@@ -159,7 +159,7 @@ mod tests {
     #[case::nothing(0.0, None)]
     #[case::too_large(1e39, None)]
     #[case::unknown(f64::NAN, None)]
-    fn the_spacing_is_that_below_the_largest_coordinate(
+    fn spacing_is_that_below_the_largest_coordinate(
         #[case] largest: f64,
         #[case] exponent: Option<i32>,
     ) {

@@ -22,9 +22,8 @@ use crate::subject::LedgerStage;
 /// its [`FigureNeed`], and the function that computes the value from the levels of a case. The
 /// documentation of the entry becomes the documentation of the key in the JSON Schema.
 ///
-/// The grammar uses this macro to declare a field for each entry. With `#[serde(flatten)]` over a
-/// map of keys the macro would not be needed. But `flatten` cannot be combined with
-/// `deny_unknown_fields`, and errors for mistyped keys would lose their position and suggestion.
+/// The grammar uses this macro to declare a field for each entry, because `#[serde(flatten)]` over
+/// a map of keys cannot be combined with `deny_unknown_fields`.
 macro_rules! each_case_figure {
     ($declare:ident) => {
         $declare! {

@@ -23,8 +23,7 @@
 //!
 //! Two rules apply everywhere. Comparisons are written so that NaN fails: the code tests the
 //! required condition (`error <= tolerance`), never its opposite. The shape of a series is
-//! recognised by ratios, never by absolute numbers, so units of error and spacing do not change a
-//! verdict.
+//! recognised by ratios, so units of error and spacing do not change a verdict.
 
 mod case;
 mod conservation;

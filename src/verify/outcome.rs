@@ -168,7 +168,7 @@ impl CaseOutcome {
     }
 
     /// Converts the outcome to that of a case that an external solver rejected. The case is not
-    /// applicable if the solver does not support the problem. It fails if the solver failed.
+    /// applicable if the solver does not support the problem, and fails if the solver failed.
     #[must_use]
     pub(crate) fn not_run(self, error: &SubjectError) -> Self {
         match error {

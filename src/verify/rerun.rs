@@ -2,10 +2,9 @@
 //!
 //! - To find why the error has stopped decreasing (an error floor), the finest level runs again
 //!   with half the spacing on another axis.
-//! - Some suites have one time step on all levels. Its error dominates in a solver that is
-//!   accurate in space: the error stops decreasing, or the order is too low. If an external solver
-//!   then misses the requirement of `run --gate`, its levels run again with shorter steps, to check
-//!   whether these restore the order.
+//! - Some suites have one time step on all levels. In a solver that is accurate in space, the error
+//!   of this step may dominate: the error stops decreasing, or the order is too low. If an external
+//!   solver then misses the requirement of `run --gate`, its levels run again with shorter steps.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -66,7 +65,7 @@ const HALVINGS: i32 = 3;
 /// smaller decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
-/// The time step counts as refined with the cells if it decreases at least like this power of h.
+/// Minimum exponent of h in a time step that counts as refined with the cells.
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
@@ -165,9 +164,9 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Estimates the error due to rounding, in the judged norm and relative to the judged scale. The
-/// estimate is a random walk whose steps are rounding errors of the largest number from which the
-/// judged quantity is computed.
+/// Estimates the error due to rounding, in the judged norm and relative to the judged scale: a
+/// random walk whose steps are rounding errors of the largest number from which the judged quantity
+/// is computed.
 fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);

@@ -45,7 +45,7 @@ fn hold(rule: &str, why: &str, breaches: &[Breach]) {
 }
 
 #[test]
-fn no_module_imports_itself_through_others() {
+fn module_imports_have_no_cycles() {
     let edges = graph::edges(&source::of_crate());
     let cycles = graph::cycles(&edges);
     let written: Vec<String> = cycles.iter().map(|cycle| in_words(cycle)).collect();
@@ -93,7 +93,7 @@ fn rules_and_exceptions_concern_existing_files() {
 }
 
 #[test]
-fn only_dispatch_knows_both_solvers() {
+fn only_dispatch_uses_both_solvers() {
     let (sources, both): (_, [&[&str]; 2]) = (source::of_crate(), [&["Solver"], &["bar", "("]]);
     hold(
         "only src/study/setup/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
@@ -105,7 +105,7 @@ fn only_dispatch_knows_both_solvers() {
 }
 
 #[test]
-fn only_the_ladder_spells_out_the_dimensions() {
+fn only_one_file_lists_all_dimensions() {
     let (sources, all): (_, [&[&str]; 3]) =
         (source::of_crate(), [&["<", "1", ">"], &["<", "2", ">"], &["<", "3", ">"]]);
     hold(
@@ -171,7 +171,7 @@ fn modules_are_files() {
 }
 
 #[test]
-fn results_have_the_same_bits_everywhere() {
+fn code_that_depends_on_the_platform_is_refused() {
     let sources = source::of_crate();
     hold(
         "transcendental functions and powers come from `libm`: `libm::sin(x)`, not `x.sin()`",
@@ -188,7 +188,7 @@ fn results_have_the_same_bits_everywhere() {
 }
 
 #[test]
-fn old_words_stay_away() {
+fn old_names_are_refused() {
     let mut breaches = words::old(&source::of_crate());
     breaches.extend(words::old_files(&source::paths("src")));
     hold(
@@ -199,7 +199,7 @@ fn old_words_stay_away() {
 }
 
 #[test]
-fn old_words_of_reports_stay_away() {
+fn old_phrases_of_reports_are_refused() {
     let mut texts = source::texts("src", ".rs");
     texts.extend(source::texts("tests/it", ".rs"));
     texts.extend([".snap", ".yaml"].iter().flat_map(|end| source::texts("verification", end)));
@@ -263,7 +263,7 @@ fn documents() -> Vec<markdown::Document> {
 }
 
 #[test]
-fn documents_speak_of_what_is_there() {
+fn documents_refer_only_to_existing_things() {
     let manifest = &source::texts("", "Cargo.toml").remove(0).1;
     let has = documents::Repository::new(&source::paths(""), &source::texts("", ".rs"), manifest);
     let documents = documents();
@@ -284,7 +284,7 @@ fn page_of_suites() -> (String, String) {
 }
 
 #[test]
-fn the_page_of_suites_is_that_of_the_files() {
+fn page_of_suites_is_up_to_date() {
     let (page, anew) = page_of_suites();
     assert!(page == anew, "{} is stale: run ci/pages", pages::SUITES);
 }
@@ -297,7 +297,7 @@ fn the_page_of_suites_is_written() {
 }
 
 #[test]
-fn every_folder_of_suites_tells_what_each_found() {
+fn every_folder_page_links_the_report_of_each_suite() {
     let texts: std::collections::BTreeMap<_, _> =
         source::texts("verification", "README.md").into_iter().collect();
     let told = |row: &&pages::Row| {
@@ -313,7 +313,7 @@ fn every_folder_of_suites_tells_what_each_found() {
 }
 
 #[test]
-fn reports_are_quoted_as_they_are() {
+fn quoted_reports_agree_with_snapshots() {
     for page in documents().iter().filter(|page| pages::QUOTING.contains(&page.file.as_str())) {
         let (quoted, wrong) = pages::misquoted(page);
         assert!(quoted > 0, "{} quotes no report: are they still found?", page.file);
@@ -322,7 +322,7 @@ fn reports_are_quoted_as_they_are() {
 }
 
 #[test]
-fn the_page_of_the_judge_has_its_numbers() {
+fn page_of_the_judge_has_the_constants_of_the_code() {
     let page = std::fs::read_to_string(source::root().join(pages::JUDGE)).expect("a page");
     let (rows, wrong) = pages::constants(&page, &source::texts("src/verify", ".rs"));
     assert!(rows > 15, "{} has {rows} numbers: are they still found?", pages::JUDGE);
@@ -330,7 +330,7 @@ fn the_page_of_the_judge_has_its_numbers() {
 }
 
 #[test]
-fn dependencies_ask_for_no_more_than_to_be_named() {
+fn dependencies_have_permissive_licences() {
     for (expression, is_known) in [
         ("MIT OR GPL-3.0", true),
         ("(MIT OR Apache-2.0) AND Unicode-3.0", true),
@@ -369,14 +369,14 @@ fn pages_of_exercises_show_the_compiled_members() {
 }
 
 #[test]
-fn a_new_member_of_a_family_touches_few_files() {
+fn exercises_touch_few_files() {
     let pages = documents().into_iter().filter(|page| page.file.starts_with("docs/exercises/"));
     let wrong = exercises::touching_too_much(&pages.collect::<Vec<_>>());
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
 #[test]
-fn seeded_defects_apply_to_the_present_sources() {
+fn seeded_defects_apply_to_the_current_sources() {
     let files = source::texts("tests/defects", ".txt");
     let parsed = files.iter().map(|(file, text)| defects::parse(file, text));
     let all: Vec<Vec<defects::Defect>> =

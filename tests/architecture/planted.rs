@@ -158,7 +158,7 @@ fn mistakes(text: &str) -> Vec<String> {
 #[case::layout_module("```text\n -> mpm::gird  words\n```")]
 #[case::json("```json\n{\"verdict\": 1}}\n```")]
 #[case::json_key("```json\n{\"verdict\": [{\"verdit\": 1}]}\n```")]
-fn a_mistake_in_a_document_is_found(#[case] text: &str) {
+fn mistake_in_a_document_is_found(#[case] text: &str) {
     let found = mistakes(text);
     assert_eq!(found.len(), 1, "{found:?}");
 }

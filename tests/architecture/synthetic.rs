@@ -34,14 +34,14 @@ fn words(text: &str) -> Vec<String> {
 #[case::character(r#"a '"' '\'' b'"' '\u{27}' c"#)]
 #[case::lifetime("a 'crate c")]
 #[case::string_over_lines("a \"x\n\ny\" c")]
-fn what_is_not_code_is_skipped(#[case] text: &str) {
+fn comments_and_strings_are_skipped(#[case] text: &str) {
     assert_eq!(words(text), ["a", "c"]);
     let (last, lines) = (tokens(text).pop().map(|token| token.line), text.lines().count());
     assert_eq!(last, Some(lines), "lines are counted through it");
 }
 
 #[rstest]
-fn signs_and_words_are_code() {
+fn punctuation_and_identifiers_are_tokens() {
     assert_eq!(
         words("a::b<'x>(r#type, 2.sin())"),
         ["a", "::", "b", "<", ">", "(", "type", ",", "2", ".", "sin", "(", ")", ")"]

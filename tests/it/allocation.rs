@@ -263,9 +263,7 @@ fn says_what_it_keeps<const D: usize>() {
 }
 
 #[rstest]
-fn what_is_said_to_be_kept_for_particles_is_what_the_heap_holds(
-    #[values(1, 2, 3)] dimension: usize,
-) {
+fn declared_columns_account_for_the_heap(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, says_what_it_keeps());
 }
 
@@ -286,7 +284,7 @@ fn a_step_of_heat_in_a_body_at_rest_allocates_nothing(#[values(1, 2, 3)] dimensi
 
 /// The law uses the whole deformation.
 #[test]
-fn expansion_that_is_split_off_allocates_in_the_first_step_only() {
+fn thermal_expansion_allocates_in_the_first_step_only() {
     let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
     setup.material = MaterialPlan::Hencky { young: 1.0, poisson: 0.0 }.build();
     let heat = heat(&mut setup.particles, (&setup.grid, BasisName::Linear));
@@ -311,7 +309,7 @@ fn a_step_with_any_effect_after_the_first_allocates_nothing(#[values(1, 2, 3)] d
 }
 
 #[test]
-fn no_scheme_is_left_out_above() {
+fn all_schemes_are_tested() {
     assert_eq!(SchemeName::ALL, [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl]);
 }
 
@@ -350,6 +348,6 @@ fn a_fem_step_after_the_first_allocates_nothing(
 }
 
 #[test]
-fn the_counter_counts() {
+fn counter_detects_an_allocation() {
     assert!(measure(|| drop(std::hint::black_box(vec![0_u8; 16]))).count_total > 0);
 }

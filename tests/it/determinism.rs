@@ -38,7 +38,7 @@ fn repeats<const D: usize>() {
 }
 
 #[rstest]
-fn a_second_run_repeats_every_bit(#[values(1, 2, 3)] dimension: usize) {
+fn second_run_is_bit_identical(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, repeats());
 }
 
@@ -68,7 +68,7 @@ fn ignores_its_neighbour<const D: usize>() {
 }
 
 #[rstest]
-fn two_solvers_at_once_give_the_bits_of_one_alone(#[values(1, 2, 3)] dimension: usize) {
+fn concurrent_solvers_are_bit_identical_to_one_alone(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, ignores_its_neighbour());
 }
 
@@ -91,7 +91,7 @@ fn shared(transfer: TransferName, threads: usize) -> Vec<u64> {
 }
 
 #[rstest]
-fn threads_that_share_a_step_give_the_bits_of_one(
+fn step_on_several_threads_is_bit_identical(
     #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
 ) {
     let one = shared(transfer, 1);
@@ -110,7 +110,7 @@ fn every_method_goes_on<const D: usize>() {
 }
 
 #[rstest]
-fn an_interrupted_run_gives_the_bits_of_a_whole_one(#[values(1, 2, 3)] dimension: usize) {
+fn resumed_run_is_bit_identical(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, every_method_goes_on());
 }
 
@@ -145,7 +145,7 @@ fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
 
 /// Methods with a series are not registered by name, so this test covers them.
 #[test]
-fn an_interrupted_run_with_a_series_gives_the_bits_of_a_whole_one() {
+fn resumed_run_with_a_series_transfer_is_bit_identical() {
     for choice in
         [WithParameter::Xpic, WithParameter::Fmpm].map(|name| TransferChoice::With(name, 3))
     {
@@ -158,7 +158,7 @@ fn an_interrupted_run_with_a_series_gives_the_bits_of_a_whole_one() {
 }
 
 #[test]
-fn the_bits_do_tell_two_states_apart() {
+fn different_states_have_different_bits() {
     let method = methods().next().unwrap();
     let [usf, usl] = [SchemeName::Usf, SchemeName::Usl].map(|s| stepped::<2>(method, s));
     assert!(usf != usl);

@@ -80,7 +80,7 @@ fn taken(add: impl FnOnce(&mut Setup<2>)) -> Profile {
 }
 
 #[test]
-fn the_empty_scene_carries_what_the_original_mpm_needs_and_nothing_else() {
+fn empty_scene_has_only_the_columns_of_the_original_mpm() {
     let empty = taken(|_| ());
     let named = |holder: Holder| -> Vec<(&str, usize)> {
         let of = empty.columns.iter().filter(|column| column.holder == holder);
@@ -214,7 +214,7 @@ fn are_on_the_page(rows: &[(&str, String)], verifies: impl Fn(&str, &str) -> boo
 }
 
 #[test]
-fn the_page_says_what_each_effect_adds_and_which_suites_verify_it() {
+fn page_lists_columns_and_suites_of_each_effect() {
     let row = |&name: &EffectName| {
         let needed = |setup: &mut Setup<2>| {
             name.needs().iter().for_each(|needed| add(*needed, setup, BasisName::Linear, 0.1));
@@ -243,7 +243,7 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 }
 
 #[test]
-fn the_page_says_what_contact_adds_and_which_suites_verify_it() {
+fn page_lists_columns_and_suites_of_contact() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
     let has_contact = |suite: &str, _: &str| {
         load(suite).plan::<ConvergencePlan>().is_some_and(|plan| plan.scene.contact.is_some())
@@ -252,7 +252,7 @@ fn the_page_says_what_contact_adds_and_which_suites_verify_it() {
 }
 
 #[test]
-fn the_page_says_what_each_wall_adds_and_which_suites_verify_it() {
+fn page_lists_columns_and_suites_of_each_wall() {
     let rows = WALLS.map(|name| {
         let key = format!("{name} wall");
         (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
@@ -281,7 +281,7 @@ fn every_effect_goes_on<const D: usize>(scheme: SchemeName) {
 }
 
 #[rstest]
-fn an_interrupted_run_with_any_effect_gives_the_bits_of_a_whole_one(
+fn resumed_run_with_any_effect_is_bit_identical(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
@@ -339,7 +339,7 @@ fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
 
 /// The number of visits that a kernel counts equals the number of transfers in reports.
 #[test]
-fn the_visits_of_a_step_make_up_its_transfers() {
+fn visits_of_a_step_add_up_to_its_transfers() {
     // Taylor least squares sums over points in cells, while the kernel counts particles.
     for method in methods().filter(|(_, transfer)| *transfer != TransferName::Tls) {
         let mut setup = free_body::<2>(method, SchemeName::Musl);
@@ -357,7 +357,7 @@ fn the_visits_of_a_step_make_up_its_transfers() {
 }
 
 #[test]
-fn an_effect_needs_others() {
+fn missing_required_effect_is_refused() {
     for &effect in EffectName::ALL {
         assert!(!effect.needs().contains(&effect));
         let alone = EffectName::combine(&[effect]).is_ok();

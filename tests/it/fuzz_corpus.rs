@@ -14,7 +14,7 @@ use rstest::rstest;
 #[case::formulas("formula", formula_input::evaluate)]
 #[case::documents("compare", compare_input::differences)]
 #[case::answers("protocol", protocol_input::answers)]
-fn the_corpus_of_the_fuzzer_is_read_or_refused(#[case] name: &str, #[case] read: fn(&[u8])) {
+fn fuzzer_corpus_is_parsed_or_refused(#[case] name: &str, #[case] read: fn(&[u8])) {
     let folder = format!("{}/tests/fuzz/corpus/{name}", env!("CARGO_MANIFEST_DIR"));
     let files = std::fs::read_dir(folder).expect("a corpus").map(|entry| entry.expect("an entry"));
     let count = files.map(|file| read(&std::fs::read(file.path()).expect("a file"))).count();

@@ -173,7 +173,7 @@ fn a_simple_wave_keeps_f_along_its_characteristics(#[values(0.05, 0.4, 0.77)] pl
 /// With cos instead of sin, the bar starts at rest with displacements of 2 % of its length and
 /// strains of 6 %. A start without the corresponding stress, volume or domains has no order.
 #[test]
-fn a_bar_that_starts_deformed_keeps_to_its_motion() {
+fn bar_that_starts_deformed_has_order_two() {
     let (scene, _) =
         include_str!("../../verification/bars-at-large-strain/mms-fixed-bar-small.yaml")
             .split_once("methods:")

@@ -49,7 +49,7 @@ fn p01_a_growing_error_is_divergent_and_its_order_negative() {
 #[rstest]
 #[case::nan(f64::NAN)]
 #[case::infinite(f64::INFINITY)]
-fn p02_what_is_not_finite_fails(#[case] bad: f64) {
+fn p02_non_finite_errors_fail(#[case] bad: f64) {
     for place in 0..H.len() {
         let mut errors = power(2.0);
         errors[place] = bad;
@@ -64,7 +64,7 @@ fn p02_what_is_not_finite_fails(#[case] bad: f64) {
 /// Pitfalls 3 and 9 (9: agreement with stored results is not correctness). The theory gate does not
 /// read stored results: it judges the current run, independently of any snapshot.
 #[test]
-fn p03_p09_the_order_of_this_run_is_judged_and_no_stored_one() {
+fn p03_p09_only_the_order_of_the_current_run_is_judged() {
     let unmet = unmet("{order: [2.9, 3.1], because: a snapshot said so}");
     assert!(unmet.iter().any(|line| line.contains("the order within [2.90, 3.10]")));
 }
@@ -102,7 +102,7 @@ fn p06_an_all_zero_field_does_not_pass() {
 }
 
 #[test]
-fn p07_points_between_the_ends_count() {
+fn p07_intermediate_levels_count() {
     let mut errors = power(2.0);
     errors[2] *= 5.0;
     assert_ne!(verdict(&errors, OrderHypothesis::formal(2.0)), Verdict::Converging);
@@ -111,7 +111,7 @@ fn p07_points_between_the_ends_count() {
 /// For any three errors, the order fitted to them makes the asymptotic-range ratio one. Here the
 /// true order is 0.7: the ratio indicates "asymptotic", but the judge does not.
 #[test]
-fn p08_no_ratio_that_is_one_by_construction() {
+fn p08_no_reported_ratio_is_one_by_construction() {
     let errors = power(0.7);
     let fitted = libm::log2((errors[2] - errors[3]) / (errors[3] - errors[4]));
     let index = |coarse: f64, fine: f64| (coarse - fine) / (libm::pow(2.0, fitted) - 1.0);
@@ -153,10 +153,7 @@ fn p12_a_method_that_does_not_exist_is_refused() {
 #[rstest]
 #[case::missing("  loads:\n    - gravity: [\"-g\"]\n", "")]
 #[case::wrong_sign("gravity: [\"-g\"]", "gravity: [\"g\"]")]
-fn p13_a_force_that_is_missing_or_has_the_wrong_sign_is_found(
-    #[case] right: &str,
-    #[case] wrong: &str,
-) {
+fn p13_missing_force_or_wrong_sign_is_detected(#[case] right: &str, #[case] wrong: &str) {
     let text = include_str!("../../verification/the-talk/fem-oedometer.yaml");
     assert!(text.contains(right));
     let diagnostic = load(&text.replace(right, wrong)).unwrap_err();
@@ -170,7 +167,7 @@ fn p14_small_numbers_are_not_rounded_to_the_same_text() {
 }
 
 #[test]
-fn norms_carry_what_is_not_finite() {
+fn norms_propagate_non_finite_errors() {
     let norms = Norms::of(&[1.0, f64::NAN, 2.0], 1, &[1.0; 3]);
     assert!(!norms.rms.is_finite() && !norms.linf.is_finite());
 }

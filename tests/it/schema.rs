@@ -44,7 +44,7 @@ pub(crate) fn refuses_too(text: &str, complaint: &Diagnostic) {
 }
 
 #[test]
-fn every_suite_is_of_the_schema() {
+fn every_suite_conforms_to_the_schema() {
     for name in embedded::names() {
         let source = embedded::source(name).expect("a suite").expect("a text");
         let refusal = SUITE.refusal(&values(source.text()).expect("YAML"));
@@ -147,7 +147,7 @@ fn schema_and_program_agree_about_each_key() {
 }
 
 #[test]
-fn the_schema_of_a_suite_in_the_documents_is_the_one_that_is_printed() {
+fn suite_schema_in_documents_is_the_printed_one() {
     let kept = include_str!("../../docs/suite.schema.json");
     let written = "`mpm-verify schema suite > docs/suite.schema.json` writes it anew";
     assert!(kept == suite_schema(), "{written}");

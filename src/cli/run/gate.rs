@@ -52,7 +52,7 @@ impl SolverGate {
     }
 
     /// Prints the skipped suites. Prints an error and returns false if no case is tested, or if a
-    /// suite that must be tested is not. Failed cases are not checked here.
+    /// required suite is not tested. Failed cases are not checked here.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
         for (suite, case) in cases(outcomes) {
             if case.exemption == Some(Exemption::Excepted) {
@@ -104,7 +104,7 @@ struct ConfigSpec {
 #[serde(deny_unknown_fields)]
 struct TermsSpec {
     order: Option<f64>,
-    /// Errors at or below this bound are accepted for any order.
+    /// Errors at or below this bound are accepted for any observed order.
     error_below: Option<f64>,
     /// Reason why the suite is not run.
     skip: Option<String>,

@@ -247,8 +247,8 @@ fn one(
     let warn = |warning: &StepWarning| {
         bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
     };
-    // A suite may deliberately use time steps that are too long. Warnings about long steps are
-    // therefore printed only for cases that fail.
+    // A suite may use too long time steps deliberately, so these warnings are printed only for
+    // cases that fail.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {

@@ -55,8 +55,7 @@ impl RunProgress {
         let mut state = self.state();
         state.done += state.units.iter().sum::<f64>();
         suite.name.clone_into(&mut state.suite);
-        // Cases run in parallel, each from coarse to fine. The cheapest levels therefore finish
-        // first.
+        // Cases run in parallel from coarse to fine, so the cheapest levels finish first.
         state.units = unit_seconds(suite, extent);
         state.units.sort_by(|a, b| b.total_cmp(a));
         self.bar.set_message(state.message());
@@ -152,7 +151,7 @@ mod tests {
     #[case::machine_twice_as_slow(40.0, 20.0, 100.0, Some("about 3 min"))]
     #[case(3600.0, 10.0, 100.0, Some("about 9 h"))]
     #[case::longer_than_predicted(10.0, 100.0, 99.0, Some("about 0 s"))]
-    fn the_time_left_is_that_of_the_model_at_the_pace_so_far(
+    fn remaining_time_is_predicted_time_at_the_measured_speed(
         #[case] seconds: f64,
         #[case] done: f64,
         #[case] all: f64,
@@ -169,7 +168,7 @@ mod tests {
     )]
     #[case(&["run", "--full", "mms-*"], false, "`mpm-verify run --full 'mms-*' --resume kept`")]
     #[case(&[], false, "`mpm-verify run --resume kept`")]
-    fn the_note_has_a_line_that_can_be_pasted(
+    fn note_contains_the_command_to_resume(
         #[case] words: &[&str],
         #[case] kept: bool,
         #[case] wanted: &str,

@@ -17,7 +17,7 @@ pub(crate) fn boundary(problem: &Problem, survey: &Survey) -> Result<f64, Violat
     conditions(problem, &problem.faces, survey)
 }
 
-/// Checks some of the `faces` of the body, like [`boundary`].
+/// Checks some of the `faces` of the body, as [`boundary`] does.
 pub(super) fn conditions(
     problem: &Problem,
     faces: &[Face],
@@ -29,7 +29,7 @@ pub(super) fn conditions(
         let on_face = OnFace::new(&problem.from, &problem.to, face.axis, face.high);
         let extent = on_face.extent(&survey::extent(problem));
         let mut found = LargestViolation::default();
-        // Sample all axes, because a load may vary along an axis along which the motion is
+        // All axes are sampled, because a load may vary along an axis on which the motion is
         // constant.
         for event in extent.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);

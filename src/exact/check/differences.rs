@@ -26,8 +26,8 @@ pub(crate) fn step(extent: f64, largest: &[f64]) -> f64 {
     scales.filter(|scale| *scale > 0.0).fold(STEP * extent, f64::min)
 }
 
-/// Runs `check` at groups of three successive `events`. Reports a violation only if all three fail,
-/// because finite differences are wrong at a kink such as a wave front.
+/// Runs `check` at groups of three successive `events`. Reports a violation only if all three
+/// checks fail, because finite differences are wrong at a kink such as a wave front.
 pub(crate) fn away_from_kinks<'a>(
     events: impl ExactSizeIterator<Item = &'a Event>,
     check: impl Fn(&Event) -> Result<(), Violation>,
@@ -64,8 +64,7 @@ fn differences(problem: &Problem, event: &Event, sizes: &Magnitudes) -> Result<(
         let allowed = DIFFERENCE_TOLERANCE * speed;
         let slope = (high - low) / (2.0 * step);
         event.judge(allowed, name.clone(), (slope, all.velocity[i]), "m/s")?;
-        // The second difference divides the rounding error of u by step^2. This error is about
-        // 1e-16 times the largest term in the formula of u, such as X in X*(cos(w*t) - 1).
+        // The second difference divides the rounding error of u by step^2.
         let known = 1e-13 * (low.abs() + mid.abs() + high.abs()) + 1e-15 * largest_coordinate;
         let rounding = known / (step * step);
         let allowed = DIFFERENCE_TOLERANCE * acceleration + rounding;

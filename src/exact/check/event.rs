@@ -29,7 +29,8 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Like [`judge`](Self::judge), for a `condition` that the violation reports as violated.
+    /// Refuses like [`judge`](Self::judge), with a `condition` that the violation reports as
+    /// violated.
     pub(crate) fn judge_condition(
         &self,
         allowed: f64,
@@ -87,11 +88,11 @@ pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }
 
-/// Number of events in a body if large terms are confined to a small part of the body.
+/// Number of events in a body if only a small part of it has large terms.
 pub(crate) const EVENTS: usize = 4096;
 
-/// Number of events on a face, or on another part with fewer dimensions than the body, if large
-/// terms are confined to a small part of the body.
+/// Number of events on a face, or on another part with fewer dimensions than the body, if only a
+/// small part of the body has large terms.
 pub(crate) const FACE_EVENTS: usize = 1024;
 
 /// Divisor of [`EVENTS`] and [`FACE_EVENTS`] if terms are large in a large part of the body.

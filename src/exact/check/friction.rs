@@ -1,8 +1,7 @@
 //! Checks Coulomb friction at a point of a face. The wall exerts pressure but no tension, the face
 //! does not penetrate the wall, and sliding is resisted by mu times the pressure.
 //!
-//! Forces are per reference area. Coulomb's law is unaffected, because it compares forces on one
-//! area.
+//! Forces are per reference area, which does not affect Coulomb's law.
 
 use super::event::{AXES, Event};
 use crate::exact::condition::Face;

@@ -6,8 +6,8 @@
 //! sliding.
 //!
 //! One formula may describe several bodies and jump at their interface. The motion at the face is
-//! therefore a one-sided limit: an expansion about a point inside the body, at a distance of 1e-9
-//! body lengths from the face.
+//! therefore expanded about a point inside the body, at a distance of 1e-9 body lengths from the
+//! face.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
 use super::friction::{InterfaceTraction, coulomb};
@@ -18,8 +18,8 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Condition on a face next to another body. It requires nothing of one body alone, because
-/// [`meets`] checks both bodies together.
+/// Condition on a face next to another body. It requires nothing of one body alone; [`meets`]
+/// checks both bodies together.
 #[derive(Debug)]
 pub struct Interface;
 

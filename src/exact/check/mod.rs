@@ -25,7 +25,8 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Like [`check`](Self::check), with a `survey` whose magnitudes are maxima over all bodies.
+    /// Checks the motion as in [`check`](Self::check), with a `survey` whose magnitudes are maxima
+    /// over all bodies.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -75,8 +76,7 @@ mod tests {
     use rstest::rstest;
 
     /// A small-amplitude wave in Tait's fluid between walls. The residual is K u_XX times 8 u_X,
-    /// compared with a sum of inertia and stress of 2 K u_XX. The product of sine and cosine is at
-    /// most 1/2.
+    /// compared with a sum of inertia and stress of 2 K u_XX.
     #[rstest]
     #[case(1e-3)]
     #[case(1e-6)]

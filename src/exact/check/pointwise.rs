@@ -1,7 +1,7 @@
 //! Checks of a motion at points: initial conditions, equation of motion, rims and loading path.
 //!
-//! On a rim, the boundary of a body that is not a box, P n = 0 or, under a pressure p, P n = -p J
-//! F^-T n.
+//! A rim is the boundary of a body that is not a box. There `P n = 0` or, under a pressure p,
+//! `P n = -p J F^-T n`.
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
@@ -60,7 +60,7 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
 }
 
 /// Returns component i of an initial condition, from the formulas `stated` if there are any.
-/// Otherwise it is the value of the `motion` if the problem follows the motion, and zero if not.
+/// Otherwise returns the value of the `motion` if the problem follows the motion, and zero if not.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -129,7 +129,7 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
             let pressure: f64 =
                 pressed.iter().map(|formula| formula.eval(&values[..=event.label.len()])).sum();
             let size = survey.largest.stress.max(pressure.abs());
-            // J F^-T n is linear in n, so it follows from the values along the axes.
+            // The area vector J F^-T n is linear in n, so the vectors of the axes determine it.
             let areas: Vec<[f64; 3]> = (0..problem.dimension())
                 .map(|axis| problem.equation.present_area(&now.grad, axis, true))
                 .collect();

@@ -1,9 +1,9 @@
 //! Samples a problem: positions and times of the checks, and the largest terms.
 //!
 //! Events are distributed evenly over the body and the run. If terms are large only in a small
-//! part, more events are used, and further events are placed close to the largest terms. This
-//! resolves pulses that are much narrower than the body. Residuals are relative to the largest term
-//! of the whole survey, because all terms far from a pulse are rounding errors.
+//! part, more events are used, and further events are placed close to the largest terms, so that
+//! narrow pulses are resolved. Residuals are relative to the largest term of the whole survey,
+//! because all terms far from a pulse are rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
@@ -15,8 +15,8 @@ const ROUNDS: usize = 8;
 
 const ADDED: usize = 16;
 
-/// A quantity is resolved if it has at least half of its maximum at this share of the evenly
-/// distributed events.
+/// Minimum share of the evenly distributed events at which a resolved quantity has at least half of
+/// its maximum.
 const RESOLVED: f64 = 1.0 / 16.0;
 
 /// Maximum distance of an added event in the first round, relative to the size of the body and the

@@ -1,10 +1,10 @@
 //! Checks the equation of motion in weak form on random space-time patches.
 //!
-//! Waves behind a sudden load have kinks: `u_X` jumps, and the equation holds pointwise on both
-//! sides for any speed of the front. Only the weak form constrains this speed: for any smooth `phi`
-//! that vanishes on the boundary of a patch,
-//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
-//! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
+//! Waves behind a sudden load have kinks, where `u_X` jumps. The pointwise equation holds on both
+//! sides for any speed of the front, and only the weak form constrains this speed. For any smooth
+//! `phi` that vanishes on the boundary of a patch, `int int (rho0 u_t phi_t - P : grad phi + rho0 b
+//! phi) dX dt = 0`. For a body of revolution, dX is replaced by `R dX`, and `P_tT phi` is
+//! subtracted in the radial component.
 //!
 //! If the motion does not vary along an axis, it is evaluated once for all raster points that
 //! differ only along this axis.
@@ -20,7 +20,7 @@ use crate::exact::violation::Violation;
 const PATCHES: usize = 12;
 
 /// Number of patches if the fields are smooth. The pointwise equation then implies the weak form;
-/// the patches only detect a front so steep that no random point lies on it.
+/// the patches only detect a front so steep that it contains no random point.
 const PATCHES_OF_SMOOTH_FIELDS: usize = 2;
 
 pub(crate) fn patches(smooth: bool) -> usize {
@@ -83,10 +83,10 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
 }
 
 /// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it hardly
-/// changes with twice and four times as many points per axis. Otherwise the points do not resolve
-/// the fields, and the check is repeated on the half patch around the largest term.
+/// changes with twice and four times as many points per axis. Otherwise the check is repeated on
+/// the half patch around the largest term.
 ///
-/// `condition` is the beginning of a message and must end with the name of the equation.
+/// `condition` is the beginning of a message and ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(
     mut patch: SpaceTimePatch,
     condition: &str,
@@ -164,9 +164,9 @@ impl Sums {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether the imbalance exceeds [`TOLERANCE`], and imbalance and terms hardly differ from
-    /// those of a `coarse` raster with half as many points per axis. `share` is the number of
-    /// coarse points divided by that of fine points.
+    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from that of a `coarse`
+    /// raster with half as many points per axis. `share` is the number of coarse points divided by
+    /// that of fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -208,8 +208,8 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // For the square root of a constant zero, slopes have NaN derivatives and jets have zero
-        // derivatives.
+        // The square root of a constant zero has NaN derivatives in slopes, and zero derivatives in
+        // jets.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })
@@ -302,7 +302,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn points_along_an_axis_of_no_change_are_one_place() {
+    fn points_that_differ_along_constant_axes_share_a_place() {
         let of = |varying: &[bool; 3]| (0..27).map(|point| place(point, 3, varying)).collect();
         let all: Vec<usize> = of(&[true, true, true]);
         assert!(all.into_iter().eq(0..27));

@@ -9,8 +9,8 @@ use super::unary::Unary;
 #[derive(Debug, Clone)]
 pub struct Expr {
     source: String,
-    /// Children precede their parents, and the root is last. Unlike a tree of boxes, a flat list is
-    /// dropped and cloned without recursion, even for a long chain of `+`.
+    /// Children precede their parents, and the root is last. A flat list is dropped and cloned
+    /// without recursion, even for a long chain of `+`.
     nodes: Vec<Node>,
 }
 

@@ -9,10 +9,9 @@ use super::number::Number;
 use super::program::{Instruction, Operand, read, run};
 use super::scope::Scope;
 
-/// Number of stack registers for short formulas. Clearing these takes less time than clearing
-/// [`MANY`].
+/// Number of stack registers for short formulas, which are cleared faster than [`MANY`].
 const FEW: usize = 8;
-/// Number of stack registers for longer formulas. The longest formulas allocate registers on the
+/// Number of stack registers for longer formulas. Formulas with more registers allocate them on the
 /// heap.
 const MANY: usize = 32;
 

@@ -4,8 +4,8 @@
 //!
 //! Sums are unrolled and registers renamed, so each step is a node that is computed once (static
 //! single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on position or time if one
-//! of its arguments does. Each part of the split keeps the order of its nodes. Every number
-//! therefore results from the same operations as without the split, and is bit-identical.
+//! of its arguments does. The split does not change the operations that lead to a number, so values
+//! are bit-identical.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -276,8 +276,8 @@ impl Homes {
 }
 
 /// Returns the part that computes an input of `reader`. A constant is computed in the part that
-/// uses it, except for constants of the rest. These are computed in the part that depends on time,
-/// because the rest runs most often.
+/// uses it. Constants of the rest are computed in the part that depends on time, because the rest
+/// runs most often.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

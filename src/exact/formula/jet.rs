@@ -88,9 +88,8 @@ impl<const N: usize> Jet<N> {
         self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
     }
 
-    /// Clears the derivatives with respect to variables on which the argument does not depend.
-    /// Otherwise these derivatives would be NaN if the function has an infinite derivative:
-    /// infinity times 0.
+    /// Clears the derivatives with respect to variables on which the argument does not depend. If
+    /// the function has an infinite derivative, these would be NaN, infinity times 0.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,
@@ -142,7 +141,6 @@ impl<const N: usize> Sub for Jet<N> {
     }
 }
 
-// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Mul for Jet<N> {
     type Output = Self;
@@ -160,14 +158,12 @@ impl<const N: usize> Mul for Jet<N> {
     }
 }
 
-// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Div for Jet<N> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a. This equation is differentiated and solved for q' and q''.
-    /// Far from a pulse such as `1/cosh(x)^2`, the quotient is treated as constant, see
-    /// `is_overflow`.
+    /// A quotient far from a pulse such as `1/cosh(x)^2` counts as constant, see `is_overflow`.
     #[inline]
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
@@ -219,7 +215,7 @@ impl<const N: usize> Number for Jet<N> {
         if exponent < 0 && value.abs() < TINY {
             return Self::from(value);
         }
-        // The derivatives of x^0 and x^1 that vanish are set to 0. The general rule would give 0 *
+        // Derivatives of x^0 and x^1 that vanish are set to 0, because the general rule gives 0 *
         // infinity at x = 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         let second = match exponent {
@@ -248,7 +244,7 @@ impl<const N: usize> Number for Jet<N> {
 pub(super) const TINY: f64 = 1e-140;
 
 /// Whether the derivatives of a quotient with this denominator would be quotients of infinities.
-/// Such a quotient is so small that its derivatives do not matter.
+/// Such a quotient counts as constant, because it is tiny.
 #[inline]
 pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
     denominator.abs() > 1.0 / TINY && quotient.abs() < TINY

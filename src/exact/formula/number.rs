@@ -142,7 +142,7 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Number of values per batch. At this size, decoding an instruction costs little compared with the
+/// Number of values per batch, so large that decoding an instruction costs little compared with the
 /// operations.
 const MANY: usize = 8;
 
@@ -230,8 +230,8 @@ impl Div for NumberBatch {
 }
 
 impl Number for NumberBatch {
-    /// Returns the value of the first lane. This suffices because formulas branch only on the index
-    /// of a sum, which is equal in all lanes.
+    /// Returns the value of the first lane. Formulas branch only on the index of a sum, which is
+    /// equal in all lanes.
     #[inline]
     fn value(&self) -> f64 {
         self.0[0]

@@ -1,7 +1,6 @@
 //! Instructions of a bound formula, and their interpreter.
 //!
-//! Sums are loops and user functions are inlined, so there is no recursion. The stack does not grow
-//! with the depth of a formula.
+//! Sums are loops and user functions are inlined, so there is no recursion.
 
 use super::builtin::Binary;
 use super::number::Number;
@@ -68,7 +67,7 @@ pub(super) fn run<T: Number>(
     variables: &[T],
     registers: &mut [T],
 ) {
-    // Operands are accessed by reference, because copying a jet takes longer than many actions.
+    // Operands are accessed by reference, because copying a jet is slow.
     macro_rules! operand {
         ($operand:expr, $constant:ident) => {
             match *$operand {

@@ -15,7 +15,7 @@ pub struct Scope {
     tables: BTreeMap<String, Tabulated>,
     /// Names defined as expressions of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
-    /// The free variable of formulas. Functions and definitions may use this variable as well.
+    /// The free variable, which functions and definitions may also use.
     free: Option<String>,
 }
 
@@ -52,8 +52,8 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares `name` as the free variable. Functions and definitions may use this variable as
-    /// well. Formulas are then bound with `name` among their variables.
+    /// Declares `name` as the free variable, which functions and definitions may also use. Formulas
+    /// are then bound with `name` among their variables.
     ///
     /// # Errors
     /// When `name` is invalid or taken.
@@ -212,7 +212,7 @@ impl Scope {
     }
 }
 
-/// Creates the expression of a table: its first value plus the rise over each interval.
+/// Creates the expression of a table: its first value plus the rise in each interval.
 fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
     let rise = |pair: &[(f64, f64)]| {
         let ((from, low), (to, high)) = (pair[0], pair[1]);

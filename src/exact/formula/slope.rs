@@ -9,9 +9,8 @@ use super::unary::Unary;
 /// A value with its first derivatives along `N` directions: a [`Jet`](super::Jet) without second
 /// derivatives, at a third of the cost.
 ///
-/// Results are bit-identical to those of a jet, with one exception. If the derivative of a function
-/// is infinite, a slope that is zero everywhere cannot be distinguished from one that vanishes only
-/// at this point. The derivative is then NaN.
+/// Results are bit-identical to those of a jet, with one exception: if the derivative of a function
+/// is infinite, a gradient component of zero becomes NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope<const N: usize> {
     value: f64,
@@ -94,7 +93,6 @@ impl<const N: usize> Sub for Slope<N> {
     }
 }
 
-// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Mul for Slope<N> {
     type Output = Self;
@@ -106,7 +104,6 @@ impl<const N: usize> Mul for Slope<N> {
     }
 }
 
-// Differentiation rules use several operators.
 #[allow(clippy::suspicious_arithmetic_impl)]
 impl<const N: usize> Div for Slope<N> {
     type Output = Self;

@@ -6,12 +6,11 @@ use super::program::{Action, Operand};
 use super::unary::Unary;
 
 impl Formula {
-    /// Whether the value is an analytic function of all real variables, so that kinks and jumps are
-    /// impossible. This holds for compositions of analytic functions.
+    /// Whether the value is an analytic function of all real variables, without kinks and jumps.
     ///
-    /// A quotient counts as smooth only if its divisor is constant, because a function such as
-    /// `tanh(1/x)` jumps where its divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`,
-    /// does not count as smooth.
+    /// A quotient counts as smooth only if its divisor is constant, because for example `tanh(1/x)`
+    /// jumps where the divisor is zero. Similarly, `exp(ln(x^2)/2)`, which is `abs(x)`, does not
+    /// count as smooth.
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);
@@ -30,8 +29,8 @@ impl Formula {
     /// Returns whether each register depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
-        // A `sum` of the formula reads values of its previous iteration, so the loop below is
-        // repeated.
+        // An iteration of a formula's `sum` reads registers that the previous iteration wrote, so
+        // the loop below repeats until nothing changes.
         loop {
             let before = varying.clone();
             for step in self.code() {

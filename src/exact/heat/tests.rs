@@ -94,7 +94,7 @@ fn a_decaying_mode_passes(#[case] dimension: usize, #[case] temperature: &str) {
 }
 
 #[test]
-fn a_mode_that_decays_at_another_rate_is_refused() {
+fn mode_with_a_wrong_decay_rate_is_refused() {
     let found = refused(&insulated(1, "cos(pi*X)*exp(-5*t)"), "heat equation");
     assert_eq!(found.unit, "W/kg");
 }
@@ -112,7 +112,7 @@ fn a_stated_source_is_part_of_the_equation() {
 
 /// The source term `-4 rho0 c (T - 5)` adds 4/s to the decay rate of a mode.
 #[rstest]
-fn a_source_of_the_temperature_is_that_of_the_truth(#[values(1, 2, 3)] dimension: usize) {
+fn source_may_depend_on_the_exact_temperature(#[values(1, 2, 3)] dimension: usize) {
     let fin = |source: &str| Conduction {
         source: Some(bind_to(&["t", "T"], source, dimension)),
         ..insulated(dimension, "5 + cos(pi*X)*exp(-(pi^2/2 + 4)*t)")
@@ -133,7 +133,6 @@ fn heat_flows_through_a_periodic_face() {
     refused(&ring("5 + cos(pi*X)*exp(-t)"), "is periodic, but the temperature");
 }
 
-/// The kink is detected at any mean temperature.
 #[rstest]
 fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
     let kink = format!("{warm} + abs(X - 0.4)");
@@ -145,7 +144,7 @@ fn a_warm_body_hides_no_kink(#[values("0", "1e6")] warm: &str) {
 
 /// The equation holds on both sides of the kink, but the kink itself releases heat.
 #[test]
-fn a_kink_is_seen_by_the_weak_form() {
+fn weak_form_detects_a_kink() {
     let hold = |value: &str| Ends::Temperature(bind(value, 1));
     refused(&bar("abs(X - 0.4)", [hold("0.4"), hold("0.6")]), "heat balance");
 }
@@ -171,7 +170,6 @@ fn a_wrong_condition_on_a_face_is_refused(#[case] wrong: Ends, #[case] words: &s
     }
 }
 
-/// A jump is detected for any magnitude of the temperature.
 #[rstest]
 fn heat_goes_on_beyond_a_periodic_face(#[values("1e-6", "1", "1e6")] size: &str) {
     let bar = |shape: &str| bar(&format!("{size}*{shape}"), [Ends::Periodic, Ends::Periodic]);
@@ -203,13 +201,13 @@ fn the_start_is_held_to_what_is_stated() {
 #[rstest]
 #[case("0*X", "zero everywhere")]
 #[case("ln(-1 - X)", "finite")]
-fn no_temperature_is_none(#[case] temperature: &str, #[case] words: &str) {
+fn temperature_without_values_is_refused(#[case] temperature: &str, #[case] words: &str) {
     refused(&insulated(1, temperature), words);
 }
 
 /// For `X + u = (1 + t/2) X`, heat flows over a longer distance: `J C^-1 = 1/(1 + t/2)`.
 #[test]
-fn heat_flows_where_the_body_is_now() {
+fn heat_flows_in_the_current_configuration() {
     let stretched = |source: &str| Conduction {
         motion: Some(Motion::new(vec![bind("X*t/2", 1)])),
         source: Some(bind(source, 1)),
@@ -234,7 +232,7 @@ fn shear_turns_the_flow() {
 
 /// The source during a run is bit-identical to a single evaluation.
 #[rstest]
-fn the_source_of_a_run_is_the_source(
+fn source_of_a_run_is_bit_identical_to_single_evaluations(
     #[values(1, 2, 3)] dimension: usize,
     #[values(false, true)] moves: bool,
 ) {

@@ -12,8 +12,8 @@
 //! eps = eps_y + lambda ln(p/p_y) + D ln((M^2 + eta^2)/(M^2 + eta_y^2))
 //! ```
 //!
-//! C has one root below -M, one above M, and one in between. The root in between is the constant
-//! ratio of the K0 line. The path approaches this line. Partial fractions give `ln p`.
+//! C has one root below -M, one above M, and one in between, which is the constant ratio of the K0
+//! line. The path approaches this line. Partial fractions give `ln p`.
 
 use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
@@ -129,9 +129,9 @@ impl CamClayLaw {
         2.0 * self.ratio * (1.0 - self.initial_pressure / self.yields[0])
     }
 
-    /// Computes the state after the distance between `eta` and the ratio of the K0 line has
-    /// decreased by the factor `exp(-u)` since yield. Returns `ln(p/p_y)`, the compaction after
-    /// yield, and the ratio.
+    /// Computes the state at which the distance between `eta` and the ratio of the K0 line is
+    /// `exp(-u)` times the distance at yield. Returns `ln(p/p_y)`, the compaction after yield, and
+    /// the ratio.
     fn beyond_yield(&self, u: f64) -> [f64; 3] {
         let (start, m2, [limit, weight]) =
             (self.ratio_at_yield(), self.slope * self.slope, self.poles[0]);
@@ -253,8 +253,8 @@ mod tests {
         piola * libm::exp(strain)
     }
 
-    /// Compares with values from an independent program: the constant ratio of the K0 line, and the
-    /// mean stress of a path that starts isotropically at its preconsolidation pressure.
+    /// Compares the constant ratio of the K0 line, and the mean stress of a path from an isotropic
+    /// state, with values from an independent program.
     #[test]
     fn a_path_from_an_isotropic_state_approaches_the_k0_line() {
         let law = clay(100.0);
@@ -267,7 +267,7 @@ mod tests {
     /// The plastic strain rates along the path, from central differences, satisfy the flow rule,
     /// the elastic law, the hardening rule and zero lateral strain.
     #[rstest]
-    fn the_path_obeys_the_rates_of_the_law(
+    fn path_satisfies_the_rate_equations(
         #[values(100.0, 150.0, 400.0)] preconsolidation: f64,
         #[values(0.001, 0.02, 0.1, 0.3)] beyond: f64,
     ) {
@@ -291,7 +291,7 @@ mod tests {
 
     /// The stress is elastic up to yield, continuous at yield, and undefined for softening clay.
     #[test]
-    fn yield_is_on_the_elastic_path() {
+    fn yield_point_lies_on_the_elastic_path() {
         let law = clay(150.0);
         let p = law.yields[0];
         let q = 1.2 * (p - 100.0);
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[rstest]
-    fn stress_has_its_slope(#[values(-0.005, -0.05, -0.2)] strain: f64) {
+    fn stress_slope_agrees_with_differences(#[values(-0.005, -0.05, -0.2)] strain: f64) {
         let (law, step) = (clay(150.0), 1e-6);
         let grad = Slope::<1>::variable(libm::expm1(strain), 0);
         let [[piola]] = law.piola(&[[grad]]);

@@ -3,8 +3,8 @@
 use crate::exact::formula::Number;
 use crate::exact::tensor::Tensor;
 
-/// A law between the displacement gradient and the first Piola-Kirchhoff stress, generic over
-/// [`Number`]. Evaluation with slopes gives the divergence of P by automatic differentiation.
+/// A law between the displacement gradient and the first Piola-Kirchhoff stress P, generic over
+/// [`Number`]. With slopes, automatic differentiation gives the divergence of P.
 pub(super) trait ConstitutiveLaw {
     /// Name of the equation of motion in suites.
     const NAME: &'static str;

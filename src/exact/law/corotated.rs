@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn rotation_is_that_of_the_polar_decomposition() {
+    fn rotation_agrees_with_the_polar_decomposition() {
         let f: Tensor<f64> = [[1.2, -0.7, 0.3], [0.4, 0.8, 0.1], [-0.2, 0.5, 1.6]];
         let turn = rotation(&f);
         let back: Tensor<f64> = tensor(|i, j| turn[j][i]);
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
+    fn vanishing_shear_still_has_a_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];
         second[0][1][1] = 1.0;
         let law = CorotatedLaw::new(50.0, 0.3);

@@ -7,8 +7,8 @@
 //! d tau11/de = M - (K eta + s A)(K etab + s A)/D
 //! ```
 //!
-//! After yield both invariants are linear in the strain. Per unit strain, `sqrt(J2)` changes by
-//! `A - mu g` and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
+//! Both invariants are then linear in the strain. Per unit strain, `sqrt(J2)` changes by `A - mu g`
+//! and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
@@ -69,7 +69,10 @@ mod tests {
     #[case::large(-0.05, -724.590_901_326_6)]
     #[case::extension(0.0012, 19.191_532_825_0)]
     #[case::apex(0.005, 100.0 / 3.0)]
-    fn uniaxial_strain_has_its_stress(#[case] strain: f64, #[case] tau: f64) {
+    fn stress_in_uniaxial_strain_matches_an_independent_program(
+        #[case] strain: f64,
+        #[case] tau: f64,
+    ) {
         let law = DruckerPragerLaw::new(15e3, 0.25, 0.3, 0.1, 10.0);
         let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
         assert_relative_eq!(piola * libm::exp(strain), tau, max_relative = 1e-10);

@@ -38,7 +38,7 @@ impl ConstitutiveLaw for GreenNaghdiLaw {
             let (cos, sin) = (Number::cos(double), Number::sin(double));
             let log = Number::ln(Number::cos(beta));
             let (half, square) = (Number::tan(beta), Number::sin(beta) * Number::sin(beta));
-            // The product of cos(2 beta) and tan(2 beta), also where the tangent is infinite.
+            // Product of cos(2 beta) and tan(2 beta), finite even where the tangent is infinite.
             let shear = T::from(2.0) * (cos * (double - half) - T::from(2.0) * sin * log);
             [T::from(4.0) * mu * (cos * log + beta * sin - square), mu * shear]
         })
@@ -62,7 +62,7 @@ mod tests {
     #[rstest]
     #[case(1.0, [0.415_900_087_2, 0.869_783_943_7])]
     #[case(3.0, [1.766_203_744_6, 1.817_834_265_2])]
-    fn simple_shear_has_the_values_of_an_independent_program(
+    fn stress_in_simple_shear_matches_an_independent_program(
         #[case] gamma: f64,
         #[case] tau: [f64; 2],
     ) {

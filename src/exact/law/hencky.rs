@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn shear_that_vanishes_at_a_point_still_has_its_derivative() {
+    fn vanishing_shear_still_has_a_derivative() {
         let mut second = [[[0.0; 3]; 3]; 3];
         second[0][1][1] = 1.0;
         let law = HenckyLaw::new(50.0, 0.3);

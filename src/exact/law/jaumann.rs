@@ -51,7 +51,7 @@ mod tests {
     #[rstest]
     #[case(1.0, [0.459_697_694_1, 0.841_470_984_8])]
     #[case(3.0, [1.989_992_496_6, 0.141_120_008_1])]
-    fn simple_shear_has_the_values_of_an_independent_program(
+    fn stress_in_simple_shear_matches_an_independent_program(
         #[case] gamma: f64,
         #[case] tau: [f64; 2],
     ) {

@@ -8,7 +8,7 @@ mod registry;
 mod simple_shear;
 /// The law that `docs/exercises/material.md` adds.
 #[cfg(test)]
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/st_venant_kirchhoff_law.rs"]
 mod st_venant_kirchhoff_law;
 mod uniaxial_flow;

@@ -3,9 +3,9 @@
 //! The two lateral stresses are equal, so the state is on an edge of the yield surface, where two
 //! planes flow with the same multiplier `g`. With `s = sin(phi)`, `t = sin(psi)` and Lame's first
 //! parameter L, the yield condition is `(1 + s) tau_high - (1 - s) tau_low = 2 c cos(phi)`. Per
-//! unit strain, the flow reduces the axial stress by `g (4 L t + 4 mu (1 + t))` if it is the
-//! largest stress, and increases it by `g (4 mu (1 - t) - 4 L t)` if it is the smallest. Half of
-//! the shear part is transferred to or from the lateral stresses.
+//! unit strain, the flow changes the axial stress by `-g (4 L t + 4 mu (1 + t))` if it is the
+//! largest stress, and by `g (4 mu (1 - t) - 4 L t)` if it is the smallest. The lateral stresses
+//! change by half of the shear part, with opposite sign.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
@@ -90,7 +90,7 @@ mod tests {
     #[case::without_dilation([20.0, 0.0], -0.01, -165.612_145_902)]
     #[case::extension_without_dilation([20.0, 0.0], 0.001, 17.153_427_590)]
     #[case::tresca([0.0, 0.0], -0.01, -113.333_333_333)]
-    fn uniaxial_strain_has_its_stress(
+    fn stress_in_uniaxial_strain_matches_an_independent_program(
         #[case] angles: [f64; 2],
         #[case] strain: f64,
         #[case] tau: f64,

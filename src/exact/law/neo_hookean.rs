@@ -55,9 +55,8 @@ impl ConstitutiveLaw for NeoHookeanLaw {
     }
 
     /// Solves `lambda (ln J + eps) + mu (exp(2 eps) - 1) = 0` by Newton's method, where J is the
-    /// in-plane value and `eps = ln F_33`. The iteration starts at the zero of the tangent at rest.
-    /// The left side is convex and not negative there, so the iterates decrease monotonically to
-    /// the root until rounding stops them. Two more steps give the derivatives.
+    /// in-plane value and `eps = ln F_33`. The left side is convex, so the iterates decrease
+    /// monotonically to the root until rounding stops them. Two more steps give the derivatives.
     fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
         let log = Number::ln(area(grad));
         let mut eps = -self.0.thinning() * log.value();

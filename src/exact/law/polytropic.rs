@@ -65,7 +65,7 @@ mod tests {
 
     /// p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 and an expansion by 1.5 along one axis.
     #[test]
-    fn pressure_is_a_power_of_the_present_density() {
+    fn pressure_is_a_power_of_the_current_density() {
         let law = PolytropicLaw::new(2.0, 3.0);
         let [[piola]] = law.piola(&[[0.5]]);
         assert_relative_eq!(piola * law.density_factor(3.0), -16.0, max_relative = 1e-15);

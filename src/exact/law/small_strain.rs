@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn small_strains_do_not_tell_cauchy_stress_from_p() {
+    fn cauchy_stress_equals_p_for_small_strains() {
         let solid = Equation::from(SmallStrainLaw::new(100.0, 0.3));
         let grad = [[0.01, 0.02, 0.0], [0.0, -0.01, 0.0], [0.0; 3]];
         assert_eq!(solid.cauchy(&grad), solid.piola(&grad));

@@ -2,8 +2,8 @@
 //!
 //! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and no
 //! hardening. For a yield surface of planes or a cone, the axial Kirchhoff stress is then piecewise
-//! linear in `e`. It is elastic up to yield, then has the elastic-plastic modulus, and is constant
-//! at an apex, where all principal stresses are equal.
+//! linear in `e`: elastic up to yield, then with the elastic-plastic modulus, and constant at an
+//! apex, where all principal stresses are equal.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;

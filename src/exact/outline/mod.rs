@@ -1,7 +1,7 @@
 //! Bodies that are not boxes: round bodies and polygons.
 //!
-//! Rims are the parts of the boundary. They are free, with two exceptions: a pressure may act on a
-//! rim of a round body, and sides of a quadrilateral may lie on a face.
+//! Rims are the parts of the boundary. They are free, except that a pressure may act on a rim of a
+//! round body, and sides of a quadrilateral may lie on a face.
 
 mod piece;
 mod polygon;

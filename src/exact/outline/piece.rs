@@ -4,8 +4,8 @@ use super::ROUNDING;
 use std::collections::BTreeMap;
 
 /// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
-/// neighbour, because a sliver could be the only particle in the support of a node. Such a particle
-/// would limit the time step as much as a cell of its width.
+/// neighbour. As the only particle in the support of a node, it would limit the time step as much
+/// as a cell of its width.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -13,7 +13,7 @@ const LEAST: f64 = 0.25;
 pub enum Cut {
     /// No part of the cell belongs to the body.
     Nothing,
-    /// The outline counts the whole cell as part of the body.
+    /// The whole cell counts as part of the body.
     Whole,
     /// The pieces of the cell that belong to the body.
     Pieces(Vec<Piece>),
@@ -74,10 +74,10 @@ impl Piece {
 }
 
 /// Merges pieces smaller than a quarter of a lattice cell with the neighbour that shares the
-/// longest boundary, starting with the smallest piece. The centroid of a merged piece must lie in
-/// the body (`holds`). `cuts` contains all lattice cells, row by row with `along` cells per row.
-/// The cells have half-lengths `half` (m) around their `centres` (m). Volumes and first moments do
-/// not change.
+/// longest boundary, starting with the smallest piece. Volumes and first moments do not change. The
+/// centroid of a merged piece must lie in the body (`holds`). `cuts` contains all lattice cells,
+/// row by row with `along` cells per row. The cells have half-lengths `half` (m) around their
+/// `centres` (m).
 pub fn join_small(
     cuts: &mut [Cut],
     along: usize,

@@ -106,7 +106,7 @@ impl Outline for Polygon {
         (end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max))
     }
 
-    /// Counts the sides that a ray to the right crosses. The rim belongs to the body.
+    /// Counts the sides that a ray to the right crosses.
     fn holds(&self, label: &[f64]) -> bool {
         let p = [label[0], label[1]];
         let (from, to) = self.ends();
@@ -123,8 +123,7 @@ impl Outline for Polygon {
     }
 
     /// Returns the exact intersection of cell and body, with a particle at the centroid of the
-    /// intersection. The particles have the volume and the first moment of the body, up to
-    /// rounding. The sum of V f(X) over the particles approximates the integral of f to second
+    /// intersection. The sum of V f(X) over the particles approximates the integral of f to second
     /// order in the spacing, also at the rim. If the centroid is outside the body, for example in a
     /// notch, each convex piece becomes a particle.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut {
@@ -183,8 +182,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The square root makes the distribution uniform, because the area of a triangle up to a
-        // distance from its corner grows with the square of the distance.
+        // The square root makes the distribution uniform, because the area of a triangle grows with
+        // the square of the distance from its corner.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 
@@ -247,8 +246,8 @@ impl AreaMoments {
         all
     }
 
-    /// Adds a triangle. The mean of a product of two linear functions over a triangle is 1/12 of a
-    /// sum: their products at the three corners, and the product of their sums over the corners.
+    /// Adds a triangle. The mean of x y over a triangle is 1/12 of the sum of x y at the three
+    /// corners plus the product of the sums of x and of y.
     fn add(&mut self, corners: TriangleCorners) {
         let [a, b, c] = &corners;
         let area = 0.5 * turn(a, b, c);
@@ -286,7 +285,7 @@ pub(super) fn meet(corners: &[Point], first: usize, second: usize) -> bool {
     let n = corners.len();
     let ends = |i: usize| (&corners[i], &corners[(i + 1) % n]);
     let ((a, b), (c, d)) = (ends(first), ends(second));
-    // A side that reverses direction overlaps the previous side.
+    // A side that reverses direction overlaps with the previous side.
     let back = |from: &Point, corner: &Point, to: &Point| {
         let (before, after) = (side(from, corner), side(corner, to));
         turn(from, corner, to) == 0.0 && before[0] * after[0] + before[1] * after[1] < 0.0
@@ -333,8 +332,8 @@ pub(super) fn triangles(corners: &[Point]) -> Vec<TriangleCorners> {
             };
             turn(&a, &b, &c) > 0.0 && left.iter().all(|k| own.contains(k) || !inside(&corners[*k]))
         };
-        // A corner on a straight line is removed first; this removes no area. If rounding hides all
-        // ears, the largest triangle is removed; the sum of signed areas remains correct.
+        // A corner on a straight line is removed first. If rounding hides all ears, the largest
+        // triangle is removed; the sum of signed areas remains correct.
         let area = |i: &usize| at(*i).map(|p| side(&at(*i)[0], &p));
         let area = |i: &usize| cross(&area(i)[1], &area(i)[2]);
         let flat = (0..n).find(|i| area(i) == 0.0);

@@ -123,7 +123,7 @@ impl Outline for Round {
     }
 
     /// Returns the whole lattice cell if its centre is inside the body. The rim becomes a
-    /// staircase; volume and mass have a relative error that decreases with the spacing.
+    /// staircase, with an error of the volume that decreases with the spacing.
     fn cut(&self, centre: &[f64], _: &[f64]) -> Cut {
         if self.holds(centre) { Cut::Whole } else { Cut::Nothing }
     }
@@ -202,8 +202,8 @@ fn direction(angle: f64, height: f64) -> [f64; 3] {
 const PANELS: usize = 8;
 
 /// Computes the volume of the intersection of a ball with this `radius` and the box between `ends`.
-/// The volume is an integral along the last axis. The integrand is the same intersection for a
-/// slice of the ball, which is a ball with one dimension less.
+/// The volume is an integral along the last axis over slices, which are intersections with a ball
+/// of one dimension less.
 pub(super) fn ball_in_box(radius: f64, ends: &[(f64, f64)]) -> f64 {
     let Some((&(low, high), others)) = ends.split_last() else { return 1.0 };
     let (low, high) = (low.max(-radius), high.min(radius));
@@ -279,7 +279,6 @@ mod tests {
         ) {
             let body = Round { centre: vec![3.0, -2.0, 0.5][..d].to_vec(), inner, outer: 1.0 };
             let mut random = Random::new(seed);
-            // The tolerance covers rounding errors of distances.
             let wide = Round { inner: inner - 1e-12, outer: 1.0 + 1e-12, ..body.clone() };
             prop_assert!(wide.holds(&body.point(&mut random)));
             let (centre, half) = body.patch(&mut random);
@@ -346,7 +345,7 @@ mod tests {
     }
 
     proptest! {
-        // Cases that failed before are in tests/proptest-regressions/exact/outline/round.txt.
+        // Cases that failed before: tests/proptest-regressions/exact/outline/round.txt.
         #![proptest_config(ProptestConfig {
             failure_persistence: Some(Box::new(FileFailurePersistence::SourceParallel(
                 "tests/proptest-regressions",
@@ -356,7 +355,7 @@ mod tests {
 
         /// Splits a box at a point. Faces, edges and corners lie inside or outside the ball.
         #[test]
-        fn the_parts_of_a_box_have_its_volume(
+        fn parts_of_a_box_add_up_to_its_volume(
             at in prop::array::uniform3(-1.1..1.1_f64),
             to in prop::array::uniform3(0.1..1.5_f64),
             d in 2..=3_usize,

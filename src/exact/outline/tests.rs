@@ -214,7 +214,10 @@ fn points_are_spread_evenly() {
 #[case::a_side_that_turns_back(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 1.0]], (0, 1))]
 #[case::a_last_side_that_turns_back(&[[1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [3.0, 0.0]], (0, 3))]
 #[case::a_line(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], (0, 2))]
-fn it_is_no_simple_polygon(#[case] corners: &[[f64; 2]], #[case] sides: (usize, usize)) {
+fn polygon_that_is_not_simple_is_refused(
+    #[case] corners: &[[f64; 2]],
+    #[case] sides: (usize, usize),
+) {
     assert_eq!(Polygon::new("polygon", corners), Err(sides));
 }
 

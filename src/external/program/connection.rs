@@ -1,8 +1,8 @@
 //! The process of a solver, with limits on its time and memory.
 //!
-//! Two threads read the output of the process, and another one writes its input. The caller is
-//! therefore not blocked by a process that neither reads nor writes. Each thread ends when its pipe
-//! closes, at the latest when the process is killed.
+//! Two threads read the output of the process, and another one writes its input, so that a process
+//! that neither reads nor writes does not block the caller. Each thread ends when its pipe closes,
+//! at the latest when the process is killed.
 
 use super::answer::Answer;
 use super::error::{ProgramError, printable};
@@ -71,8 +71,8 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // A process that has stopped reading will not answer. The missing answer is reported as
-            // the error.
+            // A process that has stopped reading will not answer, and the missing answer is
+            // reported.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -129,8 +129,8 @@ impl Connection {
         })
     }
 
-    /// Returns the next message, if it arrives in time. Also polls whether the process has ended,
-    /// because a child of the process may keep the pipe open.
+    /// Returns the next message, if it arrives in time. A child of the process may keep the pipe
+    /// open, so this function also polls whether the process has ended.
     fn heard(&mut self) -> Result<Result<MessageFrame, ProgramError>, RecvTimeoutError> {
         let start = Instant::now();
         loop {
@@ -154,7 +154,7 @@ impl Connection {
     }
 
     fn with_standard_error(&self, error: ProgramError) -> ProgramError {
-        // The process has ended, but its last output may not have arrived yet.
+        // The process has ended, but its last output may not have arrived.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);

@@ -76,8 +76,8 @@ struct Announced {
     bytes: usize,
 }
 
-/// Returns the number of bytes after the line, as announced by the line. Returns zero for an
-/// invalid message; the parser reports its error later.
+/// Returns the number of bytes after the line, as announced by the line; zero for an invalid
+/// message, which the parser reports later.
 fn announced(line: &[u8]) -> usize {
     // A line without the key "bytes" need not be parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
@@ -112,7 +112,7 @@ pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // The limit is loaded each time, because it can change while a line is read.
+    // Loaded each time, because the limit can change while a line is read.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
         if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }

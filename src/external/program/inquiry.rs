@@ -17,8 +17,8 @@ pub(super) struct Inquiry {
     fields: Option<ProblemFields>,
     faces: Vec<ProblemFace>,
     loads: Vec<ProblemLoad>,
-    /// Reference positions (m) of the particles, or of the solver's own points. These are the
-    /// default points of requests.
+    /// Default points of requests: reference positions (m) of the particles, or of the solver's own
+    /// points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
     /// Body force at `labels`, created by the first request for it.
@@ -129,7 +129,7 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // A load that is equal at all points has a single default point, assigned to body 0.
+            // A load that is equal at all points has one default point, assigned to body 0.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }

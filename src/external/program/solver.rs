@@ -120,9 +120,9 @@ pub(super) struct Started {
     pub(super) bytes: Vec<u8>,
 }
 
-/// Returns the hash of the command, of the files among its arguments, and of the hello message.
-/// Changes in other files that the program reads, such as modules, are detected only if the version
-/// in `hello` changes.
+/// Returns the hash of the command, of the files among its arguments, and of the hello message. If
+/// the program reads other files, such as modules, their changes are detected only by a new version
+/// in `hello`.
 fn identity(command: &[String], hello: &Hello) -> u64 {
     let mut all = DefaultHasher::new();
     (command, format!("{hello:?}")).hash(&mut all);
@@ -262,8 +262,7 @@ impl SolverProgram {
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
         let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // The number is invalid JSON, such as NaN, so the answer cannot be parsed and the index
-            // of the number is unknown.
+            // The answer contains invalid JSON such as NaN, so the index of the number is unknown.
             ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
             error => error,
         });

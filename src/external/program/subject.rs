@@ -13,8 +13,8 @@ use serde_json::json;
 /// Maximum number of requests for values per step, averaged over the steps between two instants.
 pub(super) const QUESTIONS_PER_STEP: u64 = 1000;
 
-/// Returns the maximum length (bytes) of an answer to `problem`. The length is enough for all
-/// columns as decimal text at three times as many points as the problem has particles.
+/// Returns the maximum length (bytes) of an answer to `problem`, enough for all columns as decimal
+/// text at three times as many points as the problem has particles.
 pub(super) fn longest_answer(problem: &LevelProblem) -> usize {
     let (d, points) = (problem.dimension, 1000 + 3 * problem.particles.len());
     32 * points * (3 * d + 2 * d * d + 2)
@@ -34,8 +34,8 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject in a solver process. One message requests all steps up to the next state that is
-/// compared with the exact solution.
+/// A subject in a solver process. One message requests all steps up to the next instant of
+/// comparison with the exact solution.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,

@@ -22,10 +22,8 @@ const UNTIL: f64 = 0.5;
 const DT: f64 = 2e-5;
 
 /// For elements of degree k, the order is k + 1 inside the elements and 2k at the nodes. Lumping
-/// does not reduce the order of the quadratic element. Lumping is equivalent to quadrature at the
-/// Lobatto points, and this quadrature is exact for the mass up to degree 2k - 1. This degree is
-/// sufficient for the order 2k of the frequencies (Fried & Malkus, *Int. J. Solids Struct.* 11,
-/// 1975).
+/// preserves the order 2k, because the quadrature at the Lobatto points to which it is equivalent
+/// is exact for the mass up to degree 2k - 1 (Fried & Malkus, *Int. J. Solids Struct.* 11, 1975).
 #[rstest]
 #[case(Linear, Lumped, Inside, 2.0)]
 #[case(Linear, Consistent, Inside, 2.0)]
@@ -47,8 +45,7 @@ fn the_vibrating_bar_shows_the_formal_order(
     };
     let observed = orders(&[4, 8, 16, 32, 64].map(error));
     println!("{element:?} {mass:?} {sampling:?} {observed:.2?}");
-    // At the nodes of lumped quadratic elements, the first pair of meshes is not yet in the
-    // asymptotic range.
+    // At the nodes of lumped quadratic elements, the first pair of meshes is pre-asymptotic.
     for order in &observed[1..] {
         assert!((order - formal).abs() < 0.25, "{observed:?}");
     }
@@ -68,13 +65,13 @@ fn seen(start: Start, steps: u32) -> [f64; 2] {
     [bar.displacement_at(0.77), bar.velocity_at(0.77)]
 }
 
-/// All runs use the same mesh, so a run with a much smaller step is an accurate reference. From
-/// rest and under a constant load, [`Start::AtZero`] computes the exact motion shifted by half a
-/// step. The displacement is therefore of first order; the velocity is of second order.
+/// A run with a much smaller step on the same mesh is the reference. From rest and under a constant
+/// load, [`Start::AtZero`] computes the exact motion shifted by half a step, so the displacement is
+/// of first order and the velocity of second order.
 #[rstest]
 #[case(Start::AtZero, [1.0, 2.0])]
 #[case(Start::HalfStepBack, [2.0, 2.0])]
-fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
+fn start_determines_the_order_in_time(#[case] start: Start, #[case] formal: [f64; 2]) {
     let reference = seen(Start::HalfStepBack, 51_200);
     for (quantity, formal) in formal.into_iter().enumerate() {
         let error = |steps| (seen(start, steps)[quantity] - reference[quantity]).abs();
@@ -85,7 +82,7 @@ fn the_start_decides_the_order_in_time(#[case] start: Start, #[case] formal: [f6
 }
 
 #[test]
-fn a_change_of_step_keeps_the_second_order() {
+fn change_of_step_preserves_second_order() {
     let exact = seen(Start::HalfStepBack, 51_200);
     let error = |pairs: u32| {
         let mut bar = Bar::new(column(Start::HalfStepBack)).unwrap();
@@ -100,10 +97,9 @@ fn a_change_of_step_keeps_the_second_order() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 0.1), "{observed:?}");
 }
 
-/// A free bar under the growing load `b = 6 t` moves by `u = t^3`. Each step evaluates the load at
-/// the time of the displacements, the start of the step.
+/// A free bar under the load `b = 6 t` moves by `u = t^3`.
 #[test]
-fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
+fn varying_load_is_evaluated_at_the_time_of_the_displacements() {
     let error = |steps| {
         let body_force = Some(pointwise(|_, t| 6.0 * t));
         let setup = BarSetup { body_force, fixed: [false; 2], ..bar_at_rest(1.0, 1e3, 1e3) };
@@ -120,7 +116,11 @@ fn a_varying_load_is_taken_at_the_time_of_the_displacements() {
 #[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]
 #[case(Quadratic, Lumped, 1.0 / libm::sqrt(6.0))]
 #[case(Quadratic, Consistent, 1.0 / libm::sqrt(15.0))]
-fn the_stable_step_is_known(#[case] element: Element, #[case] mass: Mass, #[case] limit: f64) {
+fn stability_limit_agrees_with_theory(
+    #[case] element: Element,
+    #[case] mass: Mass,
+    #[case] limit: f64,
+) {
     let survives = |courant: f64| {
         let mut bar = Bar::new(vibrating_bar(40, element, mass)).unwrap();
         let dt = courant * (25.0 / 40.0) / 10.0;
@@ -166,7 +166,7 @@ fn bits(bar: &Bar) -> (Vec<u64>, String) {
 }
 
 #[rstest]
-fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+fn resumed_run_is_bit_identical(
     #[values(Linear, Quadratic)] element: Element,
     #[values(Lumped, Consistent)] mass: Mass,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,

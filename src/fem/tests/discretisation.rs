@@ -78,7 +78,7 @@ fn gauss_points_are_exact_to_their_degree(#[case] element: Element, #[case] degr
 #[rstest]
 #[case(Element::Linear, 6.0, &[2.0, 1.0, 1.0, 2.0])]
 #[case(Element::Quadratic, 30.0, &[4.0, 2.0, -1.0, 2.0, 16.0, 2.0, -1.0, 2.0, 4.0])]
-fn an_element_has_the_mass_matrix_of_the_textbook(
+fn mass_matrix_of_an_element_matches_the_textbook(
     #[case] element: Element,
     #[case] divisor: f64,
     #[case] expected: &[f64],
@@ -90,7 +90,7 @@ fn an_element_has_the_mass_matrix_of_the_textbook(
 }
 
 #[rstest]
-fn lumping_sums_the_rows_and_keeps_the_mass(
+fn lumping_sums_rows_and_preserves_the_mass(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
 ) {
     let mesh = Mesh::new(1.0, 4.0, 7, element);

@@ -13,10 +13,9 @@ fn neo_hookean(def_grad: f64) -> f64 {
     50.0 * (def_grad - 1.0 / def_grad)
 }
 
-/// Patch test: the discrete space contains a uniform strain, and the stress of this strain is in
-/// equilibrium.
+/// Patch test: a uniform strain is in the discrete space, and its stress is in equilibrium.
 #[rstest]
-fn a_uniform_stretch_stays(
+fn uniform_stretch_remains_in_equilibrium(
     #[values(Element::Linear, Element::Quadratic)] element: Element,
     #[values(Mass::Lumped, Mass::Consistent)] mass: Mass,
     #[values([true, false], [false, true], [false, false])] fixed: [bool; 2],
@@ -87,8 +86,8 @@ fn samples_cover_the_bar(
     }
 }
 
-/// Eight elements have two points and two nodes each. Each pair of a point and a node is visited
-/// once for the strain and once for the forces.
+/// Eight elements have two points and two nodes each, and each pair is visited once for the strain
+/// and once for the forces.
 #[test]
 fn every_visit_is_counted() {
     let mut bar = Bar::new(bar_at_rest(2.0, 100.0, 1.0)).unwrap();
@@ -112,7 +111,7 @@ fn start() -> BarSetup {
     BarSetup { traction: [Some(Box::new(|_| 1.0)), None], ..start() },
     SetupError::TractionAtFixedEnd("left")
 )]
-fn nonsense_is_refused(#[case] setup: BarSetup, #[case] expected: SetupError) {
+fn invalid_setup_is_refused(#[case] setup: BarSetup, #[case] expected: SetupError) {
     assert_eq!(Bar::new(setup).err(), Some(expected));
 }
 
@@ -124,7 +123,7 @@ fn nonsense_is_refused(#[case] setup: BarSetup, #[case] expected: SetupError) {
 #[case::heavy(BarSetup { density: f64::INFINITY, ..start() })]
 #[case::displacement(BarSetup { initial_displacement: Box::new(|_| f64::NAN), ..start() })]
 #[case::velocity(BarSetup { initial_velocity: Box::new(|x| 1.0 / (x - 1.0)), ..start() })]
-fn what_is_not_finite_is_refused(#[case] setup: BarSetup) {
+fn non_finite_setup_is_refused(#[case] setup: BarSetup) {
     assert!(Bar::new(setup).is_err());
 }
 
@@ -137,7 +136,7 @@ fn an_inverted_start_is_refused() {
 
 /// Half of the bar is at rest. The moving half inverts element 4 of 8 within the step.
 #[test]
-fn an_inversion_names_its_element_in_the_step_that_makes_it() {
+fn inversion_is_reported_with_its_element_in_the_same_step() {
     let initial_velocity = Box::new(|x| if x > 0.5 { -10.0 } else { 0.0 });
     let mut bar = Bar::new(BarSetup { initial_velocity, ..start() }).unwrap();
     let failure = bar.step(0.1).unwrap_err();
@@ -152,7 +151,7 @@ fn an_inversion_names_its_element_in_the_step_that_makes_it() {
 #[case::law(BarSetup { law: Box::new(|_| f64::NAN), ..start() }, 1)]
 #[case::body_force(BarSetup { body_force: Some(pointwise(|_, t| 1.0 / t)), ..start() }, 1)]
 #[case::traction(BarSetup { traction: [None, Some(Box::new(|t| 1.0 / t))], ..start() }, 8)]
-fn a_force_that_is_not_finite_names_its_node(
+fn non_finite_force_is_reported_with_its_node(
     #[case] setup: BarSetup,
     #[case] node: usize,
     #[values(Mass::Lumped, Mass::Consistent)] mass: Mass,
@@ -163,7 +162,7 @@ fn a_force_that_is_not_finite_names_its_node(
 }
 
 #[test]
-fn a_step_without_length_in_numbers_is_a_failure() {
+fn nan_step_length_is_a_failure() {
     let initial_velocity = Box::new(|x| x);
     let mut bar = Bar::new(BarSetup { initial_velocity, ..start() }).unwrap();
     let (quantity, site) = ("deformation gradient", Site::Element(0));
@@ -172,7 +171,7 @@ fn a_step_without_length_in_numbers_is_a_failure() {
 
 /// Both ends of the only element are fixed: no node can move, and the step succeeds.
 #[test]
-fn a_bar_without_free_nodes_stands() {
+fn bar_without_free_nodes_does_not_move() {
     let mut bar = Bar::new(BarSetup {
         cells: 1,
         fixed: [true; 2],

@@ -12,9 +12,8 @@
 //!
 //! The eigenvalues of this 2 x 2 matrix satisfy `l^2 - tr l + det = 0`. For every transfer,
 //! `tr = 1 + b - p C^2` and `det = b - q C^2` with the Courant number `C = c dt/h` and coefficients
-//! b, p and q ([`WaveStep`]). The matrix of a step for the particle velocities and stresses has
-//! more eigenvalues: 1, 0, or the FLIP fraction of a blend. Their modes do not affect the grid.
-//! While the eigenvalues are complex, each step multiplies the amplitude by `sqrt(det)`.
+//! b, p and q ([`WaveStep`]). While the eigenvalues are complex, each step multiplies the amplitude
+//! by `sqrt(det)`.
 //!
 //! Sources: von Neumann's analysis of the schemes of Bardenhagen (2002, J. Comput. Phys. 180), of
 //! APIC (Jiang, Schroeder & Teran 2017, J. Comput. Phys. 338), XPIC (Hammerquist & Nairn 2017,
@@ -97,8 +96,7 @@ impl WaveTransfer {
     }
 }
 
-/// The 2 x 2 matrix of a step for one wave, described by its trace and determinant. Both are linear
-/// in the squared Courant number.
+/// The 2 x 2 matrix of a step for one wave, described by its trace and determinant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaveStep {
     theta: f64,
@@ -157,14 +155,12 @@ impl WaveStep {
         self.kept - self.loss * courant * courant
     }
 
-    /// Returns `4 det - tr^2`, which is positive where the eigenvalues are complex.
     fn discriminant(&self, courant: f64) -> f64 {
         let x = courant * courant;
         let lost = 1.0 - self.kept;
         -lost * lost + (self.slope() - self.stiffness * self.stiffness * x) * x
     }
 
-    /// Returns the coefficient of `C^2` in the discriminant.
     fn slope(&self) -> f64 {
         2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
     }
@@ -251,8 +247,8 @@ impl WaveMethod {
 
     /// Returns the number of cells per wavelength above which the phase error stays below
     /// `tolerance`. Waves without a phase ([`WaveStep::complex_range`]) count as exceeding the
-    /// tolerance. `None` if the error exceeds the tolerance at 1e4 cells, or if no wave of two
-    /// cells or more exceeds the tolerance.
+    /// tolerance. `None` if the error exceeds the tolerance at 1e4 cells, or is within the
+    /// tolerance for all waves of two cells or more.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
         let is_within = |cells: f64| {
             let error = self.step(TAU / cells).phase_error(courant);

@@ -1,4 +1,4 @@
-//! Energy ledger: each change of the energy in a step, assigned to one stage of the step.
+//! Energy ledger: the change of the energy in each stage of a step.
 //!
 //! A particle p has the velocity field `u_pi = v_p + C_p (x_i - x_p)` at node i; C_p is zero for a
 //! transfer without an affine field. The kinetic energy is `sum m_p N_i u_pi^2 / 2` for the
@@ -24,10 +24,9 @@
 //! PIC and APIC. For FLIP this entry restores the energy lost in the map to the grid.
 //!
 //! The sum of the entries for internal forces and stored energy is the error of the stress work.
-//! Velocities are half a step behind stresses. The stored energy at the time of the velocities is
-//! therefore the mean of the stored energies before and after the step. Without this mean, the
-//! ledger would have an error of first order in the time step. Sources: Burgess, Sulsky & Brackbill
-//! 1992 (J. Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
+//! Velocities are half a step behind stresses, so the stored energy at the time of the velocities
+//! is the mean of its values before and after the step. Sources: Burgess, Sulsky & Brackbill 1992
+//! (J. Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -151,7 +150,7 @@ impl<const D: usize> Weights<D> {
     }
 }
 
-/// Inverts the second moments; the inverse is zero along an axis without inertia.
+/// Inverts the second moments. The inverse is zero along an axis on which the moment is zero.
 fn inverse<const D: usize>(second: &Matrix<D>, h: f64) -> Matrix<D> {
     let is_small = |axis: usize| !(second[(axis, axis)] > SMALLEST_MOMENT * h * h);
     let whole = if (0..D).any(is_small) { None } else { second.try_inverse() };
@@ -317,7 +316,6 @@ pub fn kinetic_energy<const D: usize>(basis: BasisName, solver: &Solver<D>) -> f
     weights.kinetic(&weights.fields(solver))
 }
 
-/// Returns the stored energy (J); zero if the law has none.
 fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
 }

@@ -1,11 +1,11 @@
 //! Null space of the map to the grid: the part of the particle velocities without nodal momentum.
 //!
 //! With N the map from nodes to particles and M the particle masses, velocities split uniquely into
-//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against
-//! v0, which is in the null space of the map to the grid (Brackbill 1988; Gritton & Berzins 2017,
-//! Comp. Part. Mech. 4). The nodal velocity w is the least-squares fit `N^T M N w = N^T M v`. The
-//! consistent mass matrix `N^T M N` may be singular; conjugate gradients converge nevertheless. The
-//! preconditioner is the lumped mass matrix. Each iteration maps to the grid and back once.
+//! `v = N w + v0`, where v0 gives no momentum to any node, `N^T M v0 = 0`. No force acts against v0
+//! (Brackbill 1988; Gritton & Berzins 2017, Comp. Part. Mech. 4). The nodal velocity w is the
+//! least-squares fit `N^T M N w = N^T M v`. This system is solved by conjugate gradients, which
+//! converge even if `N^T M N` is singular. The preconditioner is the lumped mass matrix. Each
+//! iteration maps to the grid and back once.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -33,7 +33,6 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// Computes the null-space part v0 of the velocities (m/s) by conjugate gradients.
 fn null_part<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,
@@ -68,8 +67,8 @@ fn null_part<const D: usize>(
     rest
 }
 
-/// Computes nodal masses (kg) at the current particle positions. The masses stored in the grid are
-/// those at the positions before the last move.
+/// Computes nodal masses (kg) at the current particle positions. The grid stores the masses from
+/// before the last move.
 fn masses<const D: usize>(
     kernel: &dyn Kernel<D>,
     grid: &Grid<D>,

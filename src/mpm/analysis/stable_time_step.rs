@@ -8,11 +8,8 @@
 //! Under USL an explicit step is stable up to `dt^2 L = 4/(2 - a)`, where a, between 0 and 1, is
 //! the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is stable
 //! for every mode. Under USF and MUSL the strain comes from grid velocities that were mapped to
-//! particles and back. With the maps N to particles and P to nodes, `L = P N M^-1 K`. This operator
+//! particles and back, `L = P N M^-1 K` with the maps N to particles and P to nodes. This operator
 //! stays bounded if a node has little mass.
-//!
-//! The analysis runs the passes of the solver and therefore makes no assumption about basis, mass
-//! matrix, particle positions or law.
 //!
 //! A load that depends on the displacement adds a stiffness k per unit mass to each particle. The
 //! maps to nodes and back are averages, so the load increases the square of a frequency by at most
@@ -151,7 +148,6 @@ impl<const D: usize> Solver<D> {
         strains_by_mapped_velocity(self.setup.scheme, self.setup.transfer.kind())
     }
 
-    /// Returns twice the kinetic energy of nodes with these velocities.
     fn size(&self, field: &[Vector<D>]) -> f64 {
         self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
     }

@@ -83,7 +83,6 @@ impl Spline {
     }
 }
 
-/// Evaluates the linear function centred at 0.
 fn hat(x: f64) -> f64 {
     (1.0 - x.abs()).max(0.0)
 }
@@ -176,7 +175,6 @@ impl WaveSymbols {
     }
 }
 
-/// Returns the squared modulus of a complex number.
 fn square([re, im]: [f64; 2]) -> f64 {
     re * re + im * im
 }

@@ -100,7 +100,6 @@ fn uniform<S: Simd, const K: usize>(simd: S, xi: S::F64x4) -> ([S::F64x4; K], [S
     (value, slope)
 }
 
-/// Evaluates the functions along an axis away from walls, at `xi` from 0 to 1 within a cell.
 #[inline(always)]
 fn along<S: Simd, const K: usize>(
     simd: S,
@@ -147,7 +146,6 @@ fn along_wall<const D: usize, const K: usize>(
     }
 }
 
-/// Checks four particles and recomputes the functions of those near a wall.
 #[cold]
 #[inline(never)]
 fn put_right<const D: usize, const K: usize>(

@@ -108,9 +108,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
-    /// Runs a loop over this basis. Because `run` is a trait method, the loops of each basis file
-    /// are in a separate code-generation unit. A change of one file therefore does not recompile
-    /// the loops of the other bases.
+    /// Runs a loop over this basis. A trait method puts the loops of each basis file in a separate
+    /// code-generation unit, so a change of one file does not recompile the loops of other bases.
     fn run<P: SimdPass>(level: Level, pass: P) {
         simd::run(level, pass);
     }

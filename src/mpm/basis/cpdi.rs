@@ -241,7 +241,7 @@ mod tests {
     /// At the corners, 0.8 and 1.4 cells, the slopes of the middle hat function cancel. The weight
     /// of the middle node therefore has the derivative zero, but `grad N` of this node is not zero.
     #[test]
-    fn the_gradient_is_not_that_of_the_weight() {
+    fn gradient_is_not_the_gradient_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));
         let seen = seen::<Cpdi, 1>(&grid(false), &particle(x, domain));
         for (i, weight, gradient) in
@@ -274,7 +274,7 @@ mod tests {
 
     /// The parallelograms of CPDI tile a sheared body; the boxes of GIMP do not.
     #[test]
-    fn a_uniform_stress_does_not_push_a_sheared_body() {
+    fn uniform_stress_exerts_no_force_inside_a_sheared_body() {
         assert_abs_diff_eq!(push::<Cpdi>(), 0.0, epsilon = 1e-14);
         assert!(push::<crate::mpm::basis::ContiguousGimp>() > 1e-3);
     }
@@ -284,7 +284,7 @@ mod tests {
     #[case::longer_than_the_grid(20.0)]
     #[case::far_longer(1e8)]
     #[case::as_long_as_can_be(1e300)]
-    fn a_long_domain_still_gives_all_of_the_particle(
+    fn weights_of_a_long_domain_sum_to_one(
         #[case] length: f64,
         #[values(false, true)] periodic: bool,
     ) {
@@ -303,7 +303,7 @@ mod tests {
     #[case::a_point(0.0)]
     #[case::infinite(f64::INFINITY)]
     #[case::no_number(f64::NAN)]
-    fn a_domain_without_a_volume_has_no_gradient(
+    fn domain_without_volume_has_nan_gradients(
         #[case] length: f64,
         #[values(false, true)] periodic: bool,
     ) {

@@ -7,9 +7,8 @@
 //! by the diagonal entry of F, so that domains neither separate nor overlap. At walls the domain is
 //! truncated.
 //!
-//! The functions are computed separately for each axis, as hats averaged over a domain from `low`
-//! to `high`. Four particles are processed at a time if their domains have at most three nodes.
-//! Otherwise the loop processes one particle at a time, in groups of three nodes.
+//! Four particles are processed at a time if their domains have at most three nodes along each
+//! axis. Otherwise one particle is processed at a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
@@ -108,7 +107,7 @@ fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> 
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// Wraps first nodes that are before the start of a periodic axis.
+/// Wraps first nodes that lie before the start of a periodic axis.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {
@@ -221,8 +220,8 @@ impl<S: Simd> Domain1dSimd<S> {
     }
 
     /// Evaluates the functions of domains that end before the third node. The branches of
-    /// [`integral`] and [`hat`] are then known in advance, and the results are bit-identical to
-    /// those of [`Domain1d::one_of_many`].
+    /// [`integral`] and [`hat`] are then known in advance. The results are bit-identical to those
+    /// of [`Domain1d::one_of_many`].
     #[inline(always)]
     pub(in crate::mpm) fn along(&self, simd: S, h: f64, inverse_h: f64) -> WeightsSimd<S, AT_ONCE> {
         let (zero, one) = (simd.splat(0.0), simd.splat(1.0));

@@ -14,7 +14,7 @@ use approx::assert_abs_diff_eq;
 use rstest::rstest;
 
 /// The basis added by `docs/exercises/basis.md`.
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/quadratic_bernstein.rs"]
 pub(in crate::mpm) mod exercise;
 
@@ -195,7 +195,11 @@ fn every_basis_obeys_its_laws(#[values(false, true)] periodic: bool) {
 #[case("quadratic_bspline", 0.0, &[1.0, 0.0, 0.0])]
 #[case("quadratic_bspline", 1.5, &[0.125, 0.75, 0.125])]
 #[case("cubic_bspline", 2.0, &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0])]
-fn values_by_hand(#[case] name: &str, #[case] at: f64, #[case] expected: &[f64]) {
+fn values_agree_with_hand_calculations(
+    #[case] name: &str,
+    #[case] at: f64,
+    #[case] expected: &[f64],
+) {
     let name = *BasisName::ALL.iter().find(|basis| basis.name() == name).unwrap();
     let cells = 8;
     with_basis!(name, B => {

@@ -142,7 +142,6 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         if D > 2 { self.row_weights[k][j].get(lane) } else { self.weight(lane, 1, j) }
     }
 
-    /// Adds the terms of `flux . grad` along all axes except the first, for row `j` in plane `k`.
     #[inline(always)]
     fn flux_across<F: Register>(
         &self,
@@ -359,8 +358,8 @@ fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
 }
 
 impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Returns `sum_i field_i N_i`, and for each axis the sum in which `others` replace the
-    /// functions along this axis.
+    /// Returns `sum_i field_i N_i`, and for each axis the same sum with the functions of `others`
+    /// along this axis.
     #[inline(always)]
     pub(super) fn sums<S: Simd>(
         &self,

@@ -151,9 +151,8 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
-    /// the inverse of the variance. Offsets are multiplied by weights before any sum. Otherwise
-    /// rounding would affect the inertia tensor near a wall, where the offset is small and the
-    /// weight is not.
+    /// the inverse of the variance. Offsets are multiplied by weights before any sum, so that
+    /// rounding does not affect the inertia tensor near a wall.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,
@@ -198,7 +197,7 @@ mod tests {
     use crate::mpm::foundation::simd::{LANES, Plain};
 
     #[test]
-    fn an_axis_without_a_moment_has_no_inverse() {
+    fn inverse_is_zero_without_a_second_moment() {
         let mut weights = Weights1dBatch::<2>::NONE;
         for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
             weights.variance.0[LANES + lane] = variance;

@@ -6,9 +6,9 @@ use crate::subject::{Checkpoint, Column};
 
 /// An advance of the grid velocities: `v += dt a`.
 ///
-/// Euler-Cromer is a leapfrog method: the velocities that move positions from t to t + dt belong to
-/// the middle of this interval. A step therefore advances velocities from t - dt/2 to t + dt/2, and
-/// a prescribed velocity is accurate to second order in any scheme. If the run starts from the
+/// Euler-Cromer is a leapfrog method: the velocities that move positions from t to t + dt are those
+/// at the middle of this interval. A step therefore advances velocities from t - dt/2 to t + dt/2,
+/// and a prescribed velocity is accurate to second order in any scheme. If the run starts from the
 /// velocities at t = 0, the first advance is shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advance {

@@ -51,7 +51,6 @@ impl<const D: usize> Boundary<D> for Fixed {
 mod tests {
     use super::*;
 
-    /// Mass matrices and reactions need every prescribed component to be cleared.
     #[test]
     fn all_components_are_held() {
         let grid = Grid::<2>::new(Vector::zeros(), 1.0, [2, 1], [false; 2], [3, 2]);

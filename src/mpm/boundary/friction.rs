@@ -10,8 +10,8 @@
 //! the wall, the node is free. This is the contact law of Bardenhagen, Brackbill & Sulsky (2000,
 //! CMAME 187, section 3) between a body and a fixed wall.
 //!
-//! Nodes store their contact state between two advances. Velocities mapped in this interval are
-//! constrained by the stored state. Contact between two bodies uses the same states.
+//! Nodes store their contact state until the next advance. The stored state constrains velocities
+//! that are mapped in this interval.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;
@@ -182,7 +182,7 @@ mod tests {
     #[case::free([3.0, 5.0], [0.7, 0.2])]
     #[case::slides([3.0, -1.0], [0.7, 0.0])]
     #[case::sticks([0.1, -1.0], [0.0, 0.0])]
-    fn a_node_stays_what_it_was(#[case] v: [f64; 2], #[case] held: [f64; 2]) {
+    fn mapped_velocities_keep_the_contact_state(#[case] v: [f64; 2], #[case] held: [f64; 2]) {
         let (_, _, wall) = advanced(Side::Low, v, [0.0; 2]);
         let mut mapped = [Vector::<2>::new(0.7, 0.2); 4];
         wall.hold_velocity(&mut mapped, 0.5);
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_held_where_velocities_are_no_numbers() {
+    fn nan_velocities_remain_nan() {
         let (velocity, ..) = advanced(Side::Low, [f64::NAN, f64::NAN], [0.0; 2]);
         assert!(velocity.iter().all(|v| v.is_nan()), "the solver names the particle");
     }

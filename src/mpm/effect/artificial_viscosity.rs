@@ -76,8 +76,7 @@ mod tests {
     use crate::mpm::{Block, LinearElastic, Material, Matrix, StressUpdate, Vector};
     use approx::assert_relative_eq;
 
-    /// In each step, one of two particles is compressed and the other one stretched. The roles
-    /// alternate from step to step.
+    /// In each step one of two particles is compressed and the other one is stretched, alternately.
     #[test]
     fn compression_is_resisted_and_nothing_of_it_stays() {
         let block = Block { from: Vector::zeros(), to: Vector::<2>::new(2.0, 1.0), density: 3.0 };
@@ -111,9 +110,8 @@ mod tests {
         }
     }
 
-    /// The stress of an expanding body stays bit-identical.
     #[test]
-    fn expansion_is_free() {
+    fn expansion_causes_no_viscous_pressure() {
         let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };
         let mut body = Particles::fill(&block, 1.0, 1);
         body.sigma[0][(0, 0)] = 0.1;

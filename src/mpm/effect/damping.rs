@@ -3,12 +3,11 @@
 //! `dv/dt = -alpha(t) v` for every material point. Once per step, after G2P, the particle
 //! velocities are multiplied by the exact factor `exp(-alpha dt)`.
 //!
-//! A force `-alpha m_i v_i` on the nodes would not damp the null-space part of the particle
-//! velocities, which FLIP retains. Damping of particles is stable for every alpha, dt, scheme and
-//! transfer. The damping affects strain and positions in the same step with MUSL, and in the next
-//! step with USF and USL. The damping is therefore of first order in time. The damping has no
-//! effect on a body at rest. The affine velocity of APIC is not multiplied by the factor, because
-//! this velocity comes from grid velocities that were mapped from damped velocities.
+//! Damping of particles is stable for every alpha, dt, scheme and transfer. Unlike a force `-alpha
+//! m_i v_i` on the nodes, it also damps the null-space part of the particle velocities, which FLIP
+//! retains. Strain and positions are affected in the same step with MUSL, and in the next step with
+//! USF and USL, so the damping is of first order in time. The affine velocity of APIC is not
+//! multiplied by the factor, because this velocity is computed from damped velocities.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;

@@ -156,7 +156,6 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    /// Visits the state of the particles; the state of the nodes is recomputed in each step.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.slope[..]);
     }

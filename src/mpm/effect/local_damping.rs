@@ -2,13 +2,12 @@
 //!
 //! `f_i <- f_i - zeta |f_i| sign(v_i)` for each component of each node, after all other forces have
 //! been added (Cundall 1987, in Analytical and Computational Methods in Engineering Rock Mechanics,
-//! ch. 4). A body in equilibrium is not damped under any load, and the method needs no estimate of
-//! a frequency. Each mode decays by the same factor per half period, `sqrt((1 - zeta)/(1 + zeta))`,
-//! if all velocities change sign at the same time.
+//! ch. 4). A body in equilibrium is not damped under any load. Each mode decays by the same factor
+//! per half period, `sqrt((1 - zeta)/(1 + zeta))`, if all velocities change sign at the same time.
 //!
 //! The sign is taken from the velocity at the start of the step, half a step behind the forces. The
-//! damping force therefore changes sign up to one step late, and is of first order in time. The
-//! damping acts on nodes and does not affect FLIP velocities without nodal momentum.
+//! damping force therefore changes sign up to one step late, and is of first order in time. FLIP
+//! velocities without nodal momentum are not damped.
 
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;
@@ -47,7 +46,7 @@ mod tests {
     use crate::mpm::Vector;
 
     #[test]
-    fn each_component_is_opposed_by_a_share_of_its_own_force() {
+    fn each_component_is_damped_by_a_share_of_its_own_force() {
         let mut grid = Grid::new(Vector::zeros(), 1.0, [1; 2], [false; 2], [2; 2]);
         grid.velocity[0] = Vector::<2>::new(1.0, -1e-9);
         grid.velocity[1] = Vector::<2>::new(-2.0, 0.0);

@@ -7,7 +7,7 @@ mod hoop;
 mod rim;
 /// The effect added by `docs/exercises/effect.md`.
 #[cfg(test)]
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/spin.rs"]
 mod spin;
 mod surface;
@@ -26,8 +26,7 @@ pub use traction::TractionField;
 
 use crate::members::each_effect;
 
-/// Declares the registry of effects. Each line of [`each_effect`](crate::members) that names an
-/// effect registers this effect.
+/// Declares the registry of effects from the lines of [`each_effect`](crate::members).
 macro_rules! effects {
     ($(
         $(#[$meta:meta])*

@@ -35,7 +35,6 @@ pub(super) struct Facet<const D: usize> {
     area: Vector<D>,
 }
 
-/// Reports do not print the entries of a column of facets.
 impl<const D: usize> Entry for Facet<D> {}
 
 /// Number of arcs per particle spacing along the rim.
@@ -108,7 +107,7 @@ mod tests {
     #[rstest]
     #[case::outer(1.0)]
     #[case::inner(-1.0)]
-    fn facets_have_no_resultant_and_the_length_of_the_rim(#[case] outwards: f64) {
+    fn facets_form_a_closed_curve_with_the_length_of_the_rim(#[case] outwards: f64) {
         let block =
             Block { from: Vector::zeros(), to: Vector::<2>::from([4.0, 4.0]), density: 1.0 };
         let particles = Particles::fill(&block, 0.5, 2);

@@ -92,8 +92,7 @@ impl Surface {
         Vector::from_fn(|i, _| if i == self.axis { self.outwards } else { 0.0 })
     }
 
-    /// Returns the vector from particle `p` to the middle of its part of the face, in the reference
-    /// configuration (m).
+    /// Returns the reference vector (m) from particle `p` to the middle of its part of the face.
     fn to_face<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Vector<D> {
         match self.column {
             Some((column, sign)) => particles.domain0[p].column(column) * sign,
@@ -106,12 +105,10 @@ impl Surface {
         particles.x0[p] + self.to_face(particles, p)
     }
 
-    /// Returns F at the surface above particle `p`.
     pub(super) fn def_grad<const D: usize>(&self, particles: &Particles<D>, p: usize) -> Matrix<D> {
         self.continued(&particles.def_grad, p)
     }
 
-    /// Returns the out-of-plane stretch at the surface above particle `p`.
     pub(super) fn across<const D: usize>(&self, particles: &Particles<D>, p: usize) -> f64 {
         if particles.across.is_empty() { 1.0 } else { self.continued(&particles.across, p) }
     }
@@ -177,7 +174,6 @@ pub(super) fn put_at_surface<const D: usize>(
     arm: Vector<D>,
 ) {
     kernel.p2g_point_force(particles, p, force, grid);
-    // Arm in the configuration in which the basis is evaluated.
     let arm = match particles.def_grad.get(p) {
         Some(f) if particles.current_position.is_empty() => f * arm,
         _ => arm,

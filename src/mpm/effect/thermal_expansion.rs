@@ -152,7 +152,7 @@ mod tests {
 
     /// A fixed bar has the stress `P_e(1/theta)`, where Hencky's law gives `sigma = E ln(Fe)/Fe`.
     #[test]
-    fn a_bar_that_is_held_has_the_stress_of_its_inverse_stretch() {
+    fn fixed_bar_has_the_stress_of_the_inverse_stretch() {
         let mut bar = warm::<1>();
         let mut expansion = ThermalExpansion::of_deformation(0.02, 20.0);
         expansion.start(&mut Hencky::new(50.0, 0.0), &mut bar);
@@ -163,7 +163,7 @@ mod tests {
 
     /// The stress is `-E alpha (T - T0)/(1 - 2 nu)` at the start and after a temperature change.
     #[test]
-    fn a_law_in_rate_form_takes_the_change_off_the_strain() {
+    fn rate_form_subtracts_the_thermal_strain() {
         let (mut plate, mut law) = (warm::<2>(), LinearElastic::new(50.0, 0.3));
         let mut expansion = ThermalExpansion::in_rate_form(1e-3, 20.0, 50.0, 0.3);
         expansion.start(&mut law, &mut plate);

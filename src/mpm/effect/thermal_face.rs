@@ -3,11 +3,10 @@
 //! Every basis of this crate conforms to the walls of the grid: along the normal, one function is 1
 //! at the wall, and all others are 0. The wall nodes therefore have the temperature of the face.
 //! The face area of node i is `sum_p A_p N_i` over the layer of particles at the face, with N_i
-//! evaluated along the face only. Heat enters at the face. If heat entered at the particles half a
-//! spacing inside, the error would be of first order.
+//! evaluated along the face only. Heat enters at the face and not at the particles half a spacing
+//! inside, because that would cause an error of first order.
 //!
-//! Areas are taken in the reference configuration, as for tractions. The face must stay at the end
-//! of the grid.
+//! Areas are taken in the reference configuration. The face must stay at the end of the grid.
 
 use super::surface::{Placement, Surface};
 use crate::mpm::basis::BasisName;

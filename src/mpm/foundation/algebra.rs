@@ -1,7 +1,7 @@
 //! Vectors and matrices in D dimensions.
 //!
-//! The determinant functions of `nalgebra` require trait bounds for generic sizes; the functions
-//! here do not.
+//! Unlike the functions of `nalgebra`, the determinant functions here need no trait bounds for
+//! generic sizes.
 
 use crate::dimension::with_dimension;
 use crate::subject::Entry;
@@ -49,7 +49,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
         2 if i == j => m[(1 - i, 1 - j)],
         2 => -m[(1 - i, 1 - j)],
         3 => {
-            // The next two indices in the cycle 0, 1, 2. With these, no sign factor is needed.
+            // The next two indices in the cycle 0, 1, 2, so that no sign factor is needed.
             let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
             m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
         }
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn cofactors_make_the_inverse() {
+    fn cofactors_give_the_inverse() {
         let m1 = Matrix::<1>::new(2.0);
         let m2 = Matrix::<2>::new(1.5, -0.25, 0.5, 2.0);
         let m3 = Matrix::<3>::new(1.5, -0.25, 0.5, 2.0, 0.75, -1.0, 0.125, 3.0, 1.0);

@@ -40,8 +40,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Whether every number of a column is finite. The check runs on all threads. Without an early
-/// exit, the compiler can vectorise the check.
+/// Whether every number of a column is finite. The loop has no early exit, so that the compiler can
+/// vectorise it.
 pub(in crate::mpm) fn all_finite<const R: usize, const C: usize>(
     column: &[SMatrix<f64, R, C>],
 ) -> bool {
@@ -104,7 +104,7 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    fn the_first_of_many_is_named(
+    fn first_non_finite_particle_is_named(
         #[values(f64::NAN, f64::INFINITY)] wrong: f64,
         #[values(0, FEW + 18, 2 * FEW + 36)] first: usize,
         #[values(1, 3)] threads: usize,
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_of_every_matrix_is_looked_at() {
+    fn every_number_of_every_matrix_is_checked() {
         let sound = [Matrix::<3>::from_element(1e308); 2 * LANES + 3];
         assert!(all_finite(&sound));
         for (p, number) in (0..sound.len()).flat_map(|p| (0..9).map(move |number| (p, number))) {

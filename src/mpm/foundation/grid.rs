@@ -224,7 +224,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn cells_and_places_in_them_add_up(x in -2.0..20.0_f64, periodic: bool) {
+        fn cell_plus_position_in_cell_is_the_position(x in -2.0..20.0_f64, periodic: bool) {
             let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [7], [periodic], [8]);
             let x = Vector::<1>::new(x);
             let found = grid.locate(&x);
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_and_not_a_number_have_no_cell() {
+    fn points_outside_and_nan_have_no_cell() {
         let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [4], [false], [5]);
         for (x, cell) in [(1.0, Some([0])), (3.0, Some([3])), (3.001, None), (f64::NAN, None)] {
             assert_eq!(grid.cell(&Vector::<1>::new(x)), cell, "x = {x}");
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn a_periodic_axis_has_no_outside() {
+    fn every_point_of_a_periodic_axis_has_a_cell() {
         let grid = Grid::<1>::new(Vector::<1>::new(1.0), 0.5, [4], [true], [4]);
         for (x, cell) in [(1.0, 0), (3.0, 0), (0.9, 3), (-7.4, 3), (3.3, 0)] {
             assert_eq!(grid.cell(&Vector::<1>::new(x)), Some([cell]), "x = {x}");

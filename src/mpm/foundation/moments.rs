@@ -50,7 +50,7 @@ pub(in crate::mpm) struct InertiaTensor<const D: usize> {
 
 impl<const D: usize> InertiaTensor<D> {
     /// Computes the moments of products of one-dimensional functions from mean and variance along
-    /// each axis. D_p is diagonal.
+    /// each axis.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
         let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
@@ -97,7 +97,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn an_axis_without_a_moment_has_no_inverse() {
+    fn inverse_is_zero_without_a_second_moment() {
         let found = inverse(Matrix::<2>::new(0.25, 0.0, 0.0, 1e-20), 1e-13);
         assert_relative_eq!(found, Matrix::<2>::new(4.0, 0.0, 0.0, 0.0));
     }

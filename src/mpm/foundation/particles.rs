@@ -37,8 +37,8 @@ pub struct Particles<const D: usize> {
     pub stress_across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix, F diag(spacing)/2, are the vectors from the particle to the middles
-    /// of the faces of its domain (m). Domains are updated from F only when the particles move. If
-    /// a domain changed within a step, nodes without mass could receive forces.
+    /// of the faces of its domain (m). Domains are updated from F only when the particles move,
+    /// because otherwise nodes without mass could receive forces.
     pub domain: Vec<Matrix<D>>,
     /// Domains in the reference configuration; empty if all are boxes of the size `spacing`.
     pub domain0: Vec<Matrix<D>>,
@@ -234,8 +234,7 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Returns the centre of part `p`, computed from the index of the part to avoid accumulated
-/// rounding.
+/// Returns the centre of part `p`, computed from its index to avoid accumulated rounding.
 fn centre<const D: usize>(
     mut p: usize,
     block: &Block<D>,
@@ -273,8 +272,8 @@ impl<const D: usize> Particles<D> {
         self.x.clone_from(&self.x0);
     }
 
-    /// Returns stress times volume (N m) of particle `p`, the factor of basis gradients in the
-    /// internal force: V sigma, or V0 P = V sigma F^-T in the total-Lagrangian frame.
+    /// Returns stress times volume (N m) of particle `p`: V sigma, or V0 P = V sigma F^-T in the
+    /// total-Lagrangian frame. The internal force is this flux times basis gradients.
     #[inline(always)]
     pub fn flux(&self, p: usize) -> Matrix<D> {
         let flux = self.sigma[p] * self.vol[p];
@@ -301,7 +300,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn a_body_is_filled_with_its_own_mass() {
+    fn filled_body_has_its_exact_mass() {
         let (from, to) = (Vector::<2>::new(0.0, 1.0), Vector::<2>::new(1.0, 3.0));
         let block = Block { from, to, density: 3.0 };
         let particles = Particles::fill(&block, 0.25, 2);
@@ -311,13 +310,12 @@ mod tests {
     }
 
     #[test]
-    fn a_round_body_keeps_whole_shares_of_the_lattice() {
+    fn round_body_has_whole_lattice_cells() {
         let (from, to) = (Vector::<2>::new(-2.0, -2.0), Vector::<2>::new(2.0, 2.0));
         let block = Block { from, to, density: 1.0 };
         let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
         let particles = Particles::fill_where(&block, 0.125, 2, ring);
-        // The unit is half a spacing: the centres are odd numbers and the radii are 24 and 40, so
-        // the test is exact in integers.
+        // The unit is half a spacing: the centres are odd numbers and the radii are 24 and 40.
         let odd = || (-63..64_i32).step_by(2);
         let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
         let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();
@@ -326,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_does_not_end_on_a_node_keeps_its_length() {
+    fn filled_body_keeps_its_length_between_nodes() {
         let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(1.0));
         let particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.15 / 20.0, 10);
         assert_eq!(particles.len(), 174);

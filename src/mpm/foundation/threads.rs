@@ -22,8 +22,7 @@ fn call_once(work: &mut Option<impl FnOnce()>) {
     }
 }
 
-/// Joins closures behind pointers, so that `rayon::join` is compiled once instead of once per pair
-/// of closures.
+/// Joins closures behind pointers, so that `rayon::join` is compiled only once.
 fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }
@@ -80,7 +79,7 @@ mod tests {
     use rstest::rstest;
 
     #[rstest]
-    fn each_row_is_met_once(
+    fn each_row_is_visited_once(
         #[values(0, 1, 7, 8, 9, 1000)] total: usize,
         #[values(1, 8)] length: usize,
         #[values(1, 3)] threads: usize,

@@ -135,7 +135,7 @@ pub(super) fn columns<S: Simd, const D: usize>(
     })
 }
 
-/// Writes the columns of a matrix, which start at lane `from`. Each number is written separately,
+/// Writes the columns of a matrix, which start at lane `from`. Numbers are written one by one,
 /// because store-to-load forwarding fails for a matrix that is stored as a whole.
 #[inline(always)]
 pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(

@@ -1,13 +1,12 @@
 //! Blocks of particles in two colours, for P2G on several threads.
 //!
-//! The last axis divides the nodes into layers. Particles that are neighbours in memory mostly have
-//! nodes in neighbouring layers. The particles of a large body are therefore divided into
-//! consecutive blocks of alternating colour, even and odd. Blocks of one colour have no common node
-//! and run in parallel. An odd block then adds to the sums of its even neighbours.
+//! The last axis divides the nodes into layers. The particles of a large body are divided into
+//! consecutive blocks of alternating colour, even and odd, because neighbours in memory mostly have
+//! nodes in neighbouring layers. Blocks of one colour have no common node and run in parallel. An
+//! odd block then adds to the sums of its even neighbours.
 //!
-//! The division, and therefore the bits of the results, depend only on the particles, not on the
-//! number of threads. A small body, or a body whose particles are not in spatial order, is one
-//! block.
+//! The division, and therefore the rounding of the results, does not depend on the number of
+//! threads. A small body, or a body whose particles are not in spatial order, is one block.
 
 use super::contract::LoopSettings;
 use crate::mpm::basis::{Basis, Domain};
@@ -19,8 +18,7 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::RowChunks;
 use std::ops::Range;
 
-/// Number of chunks in the smallest block. A chunk is a group of consecutive particles, and a block
-/// consists of whole chunks.
+/// Number of chunks in the smallest block. A chunk is a group of consecutive particles.
 const CHUNKS: usize = 8;
 
 /// Number of minima and maxima that one loop over positions computes in parallel.
@@ -73,8 +71,8 @@ impl Span {
     ) -> Self {
         let (mut span, x) = (Self::NONE, &particles.x[these.clone()]);
         if B::DOMAIN == Domain::Point {
-            // With a single minimum, each comparison would wait for the previous one. Several
-            // minima are therefore computed in parallel.
+            // Several minima are computed in parallel, because each comparison of a single minimum
+            // would wait for the previous one.
             let (many, rest) = x.as_chunks::<TOGETHER>();
             let mut spans = [span; TOGETHER];
             for several in many {
@@ -245,7 +243,7 @@ mod tests {
     }
 
     #[rstest]
-    fn a_long_body_is_cut(#[values(false, true)] periodic: bool) {
+    fn long_body_is_divided_into_blocks(#[values(false, true)] periodic: bool) {
         for &name in BasisName::ALL {
             with_basis!(name, B => is_cut_in_every_dimension::<B>(periodic));
         }

@@ -1,9 +1,9 @@
 //! Passes over particles and nodes, the building blocks of transfers, mass matrices and effects.
 //!
 //! [`Kernel`] is object-safe: there is one virtual call per pass, none per particle. Each pass
-//! recomputes the weights of all particles. To save such passes, one pass can compute several
-//! quantities ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a
-//! separate pass.
+//! recomputes the weights of all particles, so one pass can compute several quantities
+//! ([`P2gRequest`], [`G2pRequest`]). Each quantity is bit-identical to the result of a separate
+//! pass.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -253,9 +253,8 @@ pub struct P2gRequest<'a, const D: usize> {
 }
 
 impl<const D: usize> P2gRequest<'_, D> {
-    /// Returns the names of the requested quantities, for reports. The name `weight moments` is
-    /// included only in requests for the mass, so weight moments are counted once for each position
-    /// of the particles.
+    /// Returns the names of the requested quantities, for reports. A request for the mass includes
+    /// the name `weight moments`, so these are counted once for each position of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));

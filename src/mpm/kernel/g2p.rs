@@ -209,8 +209,7 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
                     self.gather_patches(simd, patches, lanes, of_all, offsets, &mut sums);
                 },
             );
-            // The sums of particles outside the grid are zero. Lanes after the last particle are
-            // not written.
+            // The sums of particles outside the grid are zero.
             let unseen = !seen & ALL >> BATCH.saturating_sub(self.particles.len() - first);
             if unseen != 0 {
                 sums.reset(simd, offsets, slopes, |lane| unseen >> lane & 1 == 1);

@@ -18,8 +18,6 @@
 //! `tests/it/mpm/kernel/textbook.rs` computes the same sums with textbook loops. Sums run over
 //! particles and nodes in a fixed order, so results are bit-identical on any processor and for any
 //! number of threads.
-//!
-//! The module also contains the P2G and G2P loops for scalars.
 
 pub(crate) mod contract;
 
@@ -56,7 +54,7 @@ pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> 
 }
 
 /// Creates a `Box<dyn Kernel<D>>` as `Any`. The function is not generic, so that the loops are
-/// compiled only in this crate and not in each crate that uses a kernel.
+/// compiled only in this crate.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
         with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))

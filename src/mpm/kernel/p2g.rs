@@ -73,8 +73,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that the request does not need are never unpacked, so their values are arbitrary.
-        // Positions are used in place of velocities, because a body at rest has no velocities.
+        // Lanes that the request does not need are never unpacked, so positions can replace
+        // velocities that do not exist (body at rest).
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

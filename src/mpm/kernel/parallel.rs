@@ -1,8 +1,8 @@
 //! Two-colour schedule of P2G on threads, and the division of G2P particles among threads.
 //!
 //! Even blocks and the odd blocks between them form a binary tree of joins. An odd block runs on
-//! any thread after both its neighbours, when no other block uses its nodes. As soon as no later
-//! block adds to a layer, the layer is unpacked, while its nodes are in the cache.
+//! any thread after both its neighbours. A layer is unpacked as soon as no later block adds to it,
+//! while its nodes are in the cache.
 
 use super::colouring::ParticleBlock;
 use super::contract::G2pRequest;
@@ -35,8 +35,7 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
 /// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
-/// unpacks the sums. Odd block k shares nodes with even blocks k and k + 1, and therefore runs
-/// after both.
+/// unpacks the sums. Odd block k shares nodes with even blocks k and k + 1.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],
@@ -86,7 +85,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if any. Then unpacks the layers `done`, to which no later block adds.
+    /// Adds a block, if any. Then unpacks the layers `done`.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
             (self.add)(block, target.field.reborrow());
@@ -120,8 +119,7 @@ impl<const D: usize> G2pRequest<'_, D> {
     }
 }
 
-/// Splits `range` into parts and runs `work` for each, with the request for the particles of the
-/// part.
+/// Splits `range` into parts and runs `work` for each part, with the request for its particles.
 pub(in crate::mpm) fn par_split<const D: usize>(
     range: Range<usize>,
     request: G2pRequest<'_, D>,

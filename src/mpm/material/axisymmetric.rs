@@ -102,7 +102,6 @@ impl<const D: usize> Material<D> for Axisymmetric {
         self.law.checkpoint(checkpoint);
     }
 
-    /// Returns the energy per radian.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let mut space = none();
         enter(particles, &mut space);
@@ -135,7 +134,7 @@ mod tests {
     /// For every law, compares stress (with the hoop stress), volume and energy with those of the
     /// 3-D law over several steps.
     #[test]
-    fn a_body_of_revolution_has_its_law_in_space() {
+    fn body_of_revolution_agrees_with_the_3d_law() {
         for plan in every() {
             let mut body = Specimen::<2>::in_plane(plan, PlaneState::Axisymmetric).unwrap();
             let mut space = Specimen::<3>::new(plan);

@@ -7,13 +7,11 @@
 //! with a constant r, so Poisson's ratio is constant. The elastic law is in rate form and has no
 //! energy.
 //!
-//! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by
-//! `I + grad v dt`, with the polar decomposition `v R`: R rotates the stress, and `ln v` is the
-//! strain increment. This integration is exact under any rotation, and equals the Jaumann rate to
-//! second order in the step. Along fixed axes, logarithmic strains add up without error. The return
-//! mapping is implicit: exact at a constant stress ratio, and of first order in the step otherwise.
-//! The return solves one equation for the stress ratio. The root lies between the critical state
-//! and the yield surface before the step.
+//! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by `I + grad v
+//! dt`, whose polar decomposition is `v R`: R rotates the stress, and `ln v` is the strain
+//! increment. This integration is exact under any rotation, and agrees with the Jaumann rate to
+//! second order in the step. The return mapping is implicit. It is exact at a constant stress
+//! ratio, and of first order in the step otherwise.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
 use super::spectral::{MatrixBatch, assembled_batch, half_log_batch, spectral_batch};
@@ -102,7 +100,6 @@ impl CamClay {
         }
     }
 
-    /// Returns the mean stress at rest (Pa), positive in compression.
     fn initial_pressure(&self) -> f64 {
         -self.start.tau[(0, 0)]
     }
@@ -140,13 +137,13 @@ impl CamClay {
         (pressure, trial.deviator + trial.shear * (2.0 * modulus))
     }
 
-    /// Returns the mean stress, the deviator and the preconsolidation pressure (Pa) on the yield
-    /// surface, for a trial state outside.
+    /// Returns a trial state outside the yield surface to the surface: the mean stress, the
+    /// deviator and the preconsolidation pressure (Pa).
     ///
     /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, and pc gives the plastic
-    /// compaction. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 - m^2)`,
-    /// with the plastic compaction x. The root lies between the critical state, m = 1, and the
-    /// yield surface before the step.
+    /// compaction x. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 -
+    /// m^2)`. The root lies between the critical state, m = 1, and the yield surface before the
+    /// step.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.
@@ -307,7 +304,6 @@ impl<const D: usize> Material<D> for CamClay {
     }
 }
 
-/// Returns `I + grad v dt` in three dimensions.
 #[inline(always)]
 fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
     let mut step = Matrix::identity();
@@ -341,7 +337,6 @@ fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, Ma
 
 #[cfg(test)]
 impl super::contract::ClosedForms for CamClay {
-    /// Returns the elastic stress for the principal stretches exp(e) and exp(-e).
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let pressure = self.initial_pressure();
@@ -365,7 +360,6 @@ impl super::contract::ClosedForms for CamClay {
 
 #[cfg(test)]
 impl CamClay {
-    /// Sets the initial stress `tau` (Pa) and preconsolidation pressure (Pa).
     pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
         self.start = Clay { tau, consolidation };
         self
@@ -389,7 +383,7 @@ mod tests {
         /// After a return the yield function is zero, the flow is associated and the hardening
         /// follows the plastic compaction, on both sides of the critical state.
         #[test]
-        fn a_return_obeys_flow_rule_and_hardening(
+        fn return_satisfies_flow_rule_and_hardening(
             overconsolidation in 1.0..20.0_f64,
             compaction in -0.05..0.05_f64,
             shear in proptest::array::uniform3(-0.05..0.05_f64),
@@ -436,7 +430,7 @@ mod tests {
     }
 
     #[test]
-    fn a_large_rotation_in_a_step_only_turns_the_stress() {
+    fn large_rotation_in_a_step_only_rotates_the_stress() {
         let step = Matrix::<3>::new(1.02, 0.05, 0.0, -0.01, 0.93, 0.02, 0.0, 0.03, 0.97);
         let (c, s) = (libm::cos(2.5), libm::sin(2.5));
         let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);

@@ -57,7 +57,7 @@ fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
 #[case::middle([83.651_164_207, 50.190_698_524], 0.008_175_376_601)]
 #[case::high([69.975_172_732, 62.977_655_459], 0.016_513_462_741)]
 #[case::near_the_critical_state([61.389_386_681, 67.528_325_350], 0.030_516_204_116)]
-fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strain: f64) {
+fn undrained_shear_matches_the_closed_form(#[case] expected: [f64; 2], #[case] strain: f64) {
     let run = |steps| squeeze(&mut specimen(clay(100.0)), undrained(strain), steps);
     let (found, order) = limit(run);
     for i in 0..2 {
@@ -69,7 +69,7 @@ fn undrained_shear_has_its_closed_form(#[case] expected: [f64; 2], #[case] strai
 /// The clay is elastic at constant p up to `q_y = M sqrt(p0 (pc - p0))`. After yield, the expected
 /// p and q are closed forms.
 #[test]
-fn undrained_shear_of_overconsolidated_clay_has_its_closed_form() {
+fn undrained_shear_of_overconsolidated_clay_matches_the_closed_form() {
     let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);
     let run = |steps| {
         let mut clay = specimen(clay(150.0));
@@ -96,7 +96,7 @@ fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
 /// Isotropic compression follows the swelling line below `pc` and the compression line above it.
 /// Expansion follows a swelling line again. The result is exact in any number of steps.
 #[rstest]
-fn isotropic_compression_follows_its_two_lines(#[values(1, 7)] steps: u32) {
+fn isotropic_compression_follows_swelling_and_compression_lines(#[values(1, 7)] steps: u32) {
     let mut clay = specimen(clay(150.0));
     let to_yield = 0.02 * libm::log(1.5);
     let [p, q] = squeeze(&mut clay, [0.5 * to_yield / 3.0; 2], steps);
@@ -148,7 +148,7 @@ fn on_the_k0_line(eta: f64) -> CamClay {
 /// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle
 /// of volume and shear is not reversible: `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]
-fn elastic_strain_has_its_closed_forms() {
+fn elastic_strain_matches_closed_forms() {
     let mut soil = specimen(clay(1000.0));
     let [p, q] = squeeze(&mut soil, [0.02, 0.0], 5);
     assert_relative_eq!(p, 100.0 * libm::exp(1.0), max_relative = 1e-12);

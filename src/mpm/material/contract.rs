@@ -77,12 +77,12 @@ pub trait MaterialProperties {
         None
     }
 
-    /// Whether bodies neither move nor deform.
+    /// Whether bodies are rigid and at rest.
     fn is_at_rest(&self) -> bool {
         false
     }
 
-    /// Checks that the stored energy is a function of the state in `dimension` dimensions.
+    /// Checks that the law has a stored energy in `dimension` dimensions.
     ///
     /// # Errors
     /// The reason, phrased to follow the name of the law in a sentence.
@@ -111,8 +111,7 @@ pub(super) trait ClosedForms {
     fn simple_shear(&self, gamma: f64) -> [f64; 3];
 
     /// Returns the Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes
-    /// fixed. `None` if the law depends on the history; a test in the file of the law then covers
-    /// this case.
+    /// fixed. `None` if the law depends on the history.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
     /// Returns the energy density (J/m3), up to a constant. The derivative of this energy is the
@@ -191,8 +190,8 @@ pub trait Material<const D: usize>: Send {
     }
 
     /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation
-    /// gradient `f`. Both are computed for a step from the stored state of the law, without
-    /// changing this state. `None` if the law has no tangent.
+    /// gradient `f`, for a step from the stored state of the law. The stored state is not changed.
+    /// `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
         None
     }

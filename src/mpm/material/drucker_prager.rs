@@ -63,7 +63,7 @@ impl YieldSurface for Cone {
                 deviator: trial.deviator * (1.0 - mu * flow / shear),
             }
         } else {
-            // Only a cone with an apex reaches this point: `friction` is above zero here.
+            // Here `friction` is above zero, because a cone without friction has no apex.
             PrincipalStrain {
                 mean: strength / (3.0 * bulk * friction),
                 deviator: Vector::<3>::zeros(),
@@ -113,9 +113,8 @@ mod tests {
     use super::super::plastic_flow::path::{isotropic, principal};
     use rstest::rstest;
 
-    /// Paths of logarithmic strain end at the expected principal Kirchhoff stresses: closed forms
-    /// that were computed by an independent program. In uniaxial strain the stress is bilinear; in
-    /// uniaxial extension the stress ends at the apex.
+    /// The expected principal Kirchhoff stresses at the end of each path are closed forms, computed
+    /// by an independent program.
     #[rstest]
     #[case::elastic(&[[-0.002, 0.0, 0.0]], [-36.0, -12.0, -12.0])]
     #[case::compression(&[[-0.01, 0.0, 0.0]], [-152.446_057_383_1, -80.748_883_761_5, -80.748_883_761_5])]
@@ -140,7 +139,10 @@ mod tests {
         &[[0.004, -0.004, 0.0], [0.01, -0.01, 0.0], [0.03, -0.03, 0.0]],
         [-28.888_888_888_9, -82.222_222_222_2, -55.555_555_555_6]
     )]
-    fn paths_end_on_the_closed_forms(#[case] path: &[[f64; 3]], #[case] expected: [f64; 3]) {
+    fn stress_at_the_end_of_a_path_matches_the_closed_form(
+        #[case] path: &[[f64; 3]],
+        #[case] expected: [f64; 3],
+    ) {
         let (young, poisson) = isotropic(1e4, 6e3);
         let plan = MaterialPlan::DruckerPrager {
             young,

@@ -1,11 +1,11 @@
-//! Linear elasticity with the rate of Green and Naghdi.
+//! Linear elasticity with the Green-Naghdi rate.
 //!
-//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress
-//! `tau = J sigma`, with `Omega = R_dot R^T` of the polar decomposition `F = R U` (Green & Naghdi
-//! 1965; Johnson & Bammann 1984 compare such rates). The state is the stress `R^T tau R`, whose
-//! rate is `lambda tr(D) I + 2 mu D` with `D = sym(U_dot U^-1)`. A step adds `sym(ln(U' U^-1))` to
-//! the integral of D: exact under any rotation, and of order 2 in the time step. The work of the
-//! stress in a closed cycle of deformation is not zero, so the law has no energy.
+//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress `tau = J
+//! sigma`, with `Omega = R_dot R^T` and the polar decomposition `F = R U` (Green & Naghdi 1965;
+//! Johnson & Bammann 1984). The state is the stress `R^T tau R`, whose rate is `lambda tr(D) I + 2
+//! mu D` with `D = sym(U_dot U^-1)`. A step from U to U' adds `sym(ln(U' U^-1))` to the integral of
+//! D. This integration is exact under any rotation, and of order 2 in the time step. The work of
+//! the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::linear_elastic::{LinearElastic, logarithm};
@@ -15,7 +15,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
-/// Isotropic linear elasticity with the rate of Green and Naghdi.
+/// Isotropic linear elasticity with the Green-Naghdi rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GreenNaghdi {
     elasticity: LinearElastic,
@@ -79,12 +79,10 @@ impl GreenNaghdi {
     }
 }
 
-/// Returns the components of a tensor along the first D axes.
 fn in_plane<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, j| m[(i, j)])
 }
 
-/// Extends a tensor from D to three dimensions with zeros.
 fn in_space<const D: usize>(m: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, j| if i < D && j < D { m[(i, j)] } else { 0.0 })
 }

@@ -1,10 +1,10 @@
-//! Linear elasticity with the rate of Jaumann.
+//! Linear elasticity with the Jaumann rate.
 //!
 //! `tau_dot = lambda tr(d) I + 2 mu d + w tau - tau w` for the Kirchhoff stress `tau = J sigma`,
-//! with the symmetric part d and the skew part w of the velocity gradient. Johnson & Bammann (1984)
-//! compare such rates. In a step `I + grad v dt = v R`, R rotates the stress and `ln v` is the
-//! strain increment. The integration is exact under any rotation, and of order 2 in the time step.
-//! The work of the stress in a closed cycle of deformation is not zero, so the law has no energy.
+//! with the symmetric part d and the skew part w of the velocity gradient (Johnson & Bammann 1984).
+//! In a step, `I + grad v dt = v R`: R rotates the stress and `ln v` is the strain increment. This
+//! integration is exact under any rotation, and of order 2 in the time step. The work of the stress
+//! in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::linear_elastic::LinearElastic;
@@ -13,7 +13,7 @@ use super::stress_update::{StressBlock, StressUpdate};
 use crate::mpm::foundation::algebra::{Matrix, det, product};
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 
-/// Isotropic linear elasticity with the rate of Jaumann.
+/// Isotropic linear elasticity with the Jaumann rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jaumann(LinearElastic);
 
@@ -111,8 +111,7 @@ impl super::contract::ClosedForms for Jaumann {
         None
     }
 
-    /// Returns the stress caused by the rounding error of the stretch, because ln v inherits this
-    /// error.
+    /// Returns the stress caused by the rounding error of the stretch.
     fn rounding(&self) -> f64 {
         4.0 * f64::EPSILON * self.wave_modulus(1.0)
     }

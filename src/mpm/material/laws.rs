@@ -10,7 +10,7 @@ use crate::mpm::foundation::algebra::{Matrix, det};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
 /// The material added by `docs/exercises/material.md`.
-#[allow(unreachable_pub)] // public where the page puts it
+#[allow(unreachable_pub)] // the page has it in a public module
 #[path = "../../../tests/exercises/st_venant_kirchhoff.rs"]
 mod exercise;
 
@@ -32,9 +32,8 @@ fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     space
 }
 
-/// Whether the law reads F. The stress of such a law is objective under any rotation in one step. A
-/// law that reads only the velocity gradient is objective only in the rate: a rotation during a
-/// step causes an error of second order in the angle.
+/// Whether the law reads F. The stress of such a law is objective under any rotation in one step.
+/// For other laws, a rotation during a step causes an error of second order in the angle.
 fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
@@ -76,9 +75,8 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// The stored energy is the potential of the stress. At rest the energy equals its closed form
-/// (zero for a solid). For small strains, the energy must be accurate to second order.
-fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
+/// Compares the stored energy with its closed form, at rest and after large and small strains.
+fn stored_energy_matches_the_closed_form<const D: usize>(plan: MaterialPlan) {
     let law = plan.closed_forms();
     for (size, tolerance) in [(0.25, 1e-13), (1e-2, 1e-11), (1e-6, 1e-6)] {
         let f = Matrix::<D>::identity() + scattered(size, 0.9);
@@ -97,8 +95,9 @@ fn stored_energy_is_that_of_the_law<const D: usize>(plan: MaterialPlan) {
     }
 }
 
-/// Tests `sigma(Q f F) = Q sigma(f F) Q^T`, also after plastic flow in the previous step.
-fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
+/// Tests `sigma(Q dF F) = Q sigma(dF F) Q^T` for a step dF and a rotation Q, also after plastic
+/// flow in the previous step.
+fn rotation_in_a_step_only_rotates_the_stress<const D: usize>(plan: MaterialPlan) {
     let error = |size: f64, angle: f64| {
         let (before, step) = (Matrix::identity() + scattered(0.2, 0.3), scattered(size, 1.1));
         let step = Matrix::identity() + step;
@@ -124,7 +123,7 @@ fn rotation_in_a_step_only_turns_the_stress<const D: usize>(plan: MaterialPlan) 
 
 /// Tests isotropy and frame indifference, `sigma(Q L Q^T + W) = Q sigma(L) Q^T`, for the velocity
 /// gradient L and any spin W. A law that reads F must pass the stronger test above.
-fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
+fn spin_only_rotates_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
     }
@@ -137,16 +136,16 @@ fn spin_only_turns_the_stress<const D: usize>(plan: MaterialPlan) {
 }
 
 /// A step without deformation does not change the stress, even after plastic flow.
-fn rest_keeps_the_stress<const D: usize>(plan: MaterialPlan) {
+fn step_without_deformation_preserves_the_stress<const D: usize>(plan: MaterialPlan) {
     let mut specimen = Specimen::<D>::new(plan);
     let first = specimen.deform(&(Matrix::identity() + scattered(0.25, 0.3)), SLOW);
     let again = specimen.flow(&Matrix::zeros(), SLOW);
     assert_abs_diff_eq!(again, first, epsilon = 1e-11);
 }
 
-/// A body that starts deformed has the same stress as after one step to this deformation, to second
-/// order in the strain. For a law in rate form the error is larger, because only one step is made.
-fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: MaterialPlan) {
+/// A body that starts deformed has the stress that one step from rest to this deformation causes,
+/// up to a relative error proportional to the strain.
+fn deformed_start_has_the_stress_of_one_step<const D: usize>(plan: MaterialPlan) {
     if plan.properties().starts_deformed().is_err() {
         return;
     }
@@ -164,7 +163,7 @@ fn a_deformed_start_has_the_stress_of_the_way_there<const D: usize>(plan: Materi
 }
 
 /// The resumed run is bit-identical: plastic flow and hardening are in the checkpoint.
-fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
+fn resumed_run_is_bit_identical<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {
         let mut whole = Specimen::<D>::new(plan);
@@ -179,13 +178,13 @@ fn an_interrupted_run_goes_on<const D: usize>(plan: MaterialPlan) {
 }
 
 fn hold<const D: usize>(plan: MaterialPlan) {
-    an_interrupted_run_goes_on::<D>(plan);
-    rest_keeps_the_stress::<D>(plan);
-    a_deformed_start_has_the_stress_of_the_way_there::<D>(plan);
+    resumed_run_is_bit_identical::<D>(plan);
+    step_without_deformation_preserves_the_stress::<D>(plan);
+    deformed_start_has_the_stress_of_one_step::<D>(plan);
     no_strain_adds_no_stress::<D>(plan);
     waves_have_their_speed::<D>(plan);
-    rotation_in_a_step_only_turns_the_stress::<D>(plan);
-    spin_only_turns_the_stress::<D>(plan);
+    rotation_in_a_step_only_rotates_the_stress::<D>(plan);
+    spin_only_rotates_the_stress::<D>(plan);
 }
 
 #[test]
@@ -210,14 +209,14 @@ fn every_stress_is_the_derivative_of_an_energy() {
         stress_is_the_derivative_of_the_energy::<1>(plan);
         stress_is_the_derivative_of_the_energy::<2>(plan);
         stress_is_the_derivative_of_the_energy::<3>(plan);
-        stored_energy_is_that_of_the_law::<1>(plan);
-        stored_energy_is_that_of_the_law::<2>(plan);
-        stored_energy_is_that_of_the_law::<3>(plan);
+        stored_energy_matches_the_closed_form::<1>(plan);
+        stored_energy_matches_the_closed_form::<2>(plan);
+        stored_energy_matches_the_closed_form::<3>(plan);
     }
 }
 
 #[test]
-fn simple_shear_has_its_closed_forms() {
+fn simple_shear_matches_closed_forms() {
     let gamma = 0.4;
     let f = Matrix::<3>::new(1.0, gamma, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
     for plan in every() {
@@ -232,7 +231,7 @@ fn simple_shear_has_its_closed_forms() {
 
 /// Tests the stress along and across a uniaxial stretch, with the other axes fixed.
 #[test]
-fn stretch_has_its_closed_forms() {
+fn stretch_matches_closed_forms() {
     let stretch = 1.3;
     for plan in every() {
         let Some([along, across]) = plan.closed_forms().uniaxial_stretch(stretch) else { continue };

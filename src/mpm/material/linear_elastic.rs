@@ -5,9 +5,8 @@
 //! integrates to `sigma = E ln F`. This stress agrees with small-strain elasticity only to first
 //! order in the strain. Reports list this difference separately from the discretisation error.
 //!
-//! The rate is the plain stress rate, without Jaumann or Green-Naghdi terms. To first order in the
-//! step, a spin adds no stress, but the law does not rotate the current stress either. In more than
-//! one dimension, the law is objective only for small rotations.
+//! The stress rate has no Jaumann or Green-Naghdi terms, so the law does not rotate the current
+//! stress. In more than one dimension, the law is objective only for small rotations.
 //!
 //! For a body that starts deformed, the rate is integrated along the straight path `x = X + s u`, s
 //! from 0 to 1. This path has `grad v = H (I + s H)^-1` with `H = F - I`, and so `eps = sym(ln F)`
@@ -62,7 +61,7 @@ fn logarithmic_work(eps: f64) -> f64 {
 /// Maximum number of terms of the logarithm series, sufficient for stretches from 1/100 to 100.
 const MOST_TERMS: u32 = 2000;
 
-/// Squared norm of Z up to which the number of terms follows from the norm.
+/// Largest squared norm of Z for which the number of terms is computed from the norm.
 const SMALL_SQUARE: f64 = 1.0 / 16.0;
 
 /// Returns `ln F = 2 artanh(Z)`, `Z = (F - I)(F + I)^-1` (Higham 2008, eq. 11.5). NaN if the series
@@ -88,8 +87,8 @@ pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     nothing
 }
 
-/// Sums the series of [`logarithm`] by Horner's scheme. A step of a rate law has small Z, and this
-/// form takes half the time, because it needs no norm after each term.
+/// Sums the series of [`logarithm`] for small Z by Horner's scheme. This form takes half the time,
+/// because it needs no norm after each term.
 fn small_logarithm<const D: usize>(z: &Matrix<D>, square: &Matrix<D>, size: f64) -> Matrix<D> {
     // Term k is at most size^k times the first term.
     let (mut terms, mut power) = (0_u32, 1.0);
@@ -150,9 +149,8 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with
-    /// `eps = ln J`. The work per reference volume, the integral of `J sigma d eps`, is
-    /// `M (eps e^eps - e^eps + 1)`. The function computes eps from the stress. In 2-D and 3-D the
+    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with `eps = ln
+    /// J`, and the work per reference volume is `M (eps e^eps - e^eps + 1)`. In 2-D and 3-D the
     /// work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
@@ -225,7 +223,7 @@ mod tests {
     /// Compares the initial stress with the rate along `x = X + s u`, integrated by the midpoint
     /// rule.
     #[test]
-    fn a_deformed_start_has_the_stress_of_the_straight_path() {
+    fn initial_stress_is_that_of_the_straight_path() {
         let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);
         let f = Matrix::<3>::new(1.2, 0.3, 0.0, -0.2, 0.7, 0.1, 0.05, 0.0, 1.4);
         let grad = f - Matrix::identity();
@@ -242,7 +240,7 @@ mod tests {
     /// Expects `E ln F` in 1-D, without cancellation for small strain, and NaN for a rotation by
     /// 180 degrees.
     #[test]
-    fn a_deformed_start_has_the_stress_of_the_logarithm() {
+    fn initial_stress_is_that_of_the_logarithm() {
         let law = LinearElastic::new(100.0, 0.0);
         for stretch in [0.02, 0.7, 1.0 + 1e-9, 3.0, 50.0] {
             let sigma = started(law, Matrix::<1>::new(stretch)).sigma[0][(0, 0)];
@@ -254,7 +252,7 @@ mod tests {
 
     /// Covers both forms of the series; they meet at a strain of about 0.3.
     #[test]
-    fn the_logarithm_of_a_stretch_has_its_strains() {
+    fn logarithm_of_a_stretch_is_its_strain() {
         let (c, s) = (0.6, 0.8);
         let axes = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
         for size in [0.0, 1e-12, 1e-3, 0.1, 0.2, 0.29, 0.31, 0.5, 2.0] {
@@ -310,7 +308,7 @@ mod tests {
 
     /// An objective law would rotate the stress; this law does not.
     #[test]
-    fn spin_does_not_turn_the_stress() {
+    fn spin_does_not_rotate_the_stress() {
         let mut solid = one_particle::<2>();
         solid.sigma[0] = Matrix::<2>::new(3.0, 0.5, 0.5, -1.0);
         let before = solid.sigma[0];

@@ -86,8 +86,8 @@ impl Pyramid {
         trial - self.relief(plane) * flow
     }
 
-    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. From
-    /// derivatives of `f_a` and `f_b`, the function returns derivatives of the flows.
+    /// Returns the flows on two planes that reduce the yield functions by `f_a` and `f_b`. If `f_a`
+    /// and `f_b` are derivatives, the results are derivatives of the flows.
     fn flows<T>(&self, [a, b]: [YieldPlane; 2], [f_a, f_b]: [T; 2]) -> [T; 2]
     where
         T: Copy + Mul<f64, Output = T> + Sub<Output = T> + Div<f64, Output = T>,
@@ -117,7 +117,7 @@ impl Pyramid {
         if stress[high] >= stress[middle] && stress[middle] >= stress[low] {
             return (stress, Landing::Plane(plane));
         }
-        // On an edge two stresses are equal: only the third one can be out of order.
+        // On an edge two stresses are equal, so only the order of the third stress is checked.
         let high_edge = || {
             let stress = self.on_edge([plane, [middle, low]], trial)?;
             let landing = Landing::Edge([plane, [middle, low]]);
@@ -253,7 +253,7 @@ mod tests {
     #[case::isochoric_without_dilation([20.0, 0.0], &[[0.01, -0.01, 0.0]], [9.396_926_208, -9.396_926_208, 0.0])]
     #[case::tresca([0.0, 0.0], &[[-0.01, 0.0, 0.0]], [-113.333_333_333, -93.333_333_333, -93.333_333_333])]
     #[case::isochoric_tresca([0.0, 0.0], &[[0.01, -0.01, 0.0]], [10.0, -10.0, 0.0])]
-    fn paths_end_on_the_closed_forms(
+    fn stress_at_the_end_of_a_path_matches_the_closed_form(
         #[case] angles: [f64; 2],
         #[case] path: &[[f64; 3]],
         #[case] expected: [f64; 3],
@@ -289,7 +289,7 @@ mod tests {
         /// The trial stress returns to the edge of a plane, up to rounding. There the flow on the
         /// other plane is zero, and rounding can make this flow negative.
         #[test]
-        fn a_return_to_the_rim_of_a_plane_ends_there(
+        fn return_to_the_edge_of_a_plane_ends_on_the_edge(
             friction in prop_oneof![Just(0.0), 0.0..50.0_f64],
             share in 0.0..1.0_f64,
             low in -100.0..-20.0_f64,

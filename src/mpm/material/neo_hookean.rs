@@ -61,7 +61,6 @@ fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matr
     sigma
 }
 
-/// Returns `ln det(I + H)`.
 fn log_det<const D: usize>(h: &Matrix<D>) -> f64 {
     let trace = h.trace();
     let minors = 0.5 * (trace * trace - (h * h).trace());
@@ -188,10 +187,10 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The squares of strains of size 1e-9 are far below rounding. All elastic laws then have the
-    /// same quadratic form.
+    /// The square of a strain of 1e-9 is below the rounding error of 1. At such strains, all
+    /// elastic laws have the same quadratic energy.
     #[test]
-    fn tiny_strains_store_an_energy_too() {
+    fn energy_of_tiny_strains_is_accurate() {
         let NeoHookean { lambda, mu } = NeoHookean::new(100.0, 0.3);
         let h = scattered::<3>(1e-9, 0.4);
         let plan = MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 };

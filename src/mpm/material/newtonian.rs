@@ -120,7 +120,7 @@ mod tests {
     use approx::assert_abs_diff_eq;
 
     #[test]
-    fn a_fluid_resists_shear_and_dilation_by_its_viscosity() {
+    fn viscous_stress_is_proportional_to_the_deviatoric_rate() {
         let fluid = MaterialPlan::Newtonian { bulk: 50.0, viscosity: 0.7 };
         let grad_v = Matrix::<2>::new(3.0, 2.0, 0.0, 0.0);
         let sigma = Specimen::new(fluid).flow(&grad_v, FAST);

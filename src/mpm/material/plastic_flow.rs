@@ -3,11 +3,10 @@
 //!
 //! The split is `F = Fe Fp`. The Kirchhoff stress is `tau = J sigma = K tr(eps) I + 2 mu dev(eps)`
 //! with the elastic strain `eps = ln(be)/2` (Simo 1992; de Souza Neto, Peric & Owen 2008, chapter
-//! 14). With the exponential map, the return in `eps` has the same form as in small strain, along
-//! the axes of the trial strain. A yield surface is therefore a function of principal values. The
-//! plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is computed from the
-//! total F and not from increments, so a body that starts deformed needs only F, and an elastic
-//! state does not drift.
+//! 14). With the exponential map, the return in `eps` has the same form as in small strain and
+//! keeps the axes of the trial strain. A yield surface is therefore a function of principal values.
+//! The plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is computed from
+//! the total F and not from increments, so rounding errors of an elastic state do not accumulate.
 //!
 //! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.
@@ -237,7 +236,6 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         checkpoint.visit(&mut self.flowed);
     }
 
-    /// Returns the energy of the elastic strain.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
@@ -311,7 +309,6 @@ fn trial<const D: usize>(
 
 #[cfg(test)]
 impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
-    /// Returns the stress for the principal stretches exp(e) and exp(-e) of simple shear.
     fn simple_shear(&self, gamma: f64) -> [f64; 3] {
         let e = libm::asinh(0.5 * gamma);
         let [first, second] = self.surface.isochoric(e);

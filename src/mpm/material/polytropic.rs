@@ -133,7 +133,7 @@ mod tests {
     /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of this after a stretch of
     /// 2.
     #[test]
-    fn each_particle_has_the_pressure_of_its_own_density() {
+    fn pressure_follows_the_density_of_each_particle() {
         let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());
         gas.start_deformed(&mut row).unwrap();
         let pressure =

@@ -31,7 +31,6 @@ impl<const D: usize> Prestressed<D> {
         Self { law, stress: if keeps { stress } else { Vec::new() } }
     }
 
-    /// Adds the stress due to S0 to the stresses computed by the law.
     fn add(&self, particles: &mut Particles<D>) {
         let Particles { sigma, def_grad, vol, vol0, .. } = particles;
         let states = def_grad.iter().zip(vol.iter().zip(vol0.iter()));
@@ -141,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn the_stress_is_there_at_the_start_and_stays() {
+    fn initial_stress_remains_at_rest() {
         fn hold<const D: usize>() {
             for (plan, mut law, mut body) in bodies::<D>() {
                 assert_eq!(body.sigma[0], initial::<D>(), "{plan:?}");
@@ -175,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rotation_only_turns_a_law_of_the_whole_deformation() {
+    fn rotation_rotates_the_initial_stress_if_the_law_depends_on_f() {
         let (c, s) = (libm::cos(2.0), libm::sin(2.0));
         let (f, q) = (Matrix::<2>::new(1.2, 0.3, -0.1, 0.8), Matrix::<2>::new(c, -s, s, c));
         for ((plan, before, _), (_, after, _)) in at(&f).into_iter().zip(at(&(q * f))) {
@@ -188,7 +187,7 @@ mod tests {
     /// Along S0, `dP/dF` is `M + S0` for a law that depends only on F, and the wave modulus M for a
     /// law in rate form.
     #[test]
-    fn small_waves_along_the_stress_have_their_modulus() {
+    fn small_waves_along_the_stress_have_the_increased_modulus() {
         let [low, high] = [-1e-6, 1e-6].map(|eps| at(&Matrix::<1>::new(1.0 + eps)));
         for ((plan, low, _), (_, high, _)) in low.into_iter().zip(high) {
             let properties = plan.properties();

@@ -62,7 +62,7 @@ fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
 #[case::green_naghdi_far(GREEN_NAGHDI, 3.0, [1.766_203_744_6, 1.817_834_265_2])]
 #[case::logarithmic(LOGARITHMIC, 1.0, [0.430_408_941_0, 0.860_817_881_9])]
 #[case::logarithmic_far(LOGARITHMIC, 3.0, [1.988_206_173_2, 1.325_470_782_1])]
-fn simple_shear_has_the_stress_of_its_rate(
+fn simple_shear_matches_closed_forms_of_the_rates(
     #[case] plan: MaterialPlan,
     #[case] gamma: f64,
     #[case] expected: [f64; 2],
@@ -80,7 +80,7 @@ fn simple_shear_has_the_stress_of_its_rate(
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]
 #[case::logarithmic(LOGARITHMIC, [0.0; 2], [0.0; 2], 0.0)]
-fn a_closed_cycle_leaves_the_stress_of_its_rate(
+fn residual_stress_of_a_closed_cycle_depends_on_the_rate(
     #[case] plan: MaterialPlan,
     #[case] expected: [f64; 2],
     #[case] reversed: [f64; 2],

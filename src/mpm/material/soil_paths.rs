@@ -172,7 +172,7 @@ impl PyramidPaths {
 /// Tests compression, and extension to the apex, on fixed axes and on axes that rotate by two
 /// radians.
 #[rstest]
-fn drucker_prager_has_its_closed_forms_along_a_path(
+fn drucker_prager_matches_closed_forms_along_a_path(
     #[values(-0.05, -0.02, 0.0012, 0.005)] end: f64,
     #[values(0.0, 2.0)] angle: f64,
     #[values([0.3, 0.1, 10.0], [0.3, 0.3, 10.0], [0.3, 0.0, 10.0], [0.2, 0.1, 0.0])] soil: [f64; 3],
@@ -185,7 +185,7 @@ fn drucker_prager_has_its_closed_forms_along_a_path(
 }
 
 #[rstest]
-fn mohr_coulomb_has_its_closed_forms_along_a_path(
+fn mohr_coulomb_matches_closed_forms_along_a_path(
     #[values(-0.03, -0.01, 0.001, 0.005)] end: f64,
     #[values(0.0, 2.0)] angle: f64,
     #[values([30.0, 10.0], [30.0, 30.0], [20.0, 0.0], [0.0, 0.0])] angles: [f64; 2],
@@ -202,7 +202,7 @@ fn mohr_coulomb_has_its_closed_forms_along_a_path(
 /// strain does not change the stress, and further compression has the stress of a path without
 /// unloading.
 #[rstest]
-fn unloading_is_elastic_and_leaves_no_trace(#[values(0.0, 2.0)] angle: f64) {
+fn unloading_cycles_do_not_change_the_stress(#[values(0.0, 2.0)] angle: f64) {
     let cone = ConePaths::SOIL;
     let ConePaths([bulk, mu], _) = cone;
     unload(
@@ -244,7 +244,7 @@ fn unload(
 
 /// The strain paths are straight, so one step gives the same stress as many steps.
 #[test]
-fn one_step_has_the_stress_of_many() {
+fn one_step_gives_the_stress_of_many_steps() {
     let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));
     for e in [-0.02, 0.0012, 0.003] {
         let once = std::iter::once(e);
@@ -257,7 +257,7 @@ fn one_step_has_the_stress_of_many() {
 /// integration is exact. Tests isotropic compression through the preconsolidation pressure, and
 /// uniaxial and isochoric strain of overconsolidated clay.
 #[rstest]
-fn clay_has_its_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
+fn clay_matches_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
     let clay = |preconsolidation| MaterialPlan::CamClay {
         critical_state_slope: 1.2,
         swelling_slope: 0.02,

@@ -78,7 +78,6 @@ impl<const D: usize> Specimen<D> {
         self.flow(grad_v, dt)
     }
 
-    /// Returns the stress after a step in which F becomes `step * F`.
     pub(super) fn deform(&mut self, step: &Matrix<D>, dt: f64) -> Matrix<D> {
         self.flow(&((step - Matrix::identity()) / dt), dt)
     }

@@ -270,7 +270,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn eigenvalues_and_axes_give_the_matrix_back(
+        fn eigenvalues_and_axes_reproduce_the_matrix(
             entries in proptest::array::uniform9(-1.0..1.0),
         ) {
             hold(&symmetric::<1>(&entries));
@@ -299,14 +299,14 @@ mod tests {
     /// The smallest eigenvalue of `[[1, s], [s, 2 s^2]]`, `(1 + 2 s^2 - sqrt(1 + 4 s^4))/2`, is
     /// about s^2, far below the rounding error of the largest one.
     #[test]
-    fn a_small_eigenvalue_is_accurate_relative_to_itself() {
+    fn small_eigenvalue_has_a_small_relative_error() {
         let s = 1e-9;
         let (values, _) = spectral(&Matrix::<2>::new(1.0, s, s, 2.0 * s * s));
         assert_abs_diff_eq!(values.min() / (s * s), 1.0, epsilon = 1e-14);
     }
 
     #[test]
-    fn no_number_ends_the_sweeps_too() {
+    fn nan_ends_the_sweeps() {
         assert!(spectral(&Matrix::<3>::from_element(f64::NAN)).0.iter().all(|v| v.is_nan()));
     }
 
@@ -335,7 +335,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_batch_has_the_bits_of_single_particles(f in gradients()) {
+        fn batch_is_bit_identical_to_single_particles(f in gradients()) {
             fn of<const D: usize>(f: &[[f64; 9]; BATCH]) {
                 hold_batch(&f.map(|f| {
                     let f = Matrix::<D>::from_fn(|i, j| f[3 * i + j]);
@@ -351,7 +351,7 @@ mod tests {
     /// Tests matrices that need no rotation, matrices with equal eigenvalues, and one that is not
     /// finite.
     #[test]
-    fn extremes_have_the_bits_of_single_particles() {
+    fn batch_of_extremes_is_bit_identical_to_single_particles() {
         let shear = |s: f64| Matrix::<3>::new(1.0, s, 0.0, s, 1.0 + s * s, 0.0, 0.0, 0.0, 1.0);
         let mut all = [Matrix::identity(); BATCH];
         all[1] = shear(0.5);

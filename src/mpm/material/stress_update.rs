@@ -242,7 +242,7 @@ mod tests {
 
     /// Compares each particle of an update with an update of this particle alone.
     #[rstest]
-    fn blocks_on_threads_have_the_bits_of_single_particles(#[values(1, 3)] threads: usize) {
+    fn blocks_on_threads_are_bit_identical_to_single_particles(#[values(1, 3)] threads: usize) {
         let (total, dt) = (2 * FEW + 37, 0.5);
         for plan in every() {
             let (mut body, mut law) = (squares(total), plan.build::<2>());
@@ -269,7 +269,7 @@ mod tests {
     #[case::nan(f64::NAN)]
     #[case::inverted(-3.0)]
     #[case::flat(-2.0)]
-    fn one_unsound_particle_of_many_is_noticed(#[case] rate: f64) {
+    fn one_invalid_particle_of_many_is_detected(#[case] rate: f64) {
         for p in [0, FEW + 5, 2 * FEW + 36] {
             let mut body = squares(2 * FEW + 37);
             body.grad_v[p] = Matrix::from_diagonal(&Vector::<2>::new(rate, 0.0));
@@ -281,7 +281,7 @@ mod tests {
 
     /// The test changes the volume of a particle outside the law.
     #[test]
-    fn who_asks_for_the_particles_has_them_strained_and_checked_again() {
+    fn particles_are_strained_once_and_checked_after_changes() {
         let mut body = squares(3);
         let mut update = StressUpdate::straining(0.5, &mut body);
         let f = update.particles().def_grad[2];
@@ -301,7 +301,7 @@ mod tests {
     #[case::nan(&[2.0, 1.0, f64::NAN, 4.0, 1.0], None)]
     #[case::nan_in_the_rest(&[2.0, 1.0, 1.0, 4.0, f64::NAN], None)]
     #[case::infinite(&[f64::INFINITY, 1.0, 1.0, 4.0, 1.0, 1.0, 1.0, 1.0], None)]
-    fn the_least_ratio_is_one_of_sound_numbers(#[case] a: &[f64], #[case] least: Option<f64>) {
+    fn least_ratio_requires_positive_finite_ratios(#[case] a: &[f64], #[case] least: Option<f64>) {
         assert_eq!(least_ratio(a, &vec![1.0; a.len()]), least);
     }
 }

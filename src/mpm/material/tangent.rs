@@ -87,7 +87,6 @@ pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
-/// Returns the components in the dimensions of the body.
 fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }
@@ -164,7 +163,7 @@ mod tests {
 
     /// Tests states before yield, on a face, on edges and at the apex, with and without dilation.
     #[test]
-    fn tangent_of_mohr_coulomb_belongs_to_its_return() {
+    fn tangent_of_mohr_coulomb_agrees_with_its_return() {
         let strains = [
             [-0.03, 0.0, 0.0],
             [0.003, 0.0, 0.0],

@@ -7,11 +7,10 @@
 //! the friction limit, mu times the normal impulse. Separating bodies receive no impulse.
 //!
 //! The normal is the direction of `grad ln m_a - grad ln m_b`. Bardenhagen et al. use a separate
-//! normal from the mass of each body. Two such normals are not opposite, so the impulses would not
-//! be opposite either. With one normal for both bodies, momentum is conserved to rounding, for any
-//! number of bodies. Pairs of bodies are processed one after another. The logarithm is used because
-//! the mass field of a smooth basis oscillates inside a body. At a node near the last particles of
-//! one body and inside the other body, `grad m_a - grad m_b` may have the wrong sign.
+//! normal for each body, so the impulses are not exactly opposite. With one normal for both bodies,
+//! momentum is conserved to rounding, for any number of bodies. Pairs of bodies are processed one
+//! after another. The logarithm is used because the mass field of a smooth basis oscillates inside
+//! a body, where `grad m_a - grad m_b` may have the wrong sign.
 //!
 //! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
 //! complete impulses. Velocities that strain the bodies before or after the impulses are corrected
@@ -85,8 +84,7 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Returns the contact state, and the change of the relative velocity of two bodies, by the
-    /// contact law.
+    /// Returns the contact state, and the change of the relative velocity of two bodies.
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
@@ -165,8 +163,6 @@ impl<const D: usize> Coupling<D> for Contact<D> {
         ]
     }
 
-    /// Visits the contact states of the last impulses. The next step applies these states to
-    /// velocities that strain the bodies.
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.states[..]);
     }

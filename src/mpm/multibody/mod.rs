@@ -190,8 +190,8 @@ pub(in crate::mpm) fn among(failure: Failure, first: usize) -> Failure {
     }
 }
 
-/// Combines the profiles of all bodies and their coupling into one. Every body has its own grid, so
-/// nodes are summed over all grids.
+/// Combines the profiles of all bodies and their coupling into one. Nodes are summed over the grids
+/// of all bodies.
 pub(in crate::mpm) fn joint_profile<const D: usize>(
     bodies: impl Iterator<Item = Profile>,
     coupling: Option<&dyn Coupling<D>>,
@@ -215,8 +215,8 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to `all`. Columns of the same kind are added to each other. If a
-/// body has several columns of one kind, for example for two walls, they are matched in order.
+/// Adds the columns of one body to `all`. Columns of the same kind are added to each other, in
+/// order if a body has several, for example for two walls.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

@@ -1,9 +1,9 @@
 //! Force balance of one load step: basis functions at the start of the step, unknowns, residual and
 //! consistent tangent.
 //!
-//! For nodal displacement increments u, let `grad u` be their gradient at a particle with respect
-//! to positions at the start of the step. With `F' = (I + grad u) F` and
-//! `grad' N = (I + grad u)^-T grad N`,
+//! Let `grad u` be the gradient of the nodal displacement increments u at a particle, with respect
+//! to positions at the start of the step. With `F' = (I + grad u) F` and `grad' N = (I + grad u)^-T
+//! grad N`,
 //!
 //! ```text
 //! r_i          = sum_p V0 tau(F') grad' N_i - f_ext_i
@@ -194,8 +194,8 @@ impl<const D: usize> StepEquations<D> {
         Ok(Iterate { increment, residual, norm, responses, push })
     }
 
-    /// Computes the Newton correction of an iterate (m). The error is the node of the first tangent
-    /// row without a pivot.
+    /// Computes the Newton correction of an iterate (m). The error is the node whose row of the
+    /// tangent has no pivot.
     pub(super) fn correction(
         &self,
         particles: &Particles<D>,
@@ -304,8 +304,7 @@ mod tests {
         (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
     }
 
-    /// The test uses an increment without symmetry. With plasticity, some particles yield and
-    /// others do not.
+    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
     #[rstest]
     #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
     #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]

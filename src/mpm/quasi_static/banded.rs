@@ -1,10 +1,9 @@
 //! Direct solution of a banded linear system: LU with partial pivoting (Golub & Van Loan, *Matrix
 //! Computations*, 4th ed., 2013, section 4.3.5).
 //!
-//! The tangent of a quasi-static step is symmetric only for elastic and associated laws, and may be
-//! indefinite, so Cholesky factorisation does not apply. The operations have a fixed order and no
-//! fused products, so results are bit-identical on any machine. A library that chooses its
-//! instructions at run time does not guarantee this.
+//! The tangent of a quasi-static step may be indefinite, and is symmetric only for elastic and
+//! associated laws, so Cholesky factorisation does not apply. The operations have a fixed order and
+//! no fused products, so results are bit-identical on any machine.
 
 /// A square matrix with `band` diagonals on either side of the main diagonal.
 #[derive(Debug, Clone)]
@@ -93,7 +92,7 @@ mod tests {
     /// Compares the solution for an indefinite unsymmetric matrix, whose pivots are off the
     /// diagonal, with the LU factorisation of a library.
     #[rstest]
-    fn solution_is_that_of_a_dense_factorisation(
+    fn solution_agrees_with_a_dense_factorisation(
         #[values((1, 0), (7, 1), (9, 8), (40, 3), (41, 5))] (rows, band): (usize, usize),
     ) {
         let mut system = BandedSystem::zeros(rows, band);
@@ -115,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn singular_matrix_names_its_row() {
+    fn singular_matrix_is_reported_with_its_row() {
         let mut system = BandedSystem::zeros(3, 1);
         for (i, j) in [(0, 0), (1, 1), (1, 2), (2, 1), (2, 2)] {
             system.add(i, j, 1.0);

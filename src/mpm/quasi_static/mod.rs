@@ -160,8 +160,8 @@ impl<const D: usize> QuasiStatic<D> {
 }
 
 impl<const D: usize> Subject for QuasiStatic<D> {
-    /// Performs one load step of length `dt`. A reference run with shorter steps replaces one step
-    /// by two of length 1/2.
+    /// Performs one load step of length `dt`, which is 1/2 in a reference run with steps of half
+    /// the length.
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.advanced += dt;
         self.load();

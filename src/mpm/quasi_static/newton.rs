@@ -1,12 +1,11 @@
 //! Newton's method for one load step, with a line search.
 //!
-//! The method first takes full steps, even if the residual rises for a few iterates. When particles
-//! begin to yield, a full step increases the residual, and the next full step reduces it by orders
-//! of magnitude. Sometimes several successive iterates do not improve on the best one, for example
-//! in a cycle between the branches of a law. The method then returns to the best iterate and
-//! accepts only steps that reduce the residual (the watchdog technique of Chamberlain, Powell,
-//! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always
-//! halved.
+//! The method first takes full steps, even if the residual rises for a few iterates: when particles
+//! begin to yield, a full step increases the residual, and the next one reduces it by orders of
+//! magnitude. If several successive iterates do not improve on the best one, for example in a cycle
+//! between the branches of a law, the method returns to the best iterate and then accepts only
+//! steps that reduce the residual (the watchdog technique of Chamberlain, Powell, Lemarechal &
+//! Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always halved.
 
 use super::balance::{Iterate, StepEquations};
 use crate::mpm::foundation::algebra::Vector;
@@ -14,8 +13,8 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::Failure;
 
-/// Residual, divided by the load, below which a step counts as converged. Rounding limits the
-/// residual to between 2e-14 and 1e-11 of the load.
+/// Residual, divided by the load, below which a step counts as converged. Rounding errors of the
+/// residual are between 2e-14 and 1e-11 of the load.
 pub(super) const CONVERGED: f64 = 1e-10;
 
 const MOST_CORRECTIONS: usize = 25;

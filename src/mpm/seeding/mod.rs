@@ -115,7 +115,7 @@ mod tests {
     /// The integral `int r dr dz` over a box is exact if the radius is taken at the middle of each
     /// part.
     #[test]
-    fn a_hollow_cylinder_has_its_mass_per_radian() {
+    fn hollow_cylinder_has_its_exact_mass_per_radian() {
         let (from, to) = (Vector::<2>::new(0.5, 0.0), Vector::<2>::new(2.0, 3.0));
         let mut ring = Particles::fill(&Block { from, to, density: 2.0 }, 0.25, 2);
         ring.revolve();

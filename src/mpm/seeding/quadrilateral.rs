@@ -27,9 +27,9 @@ impl Quadrilateral {
         }
     }
 
-    /// Renumbers the corners so that the first axis of the map is as close to X as possible. GIMP
-    /// requires this orientation, because GIMP replaces domains by boxes whose half-lengths are the
-    /// diagonal entries of the domain matrix.
+    /// Renumbers the corners so that the first axis of the map is as close to X as possible. The
+    /// boxes of GIMP require this orientation, because their half-lengths are the diagonal entries
+    /// of the domain matrix.
     fn upright(self) -> Self {
         let along = |i: &usize| self.side(*i)[0] - self.side((i + 2) % 4)[0];
         let first = (1..4).fold(0, |best, i| if along(&i) > along(&best) { i } else { best });
@@ -58,7 +58,6 @@ impl Quadrilateral {
         (0..4).any(|i| at_end(i) && at_end(i + 1))
     }
 
-    /// Returns the vector from corner i to the next corner (m).
     fn side(&self, i: usize) -> Vector<2> {
         self.corners[(i + 1) % 4] - self.corners[i]
     }
@@ -153,7 +152,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn particles_share_the_panel(panel in any(), h in 0.05..0.6_f64, per_axis in 1..4_usize) {
+        fn particles_fill_the_panel(panel in any(), h in 0.05..0.6_f64, per_axis in 1..4_usize) {
             let particles: Particles<2> = panel.fill(3.0, h, per_axis);
             let [n, m] = panel.counts(h, per_axis);
             prop_assert_eq!(particles.len(), n * m);
@@ -163,8 +162,7 @@ mod tests {
             for (x, domain) in particles.x0.iter().zip(&particles.domain0) {
                 prop_assert!(is_inside(&panel, x), "{:?}", x);
                 for axis in 0..2 {
-                    // The middles of domain sides are inside the panel, up to rounding at the
-                    // boundary.
+                    // The middles of domain sides are inside the panel, up to rounding.
                     let towards = domain.column(axis) * (1.0 - 1e-9);
                     prop_assert!(is_inside(&panel, &(x + towards)));
                     prop_assert!(is_inside(&panel, &(x - towards)));
@@ -173,7 +171,7 @@ mod tests {
         }
 
         #[test]
-        fn inverse_returns_the_point_of_a_place(
+        fn inverse_maps_a_position_back(
             panel in any(),
             s in -0.1..1.1_f64,
             t in -0.1..1.1_f64,
@@ -183,7 +181,11 @@ mod tests {
         }
 
         #[test]
-        fn a_slope_is_that_of_the_places(panel in any(), s in 0.1..0.9_f64, t in 0.1..0.9_f64) {
+        fn derivative_agrees_with_differences_of_positions(
+            panel in any(),
+            s in 0.1..0.9_f64,
+            t in 0.1..0.9_f64,
+        ) {
             let d = 1e-3;
             let slope = panel.at(s, t).1;
             let along = (panel.at(s + d, t).0 - panel.at(s - d, t).0) / (2.0 * d);
@@ -232,9 +234,8 @@ mod tests {
         (0..grid.nodes()).filter(is_far_inside).map(|i| total[i].norm()).fold(0.0, f64::max)
     }
 
-    /// The parallelograms of CPDI tile any panel without gaps or overlaps. The boxes of contiguous
-    /// GIMP tile only a panel with two upright sides. Boxes of equal size (uniform GIMP) do not
-    /// tile a panel with two upright sides, and no boxes tile a rotated panel, at any refinement.
+    /// The parallelograms of CPDI tile any panel. The boxes of contiguous GIMP tile only a panel
+    /// with two upright sides, and the equal boxes of uniform GIMP do not tile this panel either.
     #[test]
     fn boxes_of_gimp_tile_a_panel_with_two_upright_sides() {
         let (sin, cos) = libm::sincos(std::f64::consts::PI / 6.0);
@@ -255,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_that_turn_to_the_right_are_named() {
+    fn corner_with_a_right_turn_is_reported() {
         let [a, b, c, d] = *cook().corners();
         assert_eq!(Quadrilateral::new([a, d, c, b]), Err(0));
         assert_eq!(Quadrilateral::new([a, b, (a + b) * 0.5, d]), Err(1));
@@ -264,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn it_does_not_matter_which_corner_is_the_first() {
+    fn first_corner_does_not_affect_the_panel() {
         let [a, b, c, d] = *cook().corners();
         for corners in [[b, c, d, a], [c, d, a, b], [d, a, b, c]] {
             assert_eq!(Quadrilateral::new(corners), Ok(cook()));

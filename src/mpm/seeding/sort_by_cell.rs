@@ -1,8 +1,8 @@
 //! Sorts particles by cell, so that neighbours in space are neighbours in memory.
 //!
-//! Seeded bodies are nearly sorted. For a large body, a step with unsorted particles costs several
-//! times as much as with sorted particles, because consecutive particles then contribute to distant
-//! nodes. Particles are therefore sorted once, before the solver is set up.
+//! Seeded bodies are nearly sorted. In a large unsorted body, a step costs several times as much,
+//! because consecutive particles contribute to distant nodes. Particles are therefore sorted once,
+//! before the solver is set up.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn every_column_goes_along_and_cells_come_in_order() {
+    fn all_columns_are_sorted_by_cell() {
         let (grid, mut particles) = body();
         let before = particles.clone();
         let order = particles.sort_by_cell(&grid);

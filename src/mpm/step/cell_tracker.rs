@@ -188,10 +188,10 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// The test uses a row with one particle per cell. Some particles move to the next cell, some
-    /// leave the grid, and one has an invalid position.
+    /// The row has one particle per cell. Some particles move to the next cell, some leave the
+    /// grid, and one has an invalid position.
     #[rstest]
-    fn particles_are_counted_alike_on_any_number_of_threads(#[values(1, 3)] threads: usize) {
+    fn counts_do_not_depend_on_the_number_of_threads(#[values(1, 3)] threads: usize) {
         let total = 2 * FEW + 37;
         let (from, to) = (Vector::zeros(), Vector::<1>::new(total as f64));
         let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);

@@ -9,7 +9,7 @@ use crate::mpm::transfer::{TransferChoice, TransferKind};
 use crate::subject::{PlaneState, Precision, Start};
 use thiserror::Error;
 
-/// Error for an invalid combination of parts: one line with the parts and the reason.
+/// Error for an invalid combination: one line with the parts and the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0}")]
 pub struct CombinationError(String);
@@ -45,8 +45,8 @@ pub fn combine(
              consistent one by powers of the lumped one"
         ));
     }
-    // For a linear field, node i receives m_i v(x_i), the product of the lumped matrix and the
-    // nodal velocities. Solving with a consistent matrix would amplify this field.
+    // APIC-like transfers already map a linear field to m_i v(x_i), the product of the lumped
+    // matrix and the nodal velocities. The inverse of a consistent matrix would amplify this field.
     if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
         return Err(refusal!(
             "the transfer `{t}` is not supported with the mass matrix `{m}`: it gives each node \
@@ -130,7 +130,7 @@ pub fn combine_precision(precision: Precision, bodies: usize) -> Result<(), Comb
     ))
 }
 
-/// Rejects an invalid combination for a body with this out-of-plane state.
+/// Rejects a basis or a transfer that is invalid for this out-of-plane state.
 ///
 /// # Errors
 /// One line with the part and the reason.
@@ -154,11 +154,11 @@ pub fn combine_across(
     ))
 }
 
-/// Rejects a kind of volume ratio that is invalid in this frame, or for a body with this material,
+/// Rejects a [`VolumeName`] that is invalid in this frame, or for a body with this material,
 /// `dimension` and out-of-plane state.
 ///
 /// # Errors
-/// One line with the volume ratio and the reason why it is incompatible with the other part.
+/// One line with the name and the reason.
 pub fn combine_volume(
     volume: VolumeName,
     frame: FrameName,

@@ -1,9 +1,8 @@
 //! Initial state of the particles: columns, stresses and domains before the first step.
 //!
 //! A body may start deformed ([`Particles::deform`]). The material then computes the stress from F
-//! ([`Material::start_deformed`]), and the basis computes the domains from F, as if the body had
-//! been deformed to this state before. A viscous fluid that starts in motion also has viscous
-//! stress.
+//! ([`Material::start_deformed`]), and the basis computes the domains from F. A viscous fluid that
+//! starts in motion also has viscous stress.
 
 use crate::mpm::basis::Domain;
 use crate::mpm::foundation::particles::Particles;
@@ -76,7 +75,7 @@ mod tests {
     }
 
     #[rstest]
-    fn stress_volume_and_domains_are_those_of_the_deformed_body(
+    fn deformed_start_sets_stress_volume_and_domains(
         #[values(Domain::Point, Domain::Follows)] domain: Domain,
     ) {
         let f = Matrix::<2>::new(1.1, 0.2, 0.0, 0.75);
@@ -97,7 +96,7 @@ mod tests {
 
     /// The initial stress of a shear flow is sigma = 2 eta D.
     #[test]
-    fn a_fluid_in_motion_starts_under_viscous_stress() {
+    fn moving_fluid_starts_with_viscous_stress() {
         let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
         let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
         body.grad_v.fill(Matrix::<2>::new(0.0, 3.0, 0.0, 0.0));
@@ -106,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn clay_at_rest_starts_under_its_initial_pressure() {
+    fn clay_at_rest_starts_with_its_initial_pressure() {
         let mut clay = CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, 150.0);
         let mut body = deformed(Matrix::identity());
         assert_eq!(complete(&mut body, Domain::Point, &mut clay), Ok(1.0));
@@ -114,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_without_a_meaning_is_refused() {
+    fn invalid_initial_deformation_is_refused() {
         let mut neo = NeoHookean::new(100.0, 0.3);
         let start = |f, material: &mut dyn Material<2>| {
             complete(&mut deformed(f), Domain::Point, material).map(|_| ())

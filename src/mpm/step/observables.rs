@@ -1,11 +1,10 @@
 //! Observables of a body: conserved sums, samples of the particles, and the reaction of fixed
 //! walls.
 //!
-//! The reaction follows from the weak form with the functions of fixed nodes. Without the wall, the
-//! nodal forces would accelerate these nodes (`m_i a_i = f_i` with a lumped mass), so the wall must
-//! balance the forces. The reaction is therefore `-sum f_i` over the fixed components of internal
-//! and external forces. Only the functions of these nodes are non-zero on the wall, and their sum
-//! there is one. For small cells the reaction therefore converges to the integral of the traction.
+//! Without the wall, the nodal forces would accelerate the fixed nodes. The reaction is therefore
+//! `-sum f_i` over the fixed components of internal and external forces. Only the functions of
+//! these nodes are non-zero on the wall, where their sum is one, so the reaction converges to the
+//! integral of the traction for small cells.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
@@ -124,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn two_particles_that_fly_apart_have_a_size_and_no_sum() {
+    fn opposite_momenta_have_a_size_but_no_sum() {
         let mut body = two_particles::<2>();
         (body.v[0], body.v[1]) = (Vector::<2>::new(0.0, 2.0), Vector::<2>::new(0.0, -2.0));
         let totals = body.totals(|_| None);
@@ -135,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bar_does_not_spin() {
+    fn bar_has_no_angular_momentum() {
         let mut bar = two_particles::<1>();
         bar.v[0][0] = 1.0;
         let totals = bar.totals(|_| None);
@@ -144,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn tensors_are_written_row_after_row() {
+    fn tensors_are_written_row_by_row() {
         let (from, to) = (Vector::<2>::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         particles.sigma[0] = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);

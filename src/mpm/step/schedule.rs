@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn schemes_visit_the_nodes_as_seldom_as_they_can() {
+    fn schemes_need_as_few_passes_as_possible() {
         let usl =
             [Pass::P2g(&[Mass, Momentum, Force]), Pass::G2p(&[ParticleVelocity, Stress, Position])];
         assert_eq!(visits(SchemeName::Usl, false), usl);
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_schedule_reads_as_the_order_of_its_passes() {
+    fn schedule_lists_passes_in_order() {
         let text = |scheme: SchemeName, is_coupled, state: &[&str]| {
             let passes = compile(scheme.stages(true), true, is_coupled).into();
             StepSchedule { passes, ..StepSchedule::default() }.texts(state).join("; ")

@@ -1,11 +1,10 @@
 //! A solver whose state is rounded to single precision after each pass.
 //!
-//! Arithmetic within a pass is in double precision, so a pass rounds each result once. This models
-//! a solver that stores its arrays in single precision and accumulates sums in registers. Rounded
-//! particle quantities are positions, velocities, volumes, stresses, deformation gradients,
-//! temperatures and affine moments. Rounded node quantities are mass, velocity, force and
-//! acceleration. Internal variables of a law, the state of effects and conditions, and reference
-//! positions remain in double precision. The step of [`Solver`] contains no code for rounding.
+//! Arithmetic within a pass is in double precision, as in a solver that stores its arrays in single
+//! precision and accumulates sums in registers. Rounded particle quantities are positions,
+//! velocities, volumes, stresses, deformation gradients, temperatures and affine moments. Rounded
+//! node quantities are mass, velocity, force and acceleration. Internal variables of a law, the
+//! state of effects and conditions, and reference positions remain in double precision.
 
 use super::setup::Setup;
 use super::solver::Solver;

@@ -6,9 +6,8 @@
 //! recomputed in each step.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
-//! its column exists, and the affine state of the transfer. The grid has no state between steps.
-//! The vector excludes internal variables of a material (plastic flow) and the configuration
-//! (positions and domains).
+//! its column exists, and the affine state of the transfer. Internal variables of a material
+//! (plastic flow) and the configuration (positions and domains) are excluded.
 
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::{Setup, fields};
@@ -102,8 +101,7 @@ impl<const D: usize> Solver<D> {
         }
     }
 
-    /// Computes `v(-dt/2) = v(0) - dt/2 a(0)` from the accelerations of the passes before the first
-    /// step.
+    /// Computes `v(-dt/2) = v(0) - dt/2 a(0)` from the accelerations of the opening passes.
     pub(in crate::mpm) fn opened(&mut self, dt: f64) {
         self.started = true;
         if self.setup.start == Start::AtZero {
@@ -221,7 +219,6 @@ impl<const D: usize> Memory for Setup<D> {
             particles,
             kernel: _,
             transfer,
-            // The mass matrix is assembled in each step.
             mass: _,
             frame: _,
             volume: _,
@@ -256,7 +253,6 @@ impl<const D: usize> Memory for Solver<D> {
             min_j,
             cell_tracker,
             advected: _,
-            // Every update writes the averages before it reads them.
             volume_average: _,
         } = self;
         checkpoint.visit(setup);

@@ -1,8 +1,7 @@
 //! F-bar: an averaged volume ratio prevents volumetric locking (Zhao, Jiang & Choo 2023, IJNME
 //! 124).
 //!
-//! When a law computes the stress of a particle, the law reads a deformation gradient with an
-//! averaged volume ratio:
+//! The law reads a deformation gradient with an averaged volume ratio:
 //!
 //! ```text
 //! Jbar_i = sum_p V0_p J_p N_i(x_p) / sum_p V0_p N_i(x_p)     nodes
@@ -10,11 +9,11 @@
 //! Fbar_p = (Jbar_p/J_p)^(1/D) F_p
 //! ```
 //!
-//! J belongs to the end of the step. The weights belong to the start of the step, like the weights
-//! for forces and velocity gradients, because stresses are computed before positions change. The
-//! averaging does not change F, J and volume of a particle. The internal force uses the volume
-//! `V0 J` and gradients without averaging. Both averages have the same weights, which sum to one.
-//! So Jbar is between the smallest and largest J, and a uniform J is reproduced.
+//! The weights belong to the start of the step, like the weights for forces and velocity gradients,
+//! and J belongs to the end of the step. The averaging does not change F, J and volume of a
+//! particle. The internal force uses the volume `V0 J` and gradients without averaging. Both
+//! averages have the same weights, which sum to one, so a uniform J is reproduced and Jbar is
+//! between the smallest and largest J.
 //!
 //! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
 //! energy.
@@ -222,8 +221,8 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
                 *own = vol * det(&(Matrix::identity() + grad_v * dt));
             }
         }
-        // The volume has already advanced. A law that stores only J must therefore not advance the
-        // volume again.
+        // The volume has already advanced, so a law that stores only J must not advance the volume
+        // again.
         let rest = if reads_deformation { dt } else { 0.0 };
         self.with_average(particles, |material, particles| {
             material.update(&mut StressUpdate::new(rest, particles));

@@ -40,8 +40,8 @@ impl TransferParameter {
 }
 
 /// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
-/// loop over particles return the number of passes for the work counter. Each quantity of a request
-/// counts as a pass, even if one loop over the nodes computes several quantities.
+/// loop over particles return the number of passes for the work counter, which counts each quantity
+/// of a request as a pass.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {

@@ -4,7 +4,7 @@
 //! matrix times S+ S. The inverse of this matrix is approximated by k terms of the Neumann series,
 //! `v(k) = sum_(j<k) (I - S+ S)^j v(1)` with v(1) from the lumped matrix (Nairn & Hammerquist 2021,
 //! CMAME 374, eqs 20-24). This inverse converts nodal momenta to velocities, and nodal forces to
-//! accelerations. Then the particles receive the grid velocity. FMPM(1) is PIC.
+//! accelerations. Particles receive the grid velocity, as in PIC. FMPM(1) is PIC.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::boundary::Boundary;

@@ -87,7 +87,7 @@ fn non_finite_numbers_are_strings_in_json(#[case] value: f64, #[case] text: &str
 }
 
 #[test]
-fn equal_keys_are_grouped_where_the_first_stands() {
+fn equal_keys_are_grouped_at_the_first() {
     let pairs = [("b", 1), ("a", 2), ("b", 3)];
     assert_eq!(grouped(pairs), [("b", vec![1, 3]), ("a", vec![2])]);
     assert_eq!(distinct(pairs.map(|(key, _)| key)), ["b", "a"]);

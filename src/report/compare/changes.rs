@@ -92,7 +92,7 @@ pub struct ReportComparison {
     /// Target errors whose minimum work has changed, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
     pub(super) unchanged: usize,
-    /// Maximum relative difference of values that count as unchanged.
+    /// Values with a smaller relative difference count as unchanged.
     pub(super) tolerance: f64,
 }
 

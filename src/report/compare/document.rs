@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_reads_back() {
+    fn numbers_survive_writing_and_reading() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.1, 1e-300, -0.0] {
             let text = crate::report::columns::number(value).to_string();
             let JsonNumber(read) = serde_json::from_str(&text).expect("a number");

@@ -101,7 +101,7 @@ mod tests {
 
     /// Both series converge but have no common error, and nothing is extrapolated.
     #[test]
-    fn series_that_do_not_meet_are_not_compared() {
+    fn series_without_common_errors_are_not_compared() {
         assert_eq!(compare(&series(1.0, 1.0, 4), &series(1e-4, 1.0, 4)), None);
     }
 

@@ -69,7 +69,7 @@ fn a_change_of_the_problem_shows_what_differs(
 }
 
 #[test]
-fn what_got_worse_is_told_by_the_words_of_its_names() {
+fn common_words_of_worse_cases_are_reported() {
     let names = ["linear-apic", "cubic-apic", "cpdi-apic", "cpdi-flip"];
     let with = |c: f64| {
         let worse = |name: &&str| if name.ends_with("apic") { c } else { 1.0 };
@@ -141,7 +141,7 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 
 /// A ratio close to one is printed with enough digits to distinguish it from one.
 #[test]
-fn a_small_change_is_seen() {
+fn a_small_change_is_detected() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
     // Only part of the interval between the two finest levels has changed work: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
@@ -149,7 +149,7 @@ fn a_small_change_is_seen() {
 
 /// NaN before and after is the same failure. A number in place of NaN is an improvement.
 #[test]
-fn what_failed_before_is_not_worse_now() {
+fn a_failure_in_both_runs_is_unchanged() {
     let broken = {
         let mut case = case("a", 1.0, 1.0);
         set("/levels/3/judged", json!("nan"))(&mut case);
@@ -191,7 +191,7 @@ fn work_is_compared_at_equal_error(
 }
 
 #[test]
-fn other_grids_are_compared_at_equal_error() {
+fn different_grids_are_compared_at_equal_error() {
     let found = after(&case("a", 1.0, 1.0), |case| {
         for (k, cells) in [15, 30, 60, 120].into_iter().enumerate() {
             let h = 1.0 / f64::from(cells);
@@ -234,7 +234,7 @@ fn a_small_error_with_an_order_counts() {
 
 /// Rounding errors may have an order by chance. The verdict of `run --gate` is then `at rounding`.
 #[test]
-fn an_order_of_roundings_is_none() {
+fn rounding_errors_have_no_order() {
     let mut before = case("a", 1e-12, 1.0);
     set("/verdict", json!("at rounding"))(&mut before);
     assert_eq!(rank(&after(&before, set("/levels/3/judged", json!(3e-16)))), None);
@@ -274,7 +274,7 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
 /// The most important change comes first, in any order of the suites. Within one kind, the largest
 /// change comes first.
 #[test]
-fn what_moved_is_sorted_by_importance() {
+fn changes_are_sorted_by_importance() {
     let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];
     let before: Vec<Value> = names.iter().map(|name| case(name, 1.0, 1.0)).collect();
     let mut after = before[1..].to_vec();
@@ -359,7 +359,7 @@ fn what_is_no_document(
 }
 
 #[test]
-fn a_case_that_is_there_twice_is_refused() {
+fn duplicate_cases_are_refused() {
     let twice =
         json!({"suites": [{"suite": "bar", "cases": [case("a", 1.0, 1.0), case("a", 2.0, 1.0)]}]});
     let error = ReportDocument::read(&twice.to_string()).expect_err("no document");
@@ -404,7 +404,7 @@ fn a_long_list_is_cut() {
 }
 
 #[test]
-fn what_got_better_is_folded_and_what_got_worse_is_not() {
+fn better_cases_are_folded_and_worse_ones_are_not() {
     let pair = |c: f64, d: f64| document(&[case("a", c, 1.0), case("b", d, 1.0)]);
     let page = markdown(&compare(&pair(1.0, 1.0), &pair(2.0, 0.5), TOLERANCE));
     let folded = page.find("<details><summary>1 better</summary>\n\n|").expect("a fold");
@@ -451,7 +451,7 @@ prop_compose! {
 
 proptest! {
     #[test]
-    fn nothing_moves_against_itself(cases in prop::collection::vec(any_case(), 0..5)) {
+    fn a_run_equals_itself(cases in prop::collection::vec(any_case(), 0..5)) {
         let mut cases = cases;
         for (k, case) in cases.iter_mut().enumerate() {
             set("/case", json!(k.to_string()))(case);
@@ -464,7 +464,7 @@ proptest! {
 
     /// Swapping the runs swaps new and removed, and better and worse. Nothing panics.
     #[test]
-    fn the_other_way_round_is_the_opposite(a in any_case(), b in any_case()) {
+    fn swapping_the_runs_swaps_the_ranks(a in any_case(), b in any_case()) {
         let (a, b) = (document(&[a]), document(&[b, case("b", 1.0, 1.0)]));
         let (there, back) = (compare(&a, &b, TOLERANCE), compare(&b, &a, TOLERANCE));
         prop_assert_eq!(there.count(Rank::New), back.count(Rank::Gone));

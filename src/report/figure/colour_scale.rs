@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_over_decades_have_colours_by_their_logarithms() {
+    fn a_range_of_decades_has_a_logarithmic_scale() {
         let scale = ColourScale::of([1e-2, 1.0, 1e8, f64::INFINITY].into_iter());
         assert!((scale.share(1e3) - 0.5).abs() <= 1e-12);
         let scale = ColourScale::of([0.0, 1e8].into_iter());
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_beside_colours_are_round() {
+    fn tick_labels_are_round_numbers() {
         let numbers = |values: [f64; 2]| {
             let ColourScale(scale) = ColourScale::of(values.into_iter());
             let ticks = ticks::choose(&scale, BAR_WIDTH, |label| label.width() + 12.0);

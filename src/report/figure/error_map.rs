@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_is_a_strip() {
+    fn a_body_on_a_line_is_drawn_as_a_strip() {
         let svg = map(vec![[0.0, 0.0, 0.0], [1.0, 0.0, 2.0]], false);
         assert!(svg.contains("v14h-"), "{svg}");
     }
@@ -166,7 +166,7 @@ mod tests {
     /// A long name of a case is shortened if another panel is next to it. The note after the name
     /// remains visible on the next line.
     #[test]
-    fn what_is_said_behind_a_long_name_is_seen() {
+    fn the_note_after_a_long_name_is_visible() {
         let field = ErrorField { is_plane: true, size: 0.5, parts: vec![[0.0; 3], [1.0; 3]] };
         let name = "mpm-cubic-bspline-flip-musl, where it broke";
         let panels = vec![(name.to_owned(), field.clone()), ("short".to_owned(), field)];
@@ -176,7 +176,7 @@ mod tests {
 
     /// The figure contains no NaN as a coordinate.
     #[test]
-    fn nothing_to_see_is_no_nan() {
+    fn empty_panels_contain_no_nan() {
         for parts in [vec![[0.0, 0.0, 0.0]], vec![[0.0, 0.0, f64::NAN]]] {
             let svg = map(parts, true);
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");

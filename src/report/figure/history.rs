@@ -209,7 +209,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn peaks_and_ends_survive() {
+    fn thinning_keeps_peaks_and_ends() {
         let mut points: Vec<Pt> =
             (0..10_000).map(|i| (f64::from(i) / 100.0, f64::from(i % 7))).collect();
         points[4321].1 = 99.0;

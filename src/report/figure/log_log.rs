@@ -43,8 +43,8 @@ impl LogLogPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// Creates the figure as SVG, with axes that contain all data of `figures`, including this
-    /// figure.
+    /// Creates the figure as SVG. The axes are long enough for all data of `figures`, which must
+    /// include this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();

@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_and_what_is_not_finite_stay_white() {
+    fn missing_and_non_finite_values_give_no_nan() {
         for values in [&[][..], &[None], &[Some(f64::NAN)], &[Some(f64::INFINITY), Some(1.0)]] {
             let svg = map(values);
             assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");

@@ -431,7 +431,7 @@ mod tests {
     }
 
     #[test]
-    fn bars_have_curves_and_bodies_in_the_plane_have_panels() {
+    fn bars_have_curves_and_plane_bodies_have_panels() {
         let field = |is_plane| crate::verify::ErrorField {
             is_plane,
             size: 0.5,

@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn attributes_cannot_be_left() {
+    fn attribute_values_are_escaped() {
         let link = Html::tag("a", &[("href", "#\" onclick=\"alert(1)")], "x<y");
         assert_eq!(link.into_string(), "<a href=\"#&quot; onclick=&quot;alert(1)\">x&lt;y</a>");
     }

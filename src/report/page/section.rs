@@ -195,7 +195,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ids_and_what_refers_to_them_get_the_prefix() {
+    fn ids_and_references_get_the_prefix() {
         let figure = "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"a\"/>\
             <path id=\"ab\"/></defs><g clip-path=\"url(#a)\"/><use href=\"#ab\"/></svg>\n";
         let inline = inline_svg(figure, "bar-1").into_string();
@@ -207,13 +207,13 @@ mod tests {
     }
 
     #[test]
-    fn style_sheets_stay_behind() {
+    fn style_sheets_are_removed() {
         let figure = "<svg><style>a{}</style><g/><style>b{}</style></svg>";
         assert_eq!(inline_svg(figure, "x").into_string(), "<svg><g/></svg>");
     }
 
     #[test]
-    fn a_figure_without_ids_stays_as_it_is() {
+    fn a_figure_without_ids_is_unchanged() {
         let figure = "<svg viewBox=\"0 0 1 1\"><text>id=\"no\"</text></svg>";
         assert_eq!(inline_svg(figure, "x").into_string(), figure);
     }

@@ -75,7 +75,7 @@ fn values<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn hostile_words_stay_words() {
+fn markup_in_texts_is_escaped() {
     let page = of(&[outcome("a", HOSTILE, &["not met: "])], HOSTILE);
     let seen = tags(&page);
     let count = |name: &str| seen.iter().filter(|(tag, _)| tag == name).count();
@@ -88,7 +88,7 @@ fn hostile_words_stay_words() {
 }
 
 #[test]
-fn ids_are_unique_and_links_lead_somewhere() {
+fn ids_are_unique_and_links_have_targets() {
     let page = of(&[outcome("a", " b", &[]), outcome("a-b", "", &["x"])], "suite: x");
     tags(&page);
     let ids = values(&page, "id");
@@ -104,7 +104,7 @@ fn ids_are_unique_and_links_lead_somewhere() {
 /// The page contains every line of the text report and every figure, for example cost tables and
 /// work-precision diagrams.
 #[test]
-fn whatever_a_suite_reports_is_on_the_page() {
+fn the_page_contains_the_text_report_and_all_figures() {
     let outcome = outcome("a", "words & more", &[]);
     let page = of(std::slice::from_ref(&outcome), "");
     for line in text(&outcome).lines() {
@@ -122,7 +122,7 @@ fn whatever_a_suite_reports_is_on_the_page() {
 
 /// The page shows version, title, source, fingerprint and reasons.
 #[test]
-fn the_page_says_what_was_run() {
+fn the_page_names_the_run() {
     let mut outcome = outcome("a", " b", &[]);
     outcome.title = "a title".to_owned();
     outcome.source = "a source".to_owned();
@@ -154,7 +154,7 @@ fn the_finding_comes_first() {
 
 /// The page loads nothing from a network, and its content security policy forbids it.
 #[test]
-fn nothing_is_loaded() {
+fn the_page_loads_no_resources() {
     let page = of(&[outcome("a", "http://example.org", &[])], "x");
     let addresses: Vec<&str> =
         values(&page, "src").into_iter().chain(values(&page, "xlink:href")).collect();

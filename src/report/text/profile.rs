@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_columns_and_visits_are_told_from_partial_ones() {
+    fn full_and_partial_columns_are_distinguished() {
         let rows = profile(&sample());
         let text = |key| &rows.iter().find(|(name, _)| *name == key).expect("a row").1;
         assert_eq!(text("effects"), "gravity, traction");
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_changes_is_a_difference() {
+    fn only_changed_values_are_differences() {
         let with = sample();
         assert!(difference(&with, &with).is_empty());
         let without = Profile { effects: vec!["gravity"], ..sample() };

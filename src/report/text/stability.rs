@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_that_show_the_same_are_one_row() {
+    fn equal_neighbouring_rows_are_merged() {
         let rows = vec![
             row("mpm-linear-flip-usl", "1"),
             row("mpm-linear-flip-usf", "2"),

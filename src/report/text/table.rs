@@ -227,7 +227,7 @@ mod tests {
     use rstest::rstest;
 
     #[test]
-    fn columns_are_aligned_and_empty_ones_left_out() {
+    fn columns_are_aligned_and_empty_ones_omitted() {
         let columns = [
             TableColumn::text("cells", "", |row: &[&'static str; 2]| row[0]),
             TableColumn::text("ppc", "", |_: &[&'static str; 2]| None::<u64>),
@@ -265,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_show_the_same_are_one() {
+    fn equal_rows_are_merged() {
         let rows = [["a-x", "1"], ["a-y", "2"], ["a-z", "1"], ["b-x", "1"]];
         let rows = rows.map(|row| row.map(str::to_owned).to_vec()).to_vec();
         assert_eq!(merged(rows), [vec!["{a-x,a-z,b-x}", "1"], vec!["a-y", "2"]]);

@@ -68,7 +68,7 @@ pub(super) fn rounding_sizes(
 ) -> Option<RoundingSizes> {
     let is_single = case.method.is_single_precision();
     let unit = if is_single { f64::from(f32::EPSILON) / 2.0 } else { f64::EPSILON / 2.0 };
-    // If the largest exact value is zero, as for a sum over the body, the error scale is used.
+    // The error scale is used if the largest exact value is zero, as for a sum over the body.
     let value = Some(largest_exact(plan, case, truth)).filter(|size| *size > 0.0).or(plan.scale)?;
     let scene = &plan.scene;
     let positions = scene.from.iter().chain(&scene.to).fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -82,11 +82,9 @@ pub(super) fn rounding_sizes(
     Some(RoundingSizes { value, number, unit })
 }
 
-/// Assumed order in the particle spacing: the order of the midpoint rule. Theory gives no general
-/// order, because integrands jump where derivatives of the basis jump, and because particles leave
-/// the centres of their volumes (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76,
-/// 922). The judge uses this order to detect error floors, and as the centre of the expected range
-/// of a suite without `order`.
+/// Assumed order in the particle spacing, that of the midpoint rule. Theory gives no general order,
+/// because integrands jump where derivatives of the basis jump, and because particles leave the
+/// centres of their volumes (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76, 922).
 const MIDPOINT: f64 = 2.0;
 
 /// Fraction of the largest velocity (or acceleration) above which the initial value counts as
@@ -105,16 +103,15 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
 /// Returns the formal order in time. Euler-Cromer is a leapfrog of order 2 if it starts with
 /// `v(-dt/2)`. A start with `v(0)` instead causes a velocity error of `dt/2 a(0)`: order 1 unless
 /// `a(0)` is zero. USF adds `dt grad v` of the initial velocity to F before the first motion: order
-/// 1 unless `v(0)` is zero. (USL and USF also have first-order terms proportional to h^2 and to the
-/// strain squared; the suite temporal-order examines these terms.) Without a formula for the
-/// motion, `v(0)` and `a(0)` are assumed to be non-zero.
+/// 1 unless `v(0)` is zero. Without a formula for the motion, `v(0)` and `a(0)` are assumed to be
+/// non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
         // Load steps are not refined, and heat is integrated by forward Euler.
         Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
-        // An external solver claims an order in space only. The same order is assumed in time.
+        // The order that an external solver claims in space is assumed in time too.
         Method::External { formal_order, .. } => return formal_order,
     };
     let [moves, accelerates] = exact.map_or([true, true], begins);
@@ -184,8 +181,8 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
 
 /// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
-    // A reference run of the same method has values at its own points only, while a formula for the
-    // motion has values everywhere.
+    // A reference run of the same method has values at its own points only, so a formula for the
+    // motion is preferred.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
     let is_same = matches!(case.against, Against::SameMethod(_));
     let truth = if is_same { formula.unwrap_or(truth) } else { truth };

@@ -29,8 +29,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Runs the cases of a convergence study. Data that several cases need are computed only once: a
-/// reference, and manufactured forces at equal points and times.
+/// Runs the cases of a convergence study. Data that several cases need are computed only once.
 pub(crate) struct ConvergenceRunner<'a> {
     plan: ConvergencePlan,
     /// Number of cases that have not run yet.
@@ -73,8 +72,8 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // The runners of all suites exist until the last suite ends. Shared forces are therefore
-        // freed early.
+        // Shared forces are freed early, because the runners of all suites exist until the last
+        // suite ends.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())

@@ -2,15 +2,15 @@
 //!
 //! `Reference` is a FEM solution on a mesh much finer than any level. `FineGrid` is for studies in
 //! space, in any dimension: it runs the method itself on a grid much finer than any level. The
-//! reference configuration of its particles is a lattice, or the bilinear map of a lattice, so the
-//! motion can be interpolated even after particles have moved. `FineSteps` is for studies in time:
-//! it runs the method itself on the same grid, with steps so short that the result is the limit
-//! dt -> 0 of the space-discrete equations.
+//! reference positions of its particles form a lattice, or the bilinear map of a lattice, so the
+//! motion can be interpolated. `FineSteps` is for studies in time: it runs the method itself on the
+//! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
+//! equations.
 //!
-//! `FineSteps` separates the time-step error from the grid error. At the Courant limit of a body,
-//! the grid error is larger and would hide the time-step error. Methods that filter the velocity in
-//! every step (PIC, APIC) have no limit dt -> 0. Neither `FineGrid` nor `FineSteps` checks that the
-//! method converges to the right solution; suites with exact solutions check this.
+//! At the Courant limit, the grid error of a body is larger than the time-step error and would hide
+//! it; `FineSteps` separates both. Methods that filter the velocity in every step (PIC, APIC) have
+//! no limit dt -> 0. Neither `FineGrid` nor `FineSteps` checks that the method converges to the
+//! right solution.
 
 use crate::exact::Truth;
 use crate::fem::Bar;
@@ -26,8 +26,7 @@ use crate::verify::error::observer::lagrange_weights;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
-/// Displacement and velocity of a finely meshed bar at every instant of the study. They are
-/// evaluated at instants only, so no interpolation in time is needed.
+/// Displacement and velocity of a finely meshed bar at every instant of the study.
 pub(crate) struct Reference {
     until: f64,
     from: f64,
@@ -91,8 +90,8 @@ impl Truth for Reference {
     }
 }
 
-/// Number of interpolation points per axis. The interpolation then has order 6, which is higher
-/// than the order of any method.
+/// Number of interpolation points per axis. The interpolation has order 6, higher than that of any
+/// method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a particle lattice at the start and at every instant.
@@ -391,7 +390,7 @@ mod tests {
     #[case::one_is_missing(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 2)]
     #[case::one_is_there_twice(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0], 2)]
     #[case::one_is_off(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.1], 2)]
-    fn what_is_no_lattice(#[case] labels: &[f64], #[case] d: usize) {
+    fn incomplete_or_shifted_labels_are_no_lattice(#[case] labels: &[f64], #[case] d: usize) {
         assert!(Lattice::of(labels, d).is_none());
     }
 }

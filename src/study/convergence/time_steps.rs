@@ -1,11 +1,10 @@
 //! Time steps of levels: the stable, the automatic and the actual step.
 //!
 //! [`crate::mpm::Solver::stable_time_step`] computes the stable step from the solver stages and the
-//! initial state. It is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more than
-//! one cell. It is predicted before a run and constant during the run, because an order requires
-//! one step for each level. With linear basis functions the stability limit may decrease when
-//! particles move (suite `tiny-nodal-mass`). An automatic step is therefore a fraction of the
-//! stable step.
+//! initial state. The step is at most `h/(c + |v|)`, so neither a wave nor a particle crosses more
+//! than one cell. Each level has one constant step, because otherwise no order could be observed.
+//! With linear basis functions the stability limit may decrease when particles move (suite
+//! `tiny-nodal-mass`), so an automatic step is a fraction of the stable step.
 
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
@@ -40,8 +39,8 @@ impl TimeStep {
     }
 }
 
-/// Computes the time steps of all cases and levels of `suite`. Empty for other kinds of study than
-/// a convergence study. Levels whose set-up fails are excluded; their run reports the reason.
+/// Computes the time steps of all cases and levels of `suite`; empty unless it is a convergence
+/// study. Levels whose set-up fails are excluded; their run reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
@@ -109,8 +108,8 @@ pub(crate) const ROUNDS: u32 = 40;
 /// iteration costs as much as a step.
 const FEW: u32 = 6;
 
-/// Fraction of the first predicted limit above which a step is compared with a second prediction.
-/// The first prediction has few iterations and overestimates the limit by up to 50 %.
+/// Fraction of the first predicted limit above which a second prediction is made. The first one has
+/// few iterations and overestimates the limit by up to 50 %.
 const NEAR: f64 = 0.6;
 
 /// A level with its time step, and the stable time step (s) if it is known.

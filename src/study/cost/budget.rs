@@ -1,8 +1,8 @@
 //! Finds the most accurate setting whose run finishes within a time budget (s).
 //!
 //! For every method, the time of its finest level predicts the finest grid within the budget, and
-//! the errors of its levels predict the error on that grid. For grids finer than the levels of the
-//! suite, errors are predicted only if the method still converges. The best method then runs on
+//! the errors of its levels predict the error on that grid. Errors on grids finer than the levels
+//! of the suite are predicted only if the method still converges. The best method then runs on
 //! increasingly fine grids, until a grid twice as fine as the last one would exceed the budget. The
 //! times of these runs give a cost model, and their errors are judged together with those of the
 //! suite. If the new prediction is worse than that of another method, the other method is tried
@@ -20,8 +20,7 @@ use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
 use thiserror::Error;
 
-/// Number of runs, counted from the finest, in the fit of a cost model. Coarser runs are not
-/// representative.
+/// Number of runs, counted from the finest, in the fit of a cost model.
 const FITTED: usize = 6;
 
 const REPEATS: usize = 3;

@@ -12,8 +12,8 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Coarse levels are the cause if leaving them out reduces the distance from the theoretical order
-/// to at most this fraction.
+/// Maximum ratio of the distances from the theoretical order, without and with coarse levels, for
+/// which coarse levels are the cause.
 const CLOSER: f64 = 0.5;
 
 /// Maximum difference between the order of the finest two levels and the theoretical order, if

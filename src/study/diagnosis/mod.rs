@@ -9,10 +9,10 @@
 //! probes         changes of the problem, the levels or the method, one at a time
 //! ```
 //!
-//! The finest levels run again with one change at a time (one factor at a time, as in the isolating
-//! runs of Roy 2005, J. Comput. Phys. 205, 131). A change reveals the cause if it restores the
-//! order. If no change does, one that raises the order is reported, or else the one with the
-//! largest decrease of the finest error. The `because` texts of the suite are not used.
+//! The finest levels run again with one change at a time (as in the isolating runs of Roy 2005, J.
+//! Comput. Phys. 205, 131). A change reveals the cause if it restores the order. If no change does,
+//! one that raises the order is reported, or else the one with the largest decrease of the finest
+//! error.
 
 mod levels;
 mod probes;

@@ -1,7 +1,7 @@
 //! Finds jumps of the exact displacement or its derivatives, and the order that such jumps allow.
 //!
-//! The derivatives are computed from the formulas, piece by piece. Between two points that approach
-//! each other, a jump therefore remains, while the change across a steep slope vanishes.
+//! The derivatives are computed from the formulas. Between two points that approach each other, a
+//! jump remains, while the change across a steep slope vanishes.
 
 use super::session::Known;
 use crate::exact::{Derivatives, Problem};
@@ -9,7 +9,7 @@ use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
 use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity};
 
-/// If the strain changes over less than this fraction of a cell, the change counts as a jump.
+/// Length (cells) below which a change of the strain counts as a jump.
 const STEEP: f64 = 0.5;
 
 /// A jump explains an observed order that is at most this much below the limit.
@@ -20,7 +20,7 @@ const BELOW: f64 = 0.5;
 ///
 /// A scheme of order p smears a jump of the judged quantity over h^(p/(p + 1)). Each continuous
 /// derivative multiplies the error by this factor (Brenner & Thomee 1971, Math. Scand. 27, 5). In
-/// an equilibrium the front does not travel and is as wide as a cell.
+/// an equilibrium the jump is smeared over one cell.
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,
@@ -77,7 +77,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let p = known.session.formal_order;
     let limit = limit(plan, p, jump)?;
     let observed = known.finest.order;
-    // If the order is above this limit, the jump has no effect, because it lies on a grid line.
+    // An order above this limit shows that the jump has no effect, because it lies on a grid line.
     let is_lower =
         observed.is_none_or(|order| order.low <= limit + 2.0 * OrderHypothesis::TOLERANCE);
     if !(limit < p - OrderHypothesis::TOLERANCE && is_lower) {

@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// An order counts as restored if it is at most this much below the theoretical order.
+/// Maximum distance below the theoretical order of an order that counts as restored.
 const NEAR: f64 = 0.2;
 
-/// An order counts as restored if it is at most this much above the theoretical order.
+/// Maximum distance above the theoretical order of an order that counts as restored.
 const ABOVE: f64 = 0.8;
 
 /// Data that all runs of a case need.
@@ -181,6 +181,6 @@ fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[Level
     if let Some(dt) = &mut spec.refine.dt {
         write(dt, |level| level.dt);
     }
-    // The additional levels of full runs may not be compatible with the changed list.
+    // The additional levels of full runs may not fit the changed list.
     spec.refine.full = None;
 }

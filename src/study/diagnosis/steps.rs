@@ -12,16 +12,16 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 /// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// Maximum step of a method without a predicted stable step, as a fraction of the time in which a
-/// wave crosses a cell. Longer steps are doubtful.
+/// Maximum step that is not doubtful if no stable step is predicted, as a fraction of the time in
+/// which a wave crosses a cell.
 const IN_QUESTION: f64 = 0.5;
 
 /// If no stable step is predicted, levels run again with this fraction of the crossing time.
 const CAUTIOUS: f64 = 0.2;
 
-/// The step is the cause if a stable step reduces the error to at most this fraction. Without
-/// instability, a step of 2/5 (`CAUTIOUS / IN_QUESTION`) reduces the error of a method of order 2
-/// in time to 1/6 only.
+/// Maximum ratio of the errors with a stable and with the original step, for which the original
+/// step is the cause. Without instability, a step of 2/5 (`CAUTIOUS / IN_QUESTION`) reduces the
+/// error of a method of order 2 in time to 1/6 only.
 const MENDED: f64 = 0.03;
 
 /// A level whose step exceeds a limit (s), and its repetition with a stable step.

@@ -1,6 +1,5 @@
-//! Gradient studies check the derivatives of a differentiable solver. The derivatives are compared
-//! with the solver's own values, with exact sensitivities, and with values over an interval of a
-//! parameter.
+//! Gradient studies compare the derivatives of a differentiable solver with the solver's own
+//! values, with exact sensitivities, and with values over an interval of a parameter.
 
 mod run;
 use self::run::GradientRun;

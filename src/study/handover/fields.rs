@@ -17,7 +17,7 @@ const NEAR_AXIS: f64 = 1e-8;
 pub(super) struct SceneFields {
     scene: Scene,
     bodies: Vec<FieldBody>,
-    /// Whether random numbers were added to the velocities, stresses and F of the particles.
+    /// Whether random numbers were added to the velocities, stresses and F of particles.
     is_perturbed: bool,
 }
 

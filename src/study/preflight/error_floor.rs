@@ -27,9 +27,9 @@ fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     0.125 * h * h * curvature
 }
 
-/// Creates a finding about an error of `size` (m) with the cause `origin`. The finding is a warning
-/// with `help` if the error is visible on a level of the suite. It is a note if the error would be
-/// visible on one of the next finer levels. `None` if it would not be visible.
+/// Creates a finding about an error of `size` (m) with the cause `origin`: a warning with `help` if
+/// the error is visible on a level of the suite, a note if it would be visible on one of the next
+/// finer levels, and otherwise `None`.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -65,8 +65,8 @@ struct ModelError {
 }
 
 /// Determines the model error of `case`, if there is one. The error of a linearised solution is
-/// computed from the residual. The error of a small-strain solution is estimated, because MPM uses
-/// a law in rate form, which differs from the law of the solution.
+/// computed from the residual. The error of a small-strain solution is estimated, because the law
+/// in rate form that MPM uses differs from the law of the solution.
 fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     let problem = preflight.plan.exact.as_ref()?;
     let motion = preflight.extremes.as_ref()?;
@@ -86,9 +86,9 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     if !is_small || !matches!(case.method, Method::Mpm { .. }) {
         return None;
     }
-    // The neglected forces are of the order of the strain e. They cause an acceleration e u_tt, a
-    // displacement e u_tt t^2/2 after a time t, and at most about e u over a long run. In more than
-    // one dimension a body rotates, and its initial stress rotates too.
+    // The neglected forces are of the order of the strain e. They cause an acceleration e u_tt, and
+    // so a displacement e u_tt t^2/2 after a time t, at most about e u over a long run. In more
+    // than one dimension a body rotates with its initial stress.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -181,8 +181,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// Returns the factor by which the distance between positions in single precision decreases if the
-/// body is centred at the origin; `None` if it does not decrease.
+/// Returns the factor by which rounding errors of positions decrease if the body is centred at the
+/// origin; `None` if they do not decrease.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
@@ -196,8 +196,8 @@ fn two_digits(factor: f64) -> f64 {
     text.parse().unwrap_or(factor)
 }
 
-/// Maximum ratio of the tolerance to the residual. With a larger tolerance, wrong solutions would
-/// pass.
+/// Maximum ratio of the tolerance to the residual. A larger tolerance could accept a wrong
+/// solution.
 const MOST: f64 = 100.0;
 
 /// Reports, as a note, a tolerance that exceeds the residual of the solution by orders of

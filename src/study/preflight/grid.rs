@@ -3,7 +3,7 @@
 //! - `few_levels`: too few levels count for an order.
 //! - `leaves_grid`: the motion leaves the grid.
 //! - `end_on_node`: the last particles of a box start exactly on nodes, and basis functions are
-//!   linear. A particle on a node belongs to the cell above. The node at the far end of this cell
+//!   linear. A particle on a node belongs to the next cell. The node at the far end of this cell
 //!   has no mass, so conditions and forces on it have no effect.
 
 use super::subject::{Preflight, moves_on_grid};

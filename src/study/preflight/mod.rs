@@ -11,9 +11,8 @@
 //! undamped     an equilibrium without dissipation
 //! ```
 //!
-//! Which rules apply depends on the expectation: a suite that only bounds an error gets no warning
-//! about too few levels for an order. Suites acknowledge intended findings by name, with the key
-//! `acknowledge`.
+//! Rules about orders do not apply to a suite that only bounds an error. Suites acknowledge
+//! intended findings by name, with the key `acknowledge`.
 
 pub(crate) mod alignment;
 pub(crate) mod error_floor;

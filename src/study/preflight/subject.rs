@@ -68,9 +68,8 @@ impl<'a> Preflight<'a> {
         self.source.value_at(path.steps()).is_some()
     }
 
-    /// Warns of acknowledgements that are not among those `used`. There are no such warnings if an
-    /// external solver replaces the methods of the suite, because the findings of that solver may
-    /// differ.
+    /// Warns of acknowledgements that are not among those `used`, unless an external solver
+    /// replaces the methods of the suite, because its findings may differ.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
         let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);

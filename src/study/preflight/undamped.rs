@@ -23,8 +23,8 @@ const INTERVALS: usize = 4;
 const AWAY: f64 = 1e-3;
 
 /// Warns if a body without dissipation does not start in its equilibrium, because the body then
-/// oscillates about the equilibrium. If the load grows slowly, the oscillations are small, and the
-/// finding is a note.
+/// oscillates about it. If the load grows slowly, the oscillations are small, and the finding is a
+/// note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -54,8 +54,7 @@ pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
 }
 
 /// Whether a load, a viscous material, friction or the velocity transfer dissipates energy.
-/// Plasticity does not count: it dissipates only while the material flows, and elastic oscillations
-/// remain.
+/// Plasticity does not count, because elastic oscillations remain.
 fn removes_energy(scene: &Scene, case: &Case) -> bool {
     let terms = scene.terms();
     let resists = |share: f64| {

@@ -145,7 +145,6 @@ mod tests {
         known.filter(|(_, truth)| truth.is_finite())
     }
 
-    /// Each law has three different implementations, so an error in one of them is detected.
     #[test]
     fn mpm_fem_and_truth_mean_the_same_law() {
         let elastic = known(0.0).filter(|(plan, _)| plan.properties().is_elastic());
@@ -172,12 +171,12 @@ mod tests {
     /// The uniaxial strain leaves the elastic range, and loading never reverses. Fluids are at
     /// rest.
     #[rstest]
-    fn mpm_and_truth_mean_the_same_law(
+    fn mpm_and_exact_laws_agree(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return mapping of clay has order 1 in the step, so a single step does not give the
-        // exact stress. `mpm::material::clay_paths` tests clay in many steps.
+        // The return mapping of clay has order 1 in the step, so it needs many steps
+        // (`mpm::material::clay_paths`).
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];

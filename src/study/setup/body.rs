@@ -205,8 +205,8 @@ pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Creates boundary conditions on the faces of the grid. If faces share a node, later conditions
-/// override earlier ones. Stronger conditions therefore come last.
+/// Creates boundary conditions on the faces of the grid. Stronger conditions come last, because
+/// later ones override earlier ones at shared nodes.
 pub(crate) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,

@@ -84,8 +84,7 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
 }
 
 /// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
-/// `rounds` power iterations. A body does not become less stable by sharing nodes with other
-/// bodies.
+/// `rounds` power iterations. Nodes shared with other bodies do not make a body less stable.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,

@@ -118,7 +118,7 @@ mod tests {
     #[case(MaterialPlan::LinearElastic { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
     #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
-    fn solver_and_truth_mean_the_same_initial_stress(#[case] plan: MaterialPlan) {
+    fn solver_and_exact_solution_have_the_same_initial_stress(#[case] plan: MaterialPlan) {
         let is_finite = plan.properties().depends_on_deformation_alone().is_ok();
         let f = Matrix::<2>::new(1.1, 0.2, -0.3, 1.05);
         let grad = [[0.1, 0.2, 0.0], [-0.3, 0.05, 0.0], [0.0; 3]];

@@ -89,7 +89,7 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each component of the state, if the run requests it. This excites every
+/// Adds a random number to each component of the state, if the run requests it, to excite every
 /// mode.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {

@@ -29,8 +29,7 @@ const SHARP: f64 = 1e-5;
 /// Relative accuracy of limits that are observed in runs.
 const SHARP_OF_RUNS: f64 = 5e-3;
 
-/// Fractions of a predicted limit at which runs check the prediction. Only full runs use 0.95,
-/// because 0.98 is the stronger test.
+/// Fractions of a predicted limit at which runs check the prediction. Only full runs use 0.95.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
 /// Rounding error of a defective eigenvalue 1, such as the eigenvalue of rigid motion.

@@ -12,12 +12,12 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::ForceRow;
 
-/// Number of full cells on each side of the node. The axis is periodic. This number keeps the
-/// support of a wide basis function away from the ends of the axis.
+/// Number of full cells on each side of the node: enough to keep wide basis functions away from the
+/// ends of the periodic axis.
 const SIDE: usize = 4;
 
-/// Maximum number of particles, summed over all positions of the moving particle. This limits the
-/// run time to about a second, and also the length of the report.
+/// Maximum number of particles, summed over all positions of the moving particle. It limits the run
+/// time to about a second.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];

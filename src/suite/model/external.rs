@@ -7,15 +7,16 @@ use std::sync::Arc;
 
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
-    /// examines the internals of a method. A convergence study keeps the cases that it states for
-    /// this solver. If it states none, it gets one case for each combination of end time and
+    /// examines the internals of a method. A convergence study keeps the cases stated for this
+    /// solver. If there are none, the solver gets one case for each combination of end time and
     /// reference solution. With `gate`, each case without an expectation must reach an order or an
     /// error bound.
     pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
         self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
     }
 
-    /// Like [`Suite::of_external`], but the solver must meet the requirements `terms`, if any.
+    /// Replaces the methods as in [`Suite::of_external`]; the solver must meet the requirements
+    /// `terms`, if any.
     pub fn of_external_on(
         &self,
         solver: ExternalMethod<'_>,
@@ -83,8 +84,7 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Returns whether a case must meet requirements, and which, for a solver with this formal
-    /// order.
+    /// Returns the requirements on a case, if any, for a solver with this formal order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());

@@ -1,9 +1,7 @@
 //! Hash of a text.
 
-/// Computes a 64-bit FNV-1a hash (Fowler, Noll & Vo), modified to read eight bytes per step. Large
-/// steps save time for programs of tens of millions of bytes, because each step must wait for the
-/// previous one. A shift after each product moves high bits down, where the next product spreads
-/// them. Every step is a bijection of the hash.
+/// Computes a 64-bit FNV-1a hash (Fowler, Noll & Vo), modified for speed to read eight bytes per
+/// step. A shift after each product moves high bits down, where the next product spreads them.
 pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
     let next = |hash: u64, word: u64| {
         let product = (hash ^ word).wrapping_mul(0x0100_0000_01b3);
@@ -20,7 +18,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texts_that_differ_have_other_numbers() {
+    fn different_texts_have_different_hashes() {
         let text: Vec<u8> = (1..20).collect();
         let mut seen = vec![fingerprint(&text)];
         for at in 0..text.len() {
@@ -40,7 +38,7 @@ mod tests {
 
     /// Two differences must not cancel, as they would without the shift of high bits.
     #[test]
-    fn differences_spread() {
+    fn two_differences_do_not_cancel() {
         let changed = |words: [u64; 2]| {
             let bytes: Vec<u8> = words.into_iter().flat_map(u64::to_le_bytes).collect();
             fingerprint(&bytes)

@@ -1,4 +1,4 @@
-//! Checked values of a gradient study.
+//! A gradient study after all checks of its suite.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};

@@ -1,11 +1,11 @@
-//! Checked values of an internal-force study.
+//! An internal-force study after all checks of its suite.
 
 use super::{StudyPlan, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
 use std::sync::Arc;
 
-/// An internal-force study.
+/// A study of the internal force on a node that a particle crosses.
 #[derive(Debug, Clone)]
 pub struct ForcePlan {
     /// Cell size (m).

@@ -182,7 +182,7 @@ pub struct ExternalMethod<'a> {
 pub struct AnyMethod {
     /// Highest order along the refined axis that the regularity of the solution allows.
     pub order: Option<f64>,
-    /// Errors at or below this bound are accepted for any order.
+    /// Errors at or below this bound are accepted for any observed order.
     pub error_below: Option<f64>,
     /// Whether no body deforms in the problem; a solver may then use any law.
     pub any_law: bool,
@@ -207,7 +207,7 @@ pub struct GateTerms {
     pub formal_order: Option<f64>,
     /// Required order on this suite.
     pub order: Option<f64>,
-    /// Errors at or below this bound are accepted for any order.
+    /// Errors at or below this bound are accepted for any observed order.
     pub error_below: Option<f64>,
     /// Reason for not running this suite.
     pub skip: Option<String>,

@@ -66,8 +66,7 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Kind of steps. A load step advances time by one unit, so a run of N load steps ends at time
-    /// N.
+    /// Kind of steps. A load step advances time by one unit.
     pub steps: StepKind,
     /// Number of instants at which the error is measured.
     pub instants: u64,

@@ -1,4 +1,4 @@
-//! Checked values of a stability study.
+//! A stability study after all checks of its suite.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{StudyPlan, kept};
@@ -8,7 +8,7 @@ use crate::suite::yaml::Source;
 use crate::verify::{Gating, RunFigure, StabilityExpectation};
 use std::sync::Arc;
 
-/// A stability study.
+/// A study of the growth of energy in runs, for several values of one parameter.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
     pub(crate) template: SetupTemplate,

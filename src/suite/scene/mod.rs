@@ -48,8 +48,8 @@ pub struct Scene {
     /// Loads and effects, in the order in which solvers apply them.
     pub(crate) loads: Vec<ListedLoad>,
     /// The bodies if there are several, otherwise empty. Each body is a scene with the same grid,
-    /// faces and loads. If there are several bodies, `self` describes their bounding box and the
-    /// material of the first body.
+    /// faces and loads. `self` then describes their bounding box and the material of the first
+    /// body.
     pub bodies: Vec<Self>,
     /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
     /// field.
@@ -71,8 +71,8 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Number of spare grid cells outside a free face, for bodies that expand. A tenth of the body
-/// length is added to these cells.
+/// Number of spare grid cells outside a free face, in addition to a tenth of the body length, for
+/// bodies that expand.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {

@@ -5,8 +5,8 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use std::fmt;
 use std::ops::Range;
 
-/// Maximum length of a text in a diagnostic (characters). A file may contain a key of 60 000
-/// characters.
+/// Maximum length of a text in a diagnostic (characters), because a file may contain very long
+/// keys.
 const MAX_WORDS: usize = 300;
 
 /// Maximum length of advice (characters), because advice may list many names.

@@ -173,7 +173,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_text_of_a_number_reads_back(value in any::<f64>().prop_filter("finite", |v| v.is_finite())) {
+        fn text_of_a_number_parses_to_the_same_number(
+            value in any::<f64>().prop_filter("finite", |v| v.is_finite()),
+        ) {
             let text = NumberText::Number(value).to_string();
             prop_assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits());
             prop_assert!(text.len() < 30);

@@ -1,13 +1,13 @@
 //! Checks rules that hold for all keys of a suite file: no duplicate keys, no merge keys, a maximum
 //! number of entries, and finite numbers.
 //!
-//! A separate pass is needed: a typed parser would report a duplicate key only after parsing its
-//! value, and a field of type `f64` accepts `.nan`.
+//! A separate pass is needed, because a typed parser would report a duplicate key only after
+//! parsing its value, and a field of type `f64` accepts `.nan`.
 //!
 //! The error for a refused value has three texts (message, label and help), but the error type of a
-//! deserializer holds one string. The YAML library adds a path and a position to this string.
-//! Separators therefore mark the three texts. A file cannot forge separators, because sources with
-//! control characters are refused.
+//! deserializer holds one string, to which the YAML library adds a path and a position. Separators
+//! mark the three texts. A file cannot forge separators, because sources with control characters
+//! are refused.
 
 use super::{MAX_ENTRIES, Source};
 use serde::de::{self, Deserialize, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};

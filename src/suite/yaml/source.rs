@@ -118,7 +118,8 @@ impl Source {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// Returns the byte range of the token at `offset`: a scalar, or any other single character.
+    /// Returns the byte range of the token at `offset`: a scalar, or one character that starts no
+    /// scalar.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -152,7 +153,7 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
 }
 
 /// Whether the file is a named pipe. Reading a named pipe without a writer would block. Pipes that
-/// the shell opens for a command do not count, because they have a writer.
+/// the shell opens for a command have a writer and do not count.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

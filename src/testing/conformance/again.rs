@@ -16,8 +16,8 @@ pub(super) fn sample(subject: &dyn Subject, first: &Samples) -> Option<Breach> {
     Some(Breach::new("sample", wanted, seen))
 }
 
-/// Reports a breach if the step length is ignored: in a step of half the length, points must move
-/// half as far. Returns `None` for a body that starts at rest.
+/// Reports a breach if the solver ignores the step length: in half a step, points must move half as
+/// far. Returns `None` for a body that starts at rest.
 pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let [first, second, ..] = states else { return None };
     let fastest = largest(&first.samples.velocity);
@@ -46,7 +46,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
 }
 
 /// Reports a breach if a second subject of the same problem gives a different run. Rounding
-/// differences are allowed, because sums may be computed in another order.
+/// differences are allowed.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];

@@ -61,7 +61,7 @@ impl Patient<'_> {
         self.able_with(dimensions, laws, scene, &|_| {})
     }
 
-    /// Like [`Patient::able`], for scenes with the additional requirements that `more` sets.
+    /// Finds the scene as in [`Patient::able`], with the additional requirements that `more` sets.
     pub(super) fn able_with(
         &self,
         dimensions: &[usize],
@@ -100,8 +100,7 @@ impl Patient<'_> {
                 None => Ok(course),
             }
         };
-        // Results are collected first, so that the returned error does not depend on the order in
-        // which the runs end.
+        // Results are collected first, so that the returned error does not depend on thread timing.
         let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(complete).collect();
         courses.into_iter().collect()
     }

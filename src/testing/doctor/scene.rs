@@ -16,15 +16,14 @@ pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotate
 pub(super) const ELASTIC: [&str; 5] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
 
-/// All laws, for scenes in which the law has no effect or its effect is not examined.
+/// All laws except those of soils, for scenes in which the law has no effect or is not examined.
 pub(super) const ANY: [&str; 7] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
 
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Stiffness factor of a soft body. The resulting stiffness is negligible even at nodes whose mass
-/// is only a rounding error.
+/// Stiffness factor of a soft body, negligible even at nodes whose mass is only a rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the lower and the higher face of a box for each axis.
@@ -93,8 +92,9 @@ impl BoxScene {
             poisson: 0.3,
             strength: 1e-4,
             dilation: 1.0 / 3.0,
-            // The density must not be a power, product or ratio of the other numbers. Each possible
-            // mistake then causes a different wrong factor (see `fall::factors`).
+            // This density is not a power, product or ratio of the other numbers, so that each
+            // possible mistake of a solver changes accelerations by another factor (see
+            // `fall::factors`).
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -234,8 +234,8 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// Runs this crate's MPM with PIC and the named basis, to measure the effect of the averaging
-    /// of velocities alone.
+    /// Runs this crate's MPM with PIC and the named basis, to measure how averaging changes
+    /// velocities.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }

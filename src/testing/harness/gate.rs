@@ -39,15 +39,15 @@ impl Gate {
             Ok(files) => files,
             Err(error) => return nothing(format!("{shown}: {error}")),
         };
-        // The files are checked in parallel, because checking an exact solution takes 0.1 s.
+        // In parallel, because the check of an exact solution takes 0.1 s.
         let found: Vec<_> = files.par_iter().map(|file| self.of_file(file)).collect();
         let (mut trials, mut suites) = (Vec::new(), Vec::new());
         for (cases, suite) in found {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // The report tests come last, because each one blocks a thread until all cases of the suite
-        // are complete.
+        // Report tests come last, because each one blocks a thread until all cases of its suite are
+        // complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
             trials.extend(self.of_all(suites));
@@ -210,8 +210,8 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // Cases without expectations are ignored, because a passing test would suggest that an
-        // expectation is met.
+        // Cases without expectations are ignored, because a passing test would suggest a met
+        // expectation.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };
@@ -302,7 +302,7 @@ mod tests {
 
     /// The failure message names the snapshot file and the command that accepts the change.
     #[test]
-    fn a_difference_says_which_file_and_how_it_is_accepted() {
+    fn snapshot_failure_names_file_and_accept_command() {
         let folder = std::env::temp_dir().join(format!("mpm-verify-drift-{}", std::process::id()));
         fs::create_dir_all(&folder).expect("a folder");
         let said = |suite: &str| {

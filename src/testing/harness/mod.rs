@@ -1,8 +1,8 @@
 //! Generates a test for each case of each suite in a folder.
 //!
-//! There are two independent kinds of check. Comparisons with theory are asserted in plain Rust: no
-//! environment variable and no snapshot command can accept a failure. Reports are compared with
-//! snapshots: `cargo insta review` shows changes and accepts them.
+//! There are two independent kinds of check. Comparisons with theory are asserted in plain Rust, so
+//! that no environment variable and no snapshot command can accept a failure. Reports are compared
+//! with snapshots: `cargo insta review` shows changes and accepts them.
 
 mod gate;
 
@@ -52,9 +52,8 @@ impl SuiteFolder {
     }
 
     /// Tests a solver in place of the methods of the suites. The observed order is compared with
-    /// the expectation of the suite for this solver. Without such an expectation, it is compared
-    /// with the order that the solver states. A case that needs a missing capability is ignored
-    /// with the reason, and does not count as passed.
+    /// the expectation of the suite for this solver or, without one, with the order that the solver
+    /// states. A case that needs a missing capability is ignored with the reason.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
         // The tests live until the end of the process, and so must the solver.
@@ -92,9 +91,9 @@ impl SuiteFolder {
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on rayon threads, and a test thread only waits. A rayon thread that finishes
-        // its part of one case may start another case, which delays the first. More tests than
-        // threads therefore wait at the same time.
+        // Cases run on rayon threads, and a test thread only waits. More tests than threads wait at
+        // the same time, because a rayon thread that finishes its part of one case may start
+        // another case.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

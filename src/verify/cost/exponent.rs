@@ -5,9 +5,9 @@
 //! are refined.
 //!
 //! The line is fitted to `ln error` over `ln work`, because work is counted and has no noise. The
-//! exponent and the ends of its interval are the inverses of the slope and of the ends of its
-//! interval (the fiducial limits of inverse regression: Draper & Smith, Applied Regression
-//! Analysis, 3rd ed., section 3.2).
+//! exponent is the inverse of the slope, and the ends of its interval are the inverses of the ends
+//! of the slope's interval (inverse regression: Draper & Smith, Applied Regression Analysis, 3rd
+//! ed., section 3.2).
 
 use super::sample::{ConvergingPart, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -18,8 +18,7 @@ const FEWEST: usize = 3;
 /// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between observed and theoretical growth of work at which both count
-/// as equal.
+/// Maximum relative difference between observed and theoretical growth of work that count as equal.
 const SAME: f64 = 0.02;
 
 /// Marginal cost of accuracy: the exponent of work over error.
@@ -72,7 +71,7 @@ impl Exponent {
         let errors = slope(|one| one.spacing, |one| one.error)?.slope;
         let works = slope(|one| one.spacing, |one| one.work)?.slope;
         Some(Self {
-            // The slope is negative. Its steeper bound gives the lower cost.
+            // The slope is negative, so its steeper bound gives the lower cost.
             observed: Interval {
                 value: 1.0 / fall.value,
                 low: 1.0 / fall.high,

@@ -9,9 +9,9 @@
 //! | [`model`](Model) | predicted seconds |
 //! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
-//! Work is any additive measure, such as seconds or the number of particle-node transfers. The
-//! number of transfers is equal on all machines. Rankings do not extrapolate: if all levels have
-//! larger errors than the target, the target is not reached.
+//! Work is any additive measure, such as seconds or the number of particle-node transfers, which is
+//! equal on all machines. Rankings do not extrapolate: a method whose levels all have larger errors
+//! does not reach the target.
 
 mod exponent;
 mod model;

@@ -4,11 +4,11 @@
 //! seconds = a transfers + b particle updates + c steps x nodes + d steps
 //! ```
 //!
-//! The coefficients are non-negative and minimise the relative errors at measured levels. Within
-//! one refinement the four counts grow nearly in proportion, and noise would make some coefficients
-//! negative. Therefore a fit is computed for each of the fifteen subsets of the four terms. The
-//! best fit without a negative coefficient is used (non-negative least squares, Lawson & Hanson
-//! 1974, chapter 23).
+//! The coefficients are non-negative and minimise the relative errors at measured levels
+//! (non-negative least squares, Lawson & Hanson 1974, chapter 23). The four counts grow nearly in
+//! proportion within one refinement, so noise would make some coefficients negative. A fit is
+//! therefore computed for each of the fifteen subsets of the four terms, and the best one without a
+//! negative coefficient is used.
 
 /// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +49,7 @@ impl Model {
         let mut best: Option<(f64, [f64; COLUMNS])> = None;
         for subset in 1_u32..1 << COLUMNS {
             let chosen: Vec<usize> = (0..COLUMNS).filter(|k| subset >> k & 1 == 1).collect();
-            // A fit needs at least two runs for each coefficient. Otherwise it would follow the
-            // noise.
+            // With fewer than two runs for each coefficient, a fit would follow the noise.
             if chosen.len() > (rows.len() / 2).max(1) {
                 continue;
             }
@@ -169,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn no_time_has_no_model() {
+    fn runs_without_time_have_no_model() {
         let nothing = Workload { transfers: 0.0, updates: 0.0, node_steps: 0.0, steps: 0.0 };
         assert_eq!(Model::fit(&[]), None);
         assert_eq!(Model::fit(&[(load(8.0), f64::NAN), (load(8.0), 0.0)]), None);
@@ -190,7 +189,7 @@ mod tests {
         /// On any machine, with 3 % noise, the predicted time on a grid twice as fine is within 15
         /// %.
         #[test]
-        fn a_finer_level_is_predicted(
+        fn time_of_a_finer_level_is_predicted(
             a in 1e-10..1e-8_f64, b in 0.0..1e-7_f64, c in 0.0..1e-7_f64, d in 0.0..1e-5_f64,
             noise in -0.03..0.03_f64,
         ) {

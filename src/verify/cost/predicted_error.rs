@@ -7,14 +7,12 @@
 //! ```
 //!
 //! The first term is the prediction interval of a regression (Draper & Smith, Applied Regression
-//! Analysis, 3rd ed., section 3.1). The second term covers systematic changes: on finer levels a
-//! settled order may change by 0.25. Between levels the error is interpolated on logarithmic axes.
-//! For an interpolated error, the interval has only the second term, with the distance to the
-//! nearer level.
+//! Analysis, 3rd ed., section 3.1). The second term allows the order to change by 0.25 on finer
+//! levels. Between two levels the error is interpolated on logarithmic axes, and the interval has
+//! only the second term, with the distance to the nearer level.
 //!
 //! No error is predicted for finer levels if the errors do not converge or have stopped decreasing
-//! (a floor). The same holds if the order falls at the end, because a falling order is the first
-//! sign of a floor.
+//! (a floor), or if the order falls at the end, which is the first sign of a floor.
 
 use super::sample::{ConvergingPart, End, Sample};
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
@@ -90,8 +88,7 @@ impl PredictedError {
             let (line, order) = self.beyond.ok()?;
             let (x, end) = (libm::log(spacing), libm::log(finest.spacing));
             let Interval { value, low, high } = line.another(x);
-            // If the observed order on coarse grids is above the formal order, the excess is not
-            // expected to continue on finer grids.
+            // An observed order above the formal order is not expected to continue on finer grids.
             let lost = (line.slope - order) * (end - x);
             let more = SETTLED * (end - x);
             return exp(Interval {
@@ -111,8 +108,7 @@ impl PredictedError {
     }
 }
 
-/// Fits the line that predicts errors on finer levels. Fails if the order falls on the finest
-/// levels.
+/// Fits the line that predicts errors on finer levels.
 fn line(levels: &[Sample], formal_order: f64) -> Result<(FittedLine, f64), Unpredicted> {
     let fitted = levels.iter().enumerate().filter(|(_, one)| one.asymptotic);
     let points: Vec<LogPoint> = fitted

@@ -150,8 +150,8 @@ pub fn rankings<'a>(
     problems.into_iter().map(rank).collect()
 }
 
-/// Ranks the cases of a suite by the number of particle-node transfers, which is equal on all
-/// machines. External solvers are excluded, because they do not count transfers.
+/// Ranks the cases of a suite by the number of particle-node transfers. External solvers are
+/// excluded, because they do not count transfers.
 pub fn by_transfers(cases: &[CaseOutcome]) -> Vec<Ranking> {
     let is_counted = |case: &&CaseOutcome| {
         let levels = case.convergence().map(|study| study.levels.as_slice());

@@ -1,9 +1,8 @@
 //! Levels of one method: error and work of each level, the converging part, the Pareto front, and
 //! the work needed to reach an error.
 //!
-//! Between two levels of the converging part an error may be interpolated. On other levels a small
-//! error may be accidental: the error may change sign, or fluctuate after it has stopped
-//! decreasing. The error on the next finer grid may be larger.
+//! An error may be interpolated between two levels of the converging part. Elsewhere a small error
+//! may be accidental, because the error may change sign or fluctuate.
 
 use std::ops::Range;
 

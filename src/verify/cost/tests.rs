@@ -59,7 +59,7 @@ fn reach(samples: &[Sample], target: f64) -> Reach {
 }
 
 #[test]
-fn between_levels_a_power_law_is_itself() {
+fn interpolation_of_a_power_law_is_exact() {
     let found = reach(&power(2.0, 3.0, 6), 1e-2);
     assert_relative_eq!(found.work().unwrap(), libm::pow(1e-2, -1.5), max_relative = 1e-12);
     assert_relative_eq!(found.spacing().unwrap(), 0.1, max_relative = 1e-12);
@@ -82,7 +82,7 @@ fn targets(#[case] series: &[f64], #[case] target: f64, #[case] work: Option<f64
 
 /// A good coarsest level must not hide a failure on a finer level.
 #[test]
-fn what_breaks_is_not_reached_already() {
+fn failure_on_a_finer_level_is_not_hidden() {
     let mut samples = errors(&[1e-5, 1e-6, 1e-7]);
     samples[1].failed = true;
     assert_eq!(reach(&samples, 1e-2), Reach::Never);
@@ -120,7 +120,7 @@ fn noise_widens_the_interval_about_the_exponent() {
 }
 
 #[test]
-fn levels_outside_the_window_do_not_make_the_exponent() {
+fn exponent_ignores_levels_outside_the_window() {
     let mut samples = power(2.0, 3.0, 6);
     samples[0].error *= 10.0;
     samples[0].asymptotic = false;
@@ -132,7 +132,7 @@ fn predicted(samples: &[Sample]) -> PredictedError {
     PredictedError::of(samples, &ConvergingPart::of(samples), Verdict::Converging, 2.0)
 }
 
-/// Without noise the interval covers an order that changes by 0.25 over an octave.
+/// Without noise the interval covers a change of the order by 0.25 from one level to the next.
 #[test]
 fn a_power_law_goes_on_within_what_counts_as_settled() {
     let found = predicted(&power(2.0, 3.0, 5)).at(1.0 / 64.0).unwrap();
@@ -142,8 +142,8 @@ fn a_power_law_goes_on_within_what_counts_as_settled() {
     assert_relative_eq!(found.high, wanted * libm::exp2(0.25), max_relative = 1e-12);
 }
 
-/// By hand: four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032.
-/// One octave finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
+/// Four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032. One octave
+/// finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
 #[test]
 fn noise_widens_the_interval_of_a_predicted_error() {
     let mut samples = power(2.0, 3.0, 4);
@@ -162,7 +162,7 @@ fn noise_widens_the_interval_of_a_predicted_error() {
 /// The predicted error follows the theoretical order. Its interval includes the continuation of the
 /// higher observed order.
 #[test]
-fn what_is_better_than_theory_is_not_expected_to_stay_so() {
+fn order_above_theory_is_not_extrapolated() {
     let found = predicted(&power(3.0, 3.0, 4)).at(1.0 / 32.0).unwrap();
     assert_relative_eq!(found.value, libm::exp2(-14.0), max_relative = 1e-12);
     assert_relative_eq!(found.low, libm::exp2(-15.25), max_relative = 1e-12);
@@ -193,7 +193,7 @@ fn no_error_is_predicted_beyond(#[case] series: &[f64], #[case] obstacle: Unpred
 }
 
 #[test]
-fn no_error_is_predicted_where_no_order_has_settled() {
+fn no_error_is_predicted_without_a_settled_order() {
     let mut samples = power(2.0, 3.0, 5);
     let part = ConvergingPart::of(&samples);
     let found = PredictedError::of(&samples, &part, Verdict::PreAsymptotic, 2.0);
@@ -274,7 +274,7 @@ proptest! {
     /// No level dominates a level on the front. Every level that counts is dominated or equalled by
     /// a level on the front, except for negligible differences of the error.
     #[test]
-    fn the_front_is_the_front(samples in series()) {
+    fn pareto_front_dominates_all_other_levels(samples in series()) {
         let front = super::pareto_front(&samples);
         let beats = |a: &Sample, b: &Sample| {
             a.work <= b.work && a.error <= b.error && (a.work, a.error) != (b.work, b.error)

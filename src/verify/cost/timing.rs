@@ -25,9 +25,8 @@ pub struct Machine {
     pub cores: usize,
     /// Load average over a minute, before and after, if the system reports it.
     pub load: Option<[f64; 2]>,
-    /// Fraction of the time during which the measuring thread waited for a core. All measured
-    /// seconds exclude this time. `None` if the system does not report this time; the measured
-    /// seconds then include it.
+    /// Fraction of the time during which the measuring thread waited for a core. Measured seconds
+    /// exclude this time, unless the system does not report it (`None`).
     pub waited: Option<f64>,
     /// Time (s) of a constant loop that runs between all other measurements. Its spread is the
     /// noise due to the clock frequency and other processes.
@@ -146,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_measured_is_no_time() {
+    fn no_measurements_give_no_time() {
         assert_eq!(Timing::of(&[]), None);
         assert_eq!(Timing::of(&[1.0, f64::NAN]), None);
     }

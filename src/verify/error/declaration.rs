@@ -1,9 +1,9 @@
 //! Declarations of the judged quantities: values at labels (points, identified by their reference
 //! positions), and sums over the body or its walls.
 //!
-//! Errors of sums are divided by a number, called size, that is zero only for a body at rest. The
-//! size of an energy is its value. The size of a vector sum is the sum of the lengths of the added
-//! vectors. All sums have three components; an energy has only the first.
+//! Errors of sums are divided by a number, called size, that is zero only for a body at rest: the
+//! value of an energy, or for a vector the sum of the lengths of the added vectors. All sums have
+//! three components; an energy has only the first.
 
 use crate::exact::{SumDensity, SumPoint, Truth};
 use crate::subject::{Samples, Totals};
@@ -19,7 +19,7 @@ pub(super) struct Declaration {
     /// Unit; empty for a dimensionless quantity.
     pub(super) unit: &'static str,
     pub(super) shape: TensorShape,
-    /// Returns the values of a subject, label by label; empty if the subject reports none.
+    /// Returns the values that a solver reports, label by label; empty if it reports none.
     pub(super) computed: fn(&Samples) -> Cow<'_, [f64]>,
     /// Writes the exact value at the label X at time t. Returns false if the exact solution does
     /// not define it.
@@ -44,7 +44,7 @@ pub(super) struct Declaration {
 
 #[derive(Clone, Copy)]
 pub(super) struct SumDeclaration {
-    /// How the value of a subject is computed; components beyond the dimension are zero.
+    /// How the value is computed for a solver; components beyond the dimension are zero.
     pub(super) computed: ComputedSum,
     /// Exact value per unit of volume or area.
     pub(super) density: SumDensity,
@@ -56,8 +56,7 @@ pub(super) struct SumDeclaration {
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
     /// Computed by a function of the second moments (kg m2) of the body and of its reference
-    /// configuration, one for each axis. The same function gives the exact value from the exact
-    /// moments.
+    /// configuration, one for each axis.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction force of walls.
     Reaction,
@@ -113,7 +112,7 @@ pub(super) const DISPLACEMENT: Declaration = Declaration {
     },
     exact_at_all: Some(|truth, d, labels, t, into| truth.displacements(d, labels, t, into)),
     size: SolutionSize::Magnitude,
-    // A displacement is the difference between two positions, and both are rounded.
+    // A displacement is the difference between two rounded positions.
     rounding_size: |length| length,
     is_primary: true,
     is_optional: false,

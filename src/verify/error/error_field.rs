@@ -7,8 +7,7 @@ use crate::subject::Samples;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Number of parts along the longer side of a plane body. Smaller parts could not be distinguished
-/// in a drawing.
+/// Number of parts along the longer side of a plane body, as many as a drawing can show.
 const SQUARES: f64 = 20.0;
 const PARTS: f64 = 80.0;
 
@@ -60,7 +59,6 @@ impl ErrorField {
         let is_coarse = spacing >= size;
         let mut parts: BTreeMap<[i64; 2], [f64; 3]> = BTreeMap::new();
         // A particle at the end of the body belongs to the last part, not to an additional one.
-        // This also holds if particles are parts.
         let end = [0, 1].map(|axis| (high[axis] - low[axis]) / size);
         let last = end
             .map(|end| if is_coarse { end } else { (libm::ceil(end - ROUNDING) - 1.0).max(0.0) });
@@ -115,9 +113,8 @@ pub(super) mod tests {
         assert_eq!(largest, (n * n - 1) as f64 * 1e-6);
     }
 
-    /// Only a few of the last particles along an axis have the largest position.
     #[test]
-    fn no_part_of_a_whole_body_is_left_out() {
+    fn parts_cover_the_whole_body() {
         let mut samples = square(32);
         samples.weight.fill(1.0 / 1024.0);
         for (p, u) in samples.displacement.iter_mut().enumerate() {
@@ -127,8 +124,7 @@ pub(super) mod tests {
         assert_eq!(field.parts.len(), 400);
     }
 
-    /// A particle without a position is excluded. A particle without an error makes the error of
-    /// its part NaN.
+    /// A particle without a position is excluded. A NaN error makes the error of its part NaN.
     #[test]
     fn nan_is_seen() {
         let mut samples = square(10);
@@ -140,7 +136,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_single_particle_is_no_field() {
+    fn single_particle_has_no_field() {
         assert_eq!(ErrorField::of(Quantity::Displacement, &square(1), &AtRest, 0.0), None);
     }
 

@@ -1,7 +1,7 @@
 //! A box of reference positions to which errors are restricted.
 //!
-//! A free body with a uniform velocity gradient has a uniform stress until waves from its faces
-//! arrive. Errors in a box that no wave has reached do not depend on the faces.
+//! In a free body with a uniform velocity gradient, the stress is uniform until waves arrive from
+//! the faces. Errors in a box that no wave has reached do not depend on the faces.
 
 use crate::subject::Samples;
 

@@ -212,7 +212,7 @@ mod tests {
     use rstest::rstest;
 
     #[test]
-    fn figures_of_a_small_field() {
+    fn norms_of_a_small_field_by_hand() {
         let norms = Norms::of(&[3.0, 4.0, 0.0, -1.0], 2, &[1.0, 3.0]);
         assert_relative_eq!(norms.rms, 13.0_f64.sqrt(), max_relative = 1e-15);
         assert_relative_eq!(norms.l1, 2.0, max_relative = 1e-15);
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn no_error_is_zero_only_when_every_error_is() {
+    fn norm_is_zero_only_if_every_error_is_zero() {
         assert_eq!(Norms::of(&[0.0, 0.0], 2, &[1.0]).rms.to_bits(), 0);
         let tiny = Norms::of(&[1e-200, 0.0], 2, &[1.0]);
         assert_relative_eq!(tiny.l2, 1e-200, max_relative = 1e-15);
@@ -311,7 +311,7 @@ mod tests {
     #[case::not_known(Quantity::Stress, 2.0)]
     #[case::not_a_number(Quantity::Velocity, 2.0)]
     #[case::zero(Quantity::Displacement, 0.0)]
-    fn no_size(#[case] of: Quantity, #[case] until: f64) {
+    fn undefined_size_is_nan(#[case] of: Quantity, #[case] until: f64) {
         assert!(of.largest_exact(&Rod, &[vec![1.0, 0.0]], &[0.0, until]).is_nan());
         assert!(of.largest_exact(&Rod, &[], &[until]).is_nan());
     }

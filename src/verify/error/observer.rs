@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_lattice_nothing_is_interpolated() {
+    fn no_interpolation_without_a_lattice() {
         let mut moved = plate();
         moved.label[2] += 0.01;
         assert_eq!(displacement_at(&moved, &[0.3, 0.7]), None);
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_history_is_that_of_its_label() {
+    fn history_belongs_to_its_label() {
         struct Falls;
         impl Truth for Falls {
             fn displacement(&self, _: &[f64], _: f64, _: &mut [f64]) {}
@@ -182,13 +182,13 @@ mod tests {
     }
 
     #[test]
-    fn of_two_equally_near_labels_the_first_is_watched() {
+    fn first_of_two_equally_near_labels_is_observed() {
         let (index, history) = History::start(&cubic(&[0.1, 0.45, 0.55, 0.9]), &[0.5]).unwrap();
         assert_eq!((index, history.label), (1, vec![0.45]));
     }
 
     #[test]
-    fn without_labels_nothing_is_watched() {
+    fn nothing_is_observed_without_labels() {
         assert_eq!(History::start(&Samples::default(), &[0.5]), None);
     }
 

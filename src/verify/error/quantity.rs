@@ -293,17 +293,14 @@ mod tests {
         Quantity::Velocity
     )]
     #[case::no_labels(Samples::default(), Quantity::Displacement)]
-    fn what_cannot_be_compared_is_no_error_of_zero(
-        #[case] samples: Samples,
-        #[case] quantity: Quantity,
-    ) {
+    fn incomparable_quantities_are_nan(#[case] samples: Samples, #[case] quantity: Quantity) {
         let norms = quantity.errors(&samples, &Sheared, 1.0);
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
     }
 
     /// F is compared with the exact F, not with another quantity.
     #[test]
-    fn a_deformation_gradient_is_held_against_its_own() {
+    fn deformation_gradient_is_compared_with_the_exact_one() {
         struct Turned;
         impl Truth for Turned {
             fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {

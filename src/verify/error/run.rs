@@ -43,13 +43,12 @@ impl Comparison<'_> {
     }
 }
 
-/// Fraction of a run at its end in which a body must be at rest. A single instant would not
-/// suffice, because an oscillating body has zero velocity at its turning points.
+/// Fraction of a run at its end in which a body must be at rest. One instant does not suffice,
+/// because an oscillating body has zero velocity at its turning points.
 const LAST: f64 = 0.1;
 
-/// Advances `subject` over all steps of `clock`. At every instant, measures the error of `subject`
-/// against `truth` at its reference labels. Also records the velocity of the label nearest to the
-/// observed point.
+/// Advances `subject` over all steps of `clock`, and measures its error against `truth` at every
+/// instant. Also records the velocity of the label nearest to the observed point.
 pub fn run(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -60,7 +59,7 @@ pub fn run(
 }
 
 /// Runs `subject` like [`run`]. Also records the judged quantity, for a comparison in `norm` with
-/// other runs of the same level. The record of a failed run is empty.
+/// other runs of the same level; the record of a failed run is empty.
 pub fn run_recorded(
     subject: &mut dyn Subject,
     truth: &dyn Truth,
@@ -203,16 +202,15 @@ impl<'a> RunMonitor<'a> {
         }
     }
 
-    /// Returns the errors over the judged part of the body at time `t` (s); for a sum over the
-    /// body, the errors of the displacement. `None` if the errors are not stored or cannot be
-    /// computed.
+    /// Returns the errors over the judged part of the body at time `t` (s). For a sum over the
+    /// body, these are the errors of the displacement. `None` if the errors are not stored or
+    /// cannot be computed.
     fn field(&self, t: f64) -> Option<ErrorField> {
         let Comparison { of, keeps_field, .. } = *self.comparison;
         let judged = || judged_samples(self.comparison, &self.samples);
         keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
     }
 
-    /// Creates the result of a failed run, with the reason of the failure and without errors.
     fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         subject.sample(&mut self.samples);
         let field = self.field(t);
@@ -239,7 +237,6 @@ impl<'a> RunMonitor<'a> {
     }
 }
 
-/// Returns the samples whose errors are judged: those in the box of the comparison, if any.
 fn judged_samples<'s>(comparison: &Comparison<'_>, samples: &'s Samples) -> Cow<'s, Samples> {
     match comparison.within {
         Some(within) => Cow::Owned(within.restrict(samples)),
@@ -369,9 +366,9 @@ mod tests {
         assert!(in_time.failure.unwrap().ends_with("(step 3, t = 3.0000 s)"));
     }
 
-    /// The run ends at cos t = 0. Errors before its end must not count.
+    /// The run ends at cos t = 0, where errors before the end must not count.
     #[test]
-    fn a_body_that_turns_is_not_at_rest() {
+    fn oscillating_body_is_not_at_rest() {
         let until = 2.5 * std::f64::consts::PI;
         let clock = Clock::new(until, until / 100.0, 100).unwrap();
         let comparison = Comparison { at_rest: Some(2.0), ..Comparison::default() };

@@ -1,10 +1,9 @@
 //! Differences between repeated runs of one level.
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
-//! bits in each run. The spread of a level is the largest difference between two of its runs. To
-//! measure a difference, the norm of the suite is applied to the difference of the judged quantity
-//! at each label. A difference between two norms would not suffice, because errors with equal norms
-//! can differ at every label.
+//! bits in each run. The spread of a level is the largest difference between two of its runs: the
+//! norm of the suite, applied to the difference of the judged quantity at each label. A difference
+//! between two norms would not suffice, because errors with equal norms can differ at every label.
 
 use super::norm::{NormName, Norms, RunErrors};
 use super::quantity::Quantity;
@@ -152,10 +151,7 @@ mod tests {
     #[case(NormName::Linf, 4.0)]
     #[case(NormName::Rms, 10.0_f64.sqrt())]
     #[case(NormName::L1, 3.0)]
-    fn the_largest_difference_of_any_two_runs_is_the_spread(
-        #[case] norm: NormName,
-        #[case] expected: f64,
-    ) {
+    fn spread_is_the_largest_difference_of_two_runs(#[case] norm: NormName, #[case] expected: f64) {
         let runs = [[1.0, 2.0], [2.0, 1.0], [3.0, -2.0]];
         let runs = runs.map(|[a, b]| record(&[(0.0, a), (1.0, b)], norm));
         assert_relative_eq!(spread(&runs, norm), expected, max_relative = 1e-15);
@@ -169,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn runs_with_other_labels_have_no_spread() {
+    fn runs_with_different_labels_have_no_spread() {
         let norm = NormName::Rms;
         let runs = [record(&[(0.0, 1.0)], norm), record(&[(0.5, 1.0)], norm)];
         assert!(spread(&runs, norm).is_nan());

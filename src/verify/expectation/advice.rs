@@ -12,7 +12,8 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum width of the observed interval, as a fraction of the half-width of the default range.
+/// Maximum width of the observed interval, as a fraction of the half-width of the default range,
+/// for which the range is proposed.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.
@@ -54,8 +55,8 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);
     if order.half_width() > WIDE && points >= FEWEST_LEVELS {
-        // The width is proportional to t/sqrt(Sxx), with Sxx ~ n (n^2 - 1) for equal ratios of
-        // spacing.
+        // The width is proportional to t/sqrt(Sxx), with Sxx ~ n (n^2 - 1) for n levels with equal
+        // ratios of spacing.
         let width = |n: usize| {
             let n_f = n as f64;
             two_sided_95(n - 2) / (n_f * (n_f * n_f - 1.0)).sqrt()
@@ -89,7 +90,6 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     let (norm, order) = NormName::ALL
         .iter()
         .copied()
-        // If the density is uniform, norms weighted by mass and by volume are equal.
         .filter(|norm| *norm != study.norm && !norm.is_by_mass())
         .filter_map(order)
         .min_by(|(_, a), (_, b)| a.half_width().total_cmp(&b.half_width()))?;

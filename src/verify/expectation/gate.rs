@@ -3,9 +3,9 @@
 //! The expectations of a suite bound the order of its own methods on both sides, because an order
 //! that is too high shows a defect of the suite. The order of an external solver has a lower bound
 //! only, because superconvergence at its sample points is not a defect. The 95 % interval of the
-//! order must reach this bound. It must also exclude orders that are lower by 0.5, the typical
-//! effect of a defect. The interval may extend below the bound: with few levels, the interval of a
-//! correct solver extends 0.1 or more to each side.
+//! order must reach this bound, and must exclude orders that are lower by 0.5, the typical effect
+//! of a defect. The interval may extend below the bound, because with few levels it extends 0.1 or
+//! more to each side even for a correct solver.
 
 use crate::verify::order::fit::Interval;
 use crate::verify::order::format_number::{format_number, rounded};
@@ -33,12 +33,12 @@ pub enum Gating {
 /// A required order or bound on errors. It is enough to meet one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// Required order, before [`OrderHypothesis::TOLERANCE`] is subtracted.
+    /// Required order, from which [`OrderHypothesis::TOLERANCE`] is subtracted.
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is given. Other methods
-    /// need not satisfy this bound if they have too few levels for an order.
+    /// Bound on the errors of the suite's own methods, if no other bound is given. It accepts a
+    /// method with too few levels for an order, but never rejects one.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -146,7 +146,7 @@ impl Requirement {
             && match above {
                 0 => true,
                 // Coarse levels that are too few for an order may be pre-asymptotic. Without a
-                // bound, their errors must decrease until they reach the rounding error.
+                // bound, their errors must decrease down to the rounding error.
                 1..FEWEST_LEVELS => {
                     bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
                 }
@@ -169,8 +169,8 @@ impl Requirement {
         OrderHypothesis::formal(self.order.unwrap_or(2.0)).over(axis)
     }
 
-    /// Whether the 95 % interval of the order reaches the lowest accepted order. It must also
-    /// exclude orders that are lower by 0.5 or by half.
+    /// Whether the 95 % interval of the order reaches the lowest accepted order, and excludes
+    /// orders that are lower by 0.5 or by half.
     fn has_order(&self, judgement: &Judgement) -> bool {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };
@@ -233,11 +233,11 @@ mod tests {
         assert_eq!(check(Some(2.0), None, &of_order(order, 5)).ok(), met);
     }
 
-    /// The errors on five levels have order 2, but the finest error is multiplied by a factor.
+    /// Five levels of order 2, with the finest error multiplied by a factor.
     #[rstest]
     #[case::a_little_noise(1.2, Some(Acceptance::Order))]
     #[case::noise_that_hides_the_order(2.5, None)]
-    fn an_uncertain_order_must_exclude_a_lost_half(
+    fn uncertain_order_must_exclude_a_loss_of_half_an_order(
         #[case] factor: f64,
         #[case] met: Option<Acceptance>,
     ) {
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn the_message_has_the_requirement_and_the_observation() {
+    fn message_contains_requirement_and_observation() {
         let message = check(Some(2.0), Some(1e-9), &of_order(1.0, 5)).unwrap_err().to_string();
         let expected = "expected order at least 1.90, or errors at most 1e-9, got `too low` with \
                         the order 1.00 [1.00, 1.00] and a largest error of 1";
@@ -302,13 +302,13 @@ mod tests {
     #[case::above(&[0.2], "one level, and an order needs 4; only the suite's own methods must have errors at most 1e-12")]
     #[case::not_a_number(&[f64::NAN], "")]
     #[case::enough_levels(&[0.2; 4], "")]
-    fn a_bound_of_own_methods_accepts_only(#[case] errors: &[f64], #[case] reason: &str) {
+    fn bound_on_own_methods_never_rejects(#[case] errors: &[f64], #[case] reason: &str) {
         let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
         assert_eq!(required.untestable(&levels(errors)).unwrap_or_default(), reason);
     }
 
     #[test]
-    fn a_level_that_fails_is_testable_on_one_level() {
+    fn single_failed_level_is_testable() {
         let required = Requirement { own_error_below: Some(1e-12), ..requirement(Some(2.0), None) };
         let failed = [Level::new(1.0, f64::NAN).failing("a particle left the grid".to_owned())];
         assert_eq!(required.untestable(&failed), None);

@@ -179,8 +179,7 @@ fn rates(interval: (f64, f64)) -> String {
     format!("[{}, {}]", format_number(low), format_number(high))
 }
 
-/// Formats a drift. One digit is enough, because a drift is either a rounding error or far too
-/// large.
+/// Formats a drift with one digit.
 fn rounding(drift: f64) -> String {
     format!("{drift:.0e}")
 }
@@ -268,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_limited_may_be_anything() {
+    fn values_without_limits_are_not_checked() {
         assert!(Limits::default().unmet(&Measured::NONE).is_empty());
         assert!(Limits::default().is_empty() && !limits().is_empty());
     }

@@ -66,8 +66,7 @@ impl Expectation {
         }
     }
 
-    /// Returns one sentence for each unmet expectation; empty if all are met. A failure is reported
-    /// only once.
+    /// Returns one sentence for each unmet expectation; empty if all are met.
     pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
         let judged = self.unmet_judgement(found);
         // A failed run has no measured values, and its failure is already reported.
@@ -77,8 +76,7 @@ impl Expectation {
         judged.into_iter().chain(told.map(|figure| figure.line)).collect()
     }
 
-    /// Describes an unmet verdict or observed order. Both are in one sentence because they describe
-    /// one result.
+    /// Describes an unmet verdict or observed order.
     fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
@@ -204,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn verdict_and_order_are_told_in_one_line() {
+    fn verdict_and_order_are_reported_in_one_line() {
         let low = CaseFindings { verdict: Verdict::TooLow, order: Some((1.5, 1.6)), ..SEEN };
         let line = "expected the verdict `converging` with the order within [1.90, 2.10], \
                     got `too low` with [1.50, 1.60]";
@@ -215,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn figures_that_a_failed_run_cannot_have_are_not_told_again() {
+    fn failure_is_reported_only_once() {
         let failed = CaseFindings {
             verdict: Verdict::Failed,
             order: None,
@@ -234,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verdict_that_is_not_asked_for_may_be_any_but_a_failure() {
+    fn without_an_expected_verdict_only_failure_is_unmet() {
         let bounded =
             Expectation { verdict: None, order: None, finest_pair: None, ..expectation() };
         assert!(bounded.unmet(&CaseFindings { verdict: Verdict::TooFewLevels, ..SEEN }).is_empty());

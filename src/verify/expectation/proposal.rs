@@ -1,9 +1,8 @@
 //! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
-//! Theory has priority: if the observed order agrees with the formal one, the formal order is
-//! proposed. Other values are taken from the run and are marked accordingly. A range is proposed
-//! only if the run meets it with a margin: twice the uncertainty must fit between the observed
-//! order and either bound.
+//! If the observed order agrees with the formal one, the formal order is proposed. Other values are
+//! taken from the run and are marked accordingly. A range is proposed only if the run meets it with
+//! a margin: twice the uncertainty must fit between the observed order and either bound.
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
@@ -17,8 +16,8 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. A different processor or setting may
-/// add in a different order, with different rounding errors.
+/// Minimum ratio of a proposed bound to the measured drift. Another processor or setting may add in
+/// a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.
@@ -165,8 +164,8 @@ fn rounded_up(value: f64) -> f64 {
     format!("{}e{exponent}", digit + 1).parse().unwrap_or(value)
 }
 
-/// Proposes bounds on the conserved sums. A bound on mass alone is attributed to theory, because in
-/// every method the mass is fixed to the particles.
+/// Proposes bounds on the conserved sums. A bound on mass alone is attributed to theory, because
+/// particles have constant masses in every method.
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
@@ -210,7 +209,6 @@ mod tests {
         propose(study).keys.into_iter().map(|key| key.text).collect()
     }
 
-    /// An order without theory is rounded to the nearest multiple of 1/2.
     #[test]
     fn orders_go_by_halves() {
         let halves = |order: f64| {
@@ -234,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drift_has_room_below_its_bound() {
+    fn proposed_drift_bound_has_a_margin() {
         let mut study = study(&[1.0, 0.25, 0.0625, 0.015_625]);
         study.drifts = vec![Conserved::Mass];
         for level in &mut study.levels {

@@ -41,9 +41,8 @@ pub struct GradientEvidence {
 }
 
 impl GradientEvidence {
-    /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if no
-    /// result in `self` explains the derivative. `value` is the check of the reported value of the
-    /// functional.
+    /// Returns the probable mistake in the derivative with respect to `parameter`; `None` if there
+    /// is no explanation. `value` is the check of the reported value of the functional.
     pub fn cause(&self, parameter: &str, value: &ValueCheck) -> Option<String> {
         if !value.agrees() {
             let is_earlier = (value.reported - self.one_step_less).abs() <= value.tolerance;
@@ -73,7 +72,7 @@ impl GradientEvidence {
         }
         let factor = own.reported / own.difference;
         let have_factor = |entry: &GradientEntry| alike(entry.reported, factor * entry.difference);
-        // A factor close to 1 must not be printed as 1.
+        // Enough digits that a factor close to 1 is not printed as 1.
         let digits = if (factor - 1.0).abs() < 0.01 { 9 } else { 4 };
         let times = format!("{factor:.digits$} times the central difference");
         if self.entries.len() > 1 && self.entries.iter().all(have_factor) {
@@ -90,8 +89,8 @@ impl GradientEvidence {
         factor.is_finite().then(|| format!("the derivative is {times}"))
     }
 
-    /// Describes which entry belongs to which parameter, if the entries are the correct derivatives
-    /// in the wrong order.
+    /// Describes which entry belongs to which parameter, if the entries are correct but in the
+    /// wrong order.
     fn order(&self) -> Option<String> {
         let mut free: Vec<&GradientEntry> = self.entries.iter().collect();
         let mut belongs = Vec::new();
@@ -180,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_derivative_that_resembles_nothing_has_no_name() {
+    fn unexplained_derivative_has_no_cause() {
         assert_eq!(cause("young", [f64::NAN, 3.7, 3.0]), "");
         assert_eq!(cause("yield", [-3.6, 3.7, 3.0]), "");
     }

@@ -32,8 +32,8 @@ pub struct Sweep {
 
 impl Sweep {
     /// Integrates the derivative over `points`, which are sorted by the parameter. `rounding` is
-    /// the rounding error of a value. `None` if the function changes so little that rounding could
-    /// look like a jump.
+    /// the rounding error of a value. `None` if the function changes so little that a rounding
+    /// error could count as a jump.
     pub fn new(points: &[SweepPoint], rounding: f64) -> Option<Self> {
         let (first, last) = (points.first()?, points.last()?);
         let change = last.value - first.value;

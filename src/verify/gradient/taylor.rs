@@ -132,9 +132,8 @@ impl Taylor {
 
     /// Whether the derivative differs significantly from the most accurate central difference. The
     /// uncertainty of a central difference is its rounding error plus its change from the next
-    /// larger perturbation. In a smooth function this change is three times the truncation error.
-    /// The check detects small relative errors of the derivative. The remainder does not show
-    /// these, because its order is still 2 for large perturbations.
+    /// larger perturbation. This check detects small relative errors of the derivative. The
+    /// remainder does not show such errors, because its order is still 2 for large perturbations.
     fn is_off(&self) -> bool {
         let all: Vec<(f64, f64)> =
             self.perturbed.iter().map(|p| p.by.abs()).zip(self.differences()).collect();

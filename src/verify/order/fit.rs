@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn one_place_has_no_slope() {
+    fn single_point_has_no_slope() {
         assert!(FittedLine::through(&points(|_| 0.0)[..1]).is_none());
         assert!(FittedLine::through(&[]).is_none());
     }

@@ -22,8 +22,8 @@
 //!   1994).
 //!
 //! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple
-//! serves this purpose: four values and three unknowns leave one equation that can contradict the
-//! extrapolation. Series that they classify as oscillating or divergent give no estimate here.
+//! serves this purpose, because four values can contradict a model with three unknowns. Series that
+//! Eca & Hoekstra classify as oscillating or divergent give no estimate here.
 //!
 //! The coverage of the interval was measured over the suites with exact solutions
 //! (`docs/estimate.md`).
@@ -42,15 +42,15 @@ const SAFETY_FACTOR: f64 = 3.0;
 /// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple. For lower orders the extrapolated part exceeds twice the last change.
+/// Minimum order of a triple. At lower orders the extrapolation exceeds the last change more than
+/// twofold.
 const LEAST_ORDER: f64 = 0.5;
 
-/// Maximum order of a triple. For higher orders the changes shrink faster than with any method of
-/// this crate.
+/// Maximum order of a triple, above the order of any method of this crate.
 const LARGEST_ORDER: f64 = 4.5;
 
-/// Minimum last change, in units of the rounding error of a value. Rounding changes the ratio of
-/// larger changes by at most an eighth.
+/// Minimum last change, in units of the rounding error of a value. Rounding then changes the ratio
+/// of changes by at most an eighth.
 const LEAST_CHANGE: f64 = 16.0;
 
 /// Relative rounding error of a computed value, which is a sum of several terms.
@@ -249,7 +249,8 @@ mod tests {
         series(&points)
     }
 
-    /// `3 + 2 h^p`: the orders do not scatter, and the interval extends to the finest value.
+    /// For `3 + 2 h^p` the orders of the triples are equal, and the interval extends to the finest
+    /// value.
     #[rstest]
     fn a_power_of_h_gives_its_limit(
         #[values(0.6, 1.0, 2.0, 4.4)] order: f64,

@@ -8,14 +8,13 @@
 //! ```
 //!
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
-//! Hoekstra (2014). Only monotonically converging values have an order: the solution `p`. The
-//! logarithm of an absolute value would also yield orders for oscillation and divergence.
+//! Hoekstra (2014). Only monotonically converging values have an order: the solution `p`.
 //!
 //! Three values always fit, so they give no interval; `limit_estimate` compares two triples. The
 //! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered,
 //! because it contains the true error of only 73 of 100 series of the suites with exact solutions.
-//! Nor is the "asymptotic range ratio" `GCI_32 / (r^p GCI_21)`. With the order fitted to the same
-//! three values it is identically `u1 / u2`, which is close to 1 for any values.
+//! The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered either: with the order
+//! fitted to the same three values it is identically `u1 / u2`, which is close to 1 for any values.
 
 use std::fmt;
 

@@ -10,7 +10,7 @@
 //!                 + (1 3 ... (nu-3)) / (2 4 ... (nu-2)) cos^(nu-2) theta)
 //! ```
 //!
-//! The sum is finite. The code inverts it by bisection in `theta`.
+//! The sum is finite. It is inverted by bisection in `theta`.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn tends_to_the_normal_quantile_and_does_not_exist_for_zero() {
+    fn quantile_tends_to_normal_and_is_nan_for_zero() {
         assert_abs_diff_eq!(two_sided_95(100_000), 1.959_964, epsilon = 5e-5);
         assert!(two_sided_95(0).is_nan());
     }

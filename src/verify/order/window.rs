@@ -5,8 +5,7 @@
 //!
 //! - An F-test (Chow 1960, the test for predictive failure) rejects that the dropped levels lie on
 //!   the line through the remaining ones. The risk of a wrong rejection is [`SELECTION_RISK`] for
-//!   all shorter windows together. This risk is small compared with the 5 % of the confidence
-//!   interval, so the selection hardly affects the coverage of the interval.
+//!   all shorter windows together, small compared with the 5 % of the confidence interval.
 //! - The dropped levels depart systematically: all depart by more than [`MATERIAL`] to the same
 //!   side, and the outermost level departs most. An outlier among good levels is therefore kept,
 //!   and widens the interval.
@@ -28,8 +27,8 @@ pub(crate) const FEWEST_LEVELS: usize = 4;
 /// confidence interval.
 const SELECTION_RISK: f64 = 0.005;
 
-/// Minimum departure, in `ln error`, of a dropped level: 5 %. Without this minimum, round-off could
-/// determine the window of noise-free data, where any departure is statistically significant.
+/// Minimum departure, in `ln error`, of a dropped level: 5 %. In noise-free data round-off would
+/// otherwise be statistically significant.
 const MATERIAL: f64 = 0.05;
 
 /// Maximum order for which the error counts as constant: halving `h` changes the error by less than

@@ -108,9 +108,8 @@ mod tests {
         assert_eq!(EXPECTED.unmet(&unknown).len(), 1);
     }
 
-    /// The amplitude changes by the strain of the wave in each of twenty steps.
     #[test]
-    fn an_amplitude_that_remains_may_change_with_the_strain_only() {
+    fn constant_amplitude_may_change_by_the_strain_per_step() {
         let undamped = |log_kept| SpectrumRow {
             predicted: Some(WaveFigures { phase_error: None, log_kept: 0.0 }),
             ..row(None, log_kept)

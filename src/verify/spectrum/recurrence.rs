@@ -1,9 +1,9 @@
 //! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! A Fourier mode of a linear scheme is described by two numbers on the grid. A step multiplies
-//! them by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state
-//! satisfies `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a part that the grid
-//! does not resolve. This part is constant, so the fit includes a constant.
+//! The grid state of a Fourier mode of a linear scheme is two numbers, which a step multiplies by a
+//! 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state satisfies
+//! `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a constant part that the grid
+//! does not resolve, so the fit includes a constant.
 
 use std::f64::consts::TAU;
 
@@ -123,7 +123,7 @@ mod tests {
     #[case::damped(1.9, 0.95)]
     #[case::overdamped(1.2, 0.3)]
     #[case::wave_of_two_cells(-0.5, 0.9)]
-    fn a_series_has_its_own_coefficients(
+    fn fit_recovers_the_coefficients_of_a_series(
         #[case] trace: f64,
         #[case] determinant: f64,
         #[values(0.0, 0.3)] constant: f64,
@@ -135,7 +135,7 @@ mod tests {
 
     /// The eigenvalues `r exp(+-i phi)` have the trace `2 r cos phi` and the determinant `r^2`.
     #[test]
-    fn angle_and_modulus_are_those_of_the_eigenvalues() {
+    fn angle_and_modulus_agree_with_the_eigenvalues() {
         let (r, phi) = (0.97, 0.2);
         let found = Recurrence::new(2.0 * r * libm::cos(phi), r * r);
         assert_relative_eq!(found.angle().unwrap(), phi, max_relative = 1e-12);

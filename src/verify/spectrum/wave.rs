@@ -52,9 +52,9 @@ pub struct ObservedWave {
     pub steps: u64,
 }
 
-/// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles. The
-/// wave number is `k = 2 pi/length`, and X starts at the beginning of the row. The series excludes
-/// the initial state, because possibly no step can produce this state.
+/// Runs `subject` and fits a recurrence to the series of `sum v sin(k X)` over its particles, with
+/// the wave number `k = 2 pi/length` and X from the beginning of the row. The series excludes the
+/// initial state, because this state may not result from a step.
 ///
 /// # Errors
 /// Message that names the failed step.
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn the_velocity_of_the_wave_gives_the_recurrence() {
+    fn recurrence_is_fitted_to_the_wave_velocity() {
         let mut subject = Scripted { velocity: [1.0, 0.9], step: 0 };
         let wave = ObservedWave { from: 2.0, length: 4.0, dt: 1.0, steps: 40 };
         let found = run_wave(&mut subject, wave).unwrap();

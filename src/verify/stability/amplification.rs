@@ -1,17 +1,16 @@
 //! The amplification matrix: one step of a frozen subject as a matrix.
 //!
 //! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
-//! is computed by running the subject from a state whose entry j is perturbed, so the step is not
-//! implemented twice. Central differences eliminate quadratic terms (volume times stress). Entries
-//! are scaled by their natural sizes. This scaling is a similarity transformation and does not
-//! change eigenvalues.
+//! is computed by running the subject from a state whose entry j is perturbed. Central differences
+//! eliminate quadratic terms (volume times stress). Entries are scaled by their natural sizes,
+//! which does not change eigenvalues.
 
 use crate::subject::{Failure, Perturbable};
 use nalgebra::DMatrix;
 use thiserror::Error;
 
-/// Size of a perturbation, relative to the natural size of the entry. When a material law adds the
-/// perturbation to F = I, the relative rounding error is 1e-10.
+/// Size of a perturbation, relative to the natural size of the entry. The rounding error of F = I
+/// plus the perturbation is then 1e-10 of the perturbation.
 const STEP: f64 = 1e-6;
 
 /// Maximum change of a state of rest in a step, relative to the natural sizes.
@@ -33,9 +32,8 @@ pub enum AmplificationError {
 
 /// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
 /// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are the natural
-/// sizes of speed and stress. The matrix has no row for an entry that affects no other entry and
-/// does not change by itself, such as the volume of a particle without stress. The eigenvalue of
-/// such an entry is one.
+/// sizes of speed and stress. An entry that is constant and affects no other entry, such as the
+/// volume of a particle without stress, has no row; its eigenvalue is one.
 ///
 /// # Errors
 /// If the subject is not at rest or a step fails.
@@ -136,7 +134,7 @@ mod tests {
     /// In natural sizes, one unit of b equals four units of a. An entry that affects only itself
     /// has no row.
     #[test]
-    fn the_matrix_of_a_linear_step_is_that_step() {
+    fn amplification_matrix_of_a_linear_step_is_exact() {
         let found = matrix(|c| c).unwrap();
         let expected = DMatrix::from_row_slice(2, 2, &[0.5, 4.0, 0.0, 3.0]);
         assert!((found - expected).amax() < 1e-9);
@@ -144,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_does_not_rest_has_no_matrix() {
+    fn moving_body_has_no_amplification_matrix() {
         assert!(matrix(|c| c + 1e-9).is_err());
         assert!(matrix(|_| f64::NAN).is_err());
     }

@@ -79,14 +79,14 @@ mod tests {
     }
 
     #[test]
-    fn ranges_without_an_end_say_so() {
+    fn limits_outside_the_range_are_reported() {
         assert_eq!(find(|_| true), StabilityLimit::Above(10.0));
         assert_eq!(find(|_| false), StabilityLimit::Below(0.1));
     }
 
     /// The parameter is stable again from 5. The first loss of stability determines the limit.
     #[test]
-    fn the_first_of_several_ends_counts() {
+    fn first_loss_of_stability_is_the_limit() {
         let found = find(|x| x <= 1.0 || x >= 5.0).value().unwrap();
         assert!((found - 1.0).abs() <= 1e-3, "{found}");
     }

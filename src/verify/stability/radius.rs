@@ -7,8 +7,8 @@ use nalgebra::linalg::Schur;
 /// the matrix.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours.
-/// Thresholds below some tens of rounding errors are never reached.
+/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours. Much
+/// smaller thresholds are never reached because of rounding errors.
 const SMALL: f64 = 1e-13;
 
 /// Number of times that the matrix is squared: powers up to 2^30.
@@ -70,8 +70,8 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
     libm::exp(logarithm)
 }
 
-/// Squares the matrix, with sums in column order. The matrix product of the library adds in another
-/// order, and uses fused operations on processors with wider registers.
+/// Squares the matrix, with sums in column order. The order of sums in the library depends on the
+/// processor.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
     for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_is_no_radius() {
+    fn nan_matrix_has_an_infinite_radius() {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
@@ -121,7 +121,7 @@ mod tests {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
         #[test]
-        fn both_ways_agree(entries in prop::collection::vec(-2.0..2.0_f64, 25)) {
+        fn schur_form_and_powers_agree(entries in prop::collection::vec(-2.0..2.0_f64, 25)) {
             let matrix = DMatrix::from_row_slice(5, 5, &entries);
             let (schur, powers) = (spectral_radius(&matrix).radius, by_powers(&matrix));
             prop_assert!((schur - powers).abs() <= 1e-6 * powers, "{schur} against {powers}");

@@ -1,10 +1,9 @@
 //! Runs a subject and observes whether its energy grows.
 //!
 //! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
-//! uniaxial strain. In 1-D and at small strain the second term is the strain energy. Otherwise this
-//! term only measures the size of the stress. That is sufficient to detect growth. The energy is
-//! divided by its initial value. If the body starts at rest, it is divided by the energy of a unit
-//! strain.
+//! uniaxial strain. The second term is the strain energy in 1-D at small strain; otherwise it only
+//! measures the size of the stress, which is sufficient to detect growth. The energy is divided by
+//! its initial value, or by the energy of a unit strain if the body starts at rest.
 
 use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
@@ -215,7 +214,7 @@ pub(super) fn stress_spread(samples: &Samples) -> f64 {
 
 /// Computes the RMS difference between the mean normal stress of a particle and that of its
 /// neighbours, relative to the RMS of the mean normal stress. NaN without stresses or neighbours,
-/// or for too many particles.
+/// or with too many particles.
 pub(super) fn checkerboard(samples: &Samples) -> f64 {
     let (n, d) = (samples.len(), samples.dimension.max(1));
     let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
@@ -296,7 +295,6 @@ mod tests {
         trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
     }
 
-    /// The energy grows from 4 J to 12 J and returns to 2 J. The growth determines the verdict.
     #[test]
     fn the_largest_energy_of_a_run_decides() {
         let found = watched(&[3.0, 11.0, 1.0], false);
@@ -388,7 +386,7 @@ mod tests_of_checkerboard {
     }
 
     #[test]
-    fn a_uniform_stress_has_none_and_no_stress_has_no_figure() {
+    fn uniform_stress_has_no_checkerboard() {
         assert_relative_eq!(checkerboard(&row(&[3.0; 4])), 0.0);
         assert!(checkerboard(&row(&[0.0; 4])).is_nan());
         assert!(checkerboard(&row(&[])).is_nan());
@@ -397,7 +395,7 @@ mod tests_of_checkerboard {
     /// The third particle has no neighbours, and counts neither in the differences nor in the mean
     /// size.
     #[test]
-    fn particles_without_neighbours_have_no_part_in_it() {
+    fn checkerboard_ignores_particles_without_neighbours() {
         let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };
         assert_relative_eq!(checkerboard(&apart), (8.0_f64 / 10.0).sqrt());
     }
@@ -409,7 +407,7 @@ mod tests_of_checkerboard {
     }
 
     #[test]
-    fn a_spread_is_a_share_of_the_largest_in_magnitude() {
+    fn stress_spread_is_relative_to_the_largest_magnitude() {
         assert_relative_eq!(stress_spread(&row(&[1.0, -4.0, 2.0])), 1.5);
         assert_relative_eq!(stress_spread(&row(&[8.0, 2.0])), 0.75);
     }

@@ -202,15 +202,15 @@ impl Diagnosis {
     }
 
     /// Returns the run that reveals the cause, and the effect of its change. If runs restore the
-    /// order, this is the first run whose order is nearest to theory. Otherwise it is the first run
-    /// with the largest increase to a settled order or, without such a run, the run with the
-    /// largest decrease of the error.
+    /// order, this is the run whose order is nearest to theory. Otherwise it is the run with the
+    /// largest increase to a settled order or, without such a run, the largest decrease of the
+    /// error. The first of equal runs is returned.
     pub fn found(&self) -> Option<(&ChangedRun, Evidence)> {
         let least = self.formal_order - OrderHypothesis::TOLERANCE;
         let is_near = self.finest.verdict == Verdict::Converging;
         let before = self.off(self.finest.order);
-        // If the order was already close to theory, it counts as restored only if the new interval
-        // is within the expected range.
+        // An order that was already close to theory counts as restored only if the new interval is
+        // within the expected range.
         let restores = |run: &&ChangedRun| {
             let is_within = run.order.is_some_and(|order| order.low >= least);
             let is_nearer = self.off(run.order) <= CLOSER * before;
@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn the_change_that_moves_the_order_most_is_the_first_cause() {
+    fn largest_change_of_order_is_the_first_cause() {
         let low = (TooLow, order(1.5, 0.05));
         for (value, first) in [(1.8, "the finding"), (2.0, "the cause")] {
             let mut found = diagnosis(low, (Converging, order(value, 0.05), 0.9));

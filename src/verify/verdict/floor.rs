@@ -10,8 +10,8 @@ use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
 /// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
-/// is the cause. The axis then causes at least half of the error if its order is one, and a third
-/// if its order is two.
+/// is the cause. The axis then causes half of the error if its order is one, and a third if its
+/// order is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {
@@ -98,7 +98,6 @@ impl Floor {
                 Err(reason) => format!("with half the {axis} the run fails ({reason})"),
             }
         };
-        // Failed probes are listed last, so the measured errors are listed together.
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();

@@ -167,7 +167,7 @@ impl JudgedSeries {
         })
     }
 
-    /// Detects a floor from an error of zero, because such an error is at or below round-off.
+    /// Detects a floor from an error of zero.
     fn zero(&self, hypothesis: &OrderHypothesis) -> Option<Finding> {
         let from = *self.zeros.first()?;
         let end = self.points.partition_point(|p| p.level < from);

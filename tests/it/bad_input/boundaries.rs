@@ -253,7 +253,7 @@ fn a_motion(#[case] sound: &str, #[case] edits: Edits<'_>, #[case] words: &[&str
 }
 
 #[test]
-fn a_driven_end_has_the_velocity_of_the_motion() {
+fn prescribed_velocity_must_agree_with_the_motion() {
     let wrong = edited(BAR, DRIVEN)
         .replace("{velocity: [\"v0*", "{velocity: [\"1.01*v0*")
         .replace("[\"v0/omega*", "[▸\"v0/omega*");

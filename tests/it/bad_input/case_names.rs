@@ -95,7 +95,7 @@ fn equal_methods(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 }
 
 #[test]
-fn a_stability_study_tells_its_methods_apart_too() {
+fn methods_of_a_stability_study_have_unique_names() {
     let (head, _) = SWEPT.split_once("\nmethods:").expect("methods");
     let suite = load(&format!(
         "{head}

@@ -12,7 +12,7 @@ const FEM: &str = "methods:\n  - ▸fem: {element: linear, mass: lumped}\n";
 const STATE: &str = "equilibrium:\n  equation: hencky";
 
 #[test]
-fn without_a_mistake_the_column_is_sound() {
+fn unchanged_column_is_valid() {
     load(SETTLED).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
 }
 
@@ -109,7 +109,7 @@ fn local_damping_of_finite_elements() {
 
 /// The exact solution of the oedometer is a motion, not a state of rest.
 #[test]
-fn rest_is_asked_of_a_body_that_comes_to_rest() {
+fn bound_on_rest_needs_a_body_that_comes_to_rest() {
     let (order, bound) = ("    order: [1.5, 1.8]\n", "    ▸rest_below: 1e-6\n");
     let column = super::COLUMN;
     let line =

@@ -25,7 +25,7 @@ const METHOD: &str = "  - heat: {basis: [linear, cpgimp, quadratic_bspline, cubi
 const EXPANSION: &str = "    - thermal_expansion: {coefficient: alpha, reference: T0}";
 
 #[test]
-fn without_a_mistake_the_samples_are_sound() {
+fn unchanged_samples_are_valid() {
     for text in [COOLED, FIN, PLATE, MOVING, HELD] {
         load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
     }
@@ -88,7 +88,7 @@ fn a_temperature(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     &[("    - heat:\n", "    - heat: {conductivity: 1, capacity: 1}\n    - ▸heat:\n")],
     &["heat appears twice"]
 )]
-fn what_heat_says(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+fn invalid_heat_keys_are_refused(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(COOLED, edits, words);
 }
 
@@ -125,7 +125,7 @@ fn no_temperature_exists(#[case] edits: Edits<'_>) {
 
 /// If the source does not use `T`, a suite may declare its own `T`.
 #[test]
-fn a_source_without_the_temperature_leaves_the_name_alone() {
+fn source_without_temperature_may_use_the_name() {
     let own = COOLED.replace("  Ta: 20", "  T: 20\n  Ta: T");
     let sourced = own.replace("capacity: c\n", "capacity: c\n        source: 0*X\n");
     assert!(own != COOLED && sourced != own);

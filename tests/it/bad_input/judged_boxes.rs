@@ -98,7 +98,7 @@ fn a_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 #[rstest]
 #[case::at_the_distance_of_a_wave("[5]", "[25]", "  boundary: {left: fixed}\n", "")]
 #[case::the_whole_body("[0]", "[25]", "", "")]
-fn a_box_that_no_wave_reaches_is_sound(
+fn box_that_no_wave_reaches_is_valid(
     #[case] from: &str,
     #[case] to: &str,
     #[case] condition: &str,

@@ -12,7 +12,7 @@ const FLUID: &str = include_str!("../../../verification/plasticity-and-fluids/fl
 #[case(YIELDING)]
 #[case(WAVE)]
 #[case(FLUID)]
-fn without_a_mistake_they_are_sound(#[case] text: &str) {
+fn unchanged_samples_are_valid(#[case] text: &str) {
     load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
 }
 

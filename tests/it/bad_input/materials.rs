@@ -108,7 +108,7 @@ fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 
 /// The bar has an elastic reference that the suite names, and the FEM case names its law too.
 #[test]
-fn a_plastic_bar_is_sound_with_a_reference_and_a_law() {
+fn plastic_bar_with_reference_and_law_is_valid() {
     let solid = "{j2: {young: E, poisson: 0, yield: 1, hardening: 2, density: rho}}";
     let sound = BAR
         .replace(EXACT, REFERENCE)

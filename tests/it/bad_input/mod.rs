@@ -106,14 +106,14 @@ fn points(shown: &str, line: usize, column: usize, excerpt: &str) {
 #[case::force(FORCE)]
 #[case::swept(SWEPT)]
 #[case::ledger(LEDGER)]
-fn without_a_mistake_the_samples_are_sound(#[case] text: &str) {
+fn unchanged_samples_are_valid(#[case] text: &str) {
     if let Err(diagnostic) = load(text) {
         panic!("{diagnostic}");
     }
 }
 
 #[test]
-fn a_complaint_reads_like_that_of_a_compiler() {
+fn error_is_formatted_like_a_compiler_error() {
     let wrong = BAR.replace("until: 0.5", "until: -0.5");
     let want = "\
 error: the end of the run is -0.5, but must be above zero

@@ -34,7 +34,7 @@ expect:
 "#;
 
 #[test]
-fn a_stretched_ring_is_sound() {
+fn stretched_ring_is_valid() {
     if let Err(diagnostic) = load(STRETCHED) {
         panic!("{diagnostic}");
     }

@@ -79,7 +79,7 @@ fn a_polygon(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 }
 
 #[test]
-fn corners_may_be_listed_either_way_round() {
+fn corners_may_be_listed_in_either_orientation() {
     let turned = TRIANGLE.replace(CORNERS, "[[0.4, 0.9], [0.95, 0.25], [0.1, 0.15]]");
     if let Err(diagnostic) = load(&turned) {
         panic!("{diagnostic}");

@@ -45,7 +45,7 @@ fn in_the_plane(text: &str) -> String {
 const RIGHT: &str = "A/2*(f(X - 1 - t) + f(X - 1 + t))";
 
 #[rstest]
-fn a_right_pulse_is_accepted(
+fn correct_pulse_is_accepted(
     #[values(GAUSS, SECH, WINDOW, TRIANGLE)] shape: &str,
     #[values(0.03, 0.01, 0.003)] w: f64,
     #[values(1, 2)] dimension: usize,
@@ -130,7 +130,7 @@ fn a_pulse_in_two_materials_is_accepted(#[values(0.03, 0.01)] w: f64) {
 }
 
 #[rstest]
-fn a_wrong_transmission_is_refused_at_the_joint(#[values(0.03, 0.01)] w: f64) {
+fn wrong_transmission_is_refused_at_the_interface(#[values(0.03, 0.01)] w: f64) {
     let diagnostic = load(&two_bars(w, "0.66")).expect_err("a jump at the joint").to_string();
     for part in ["where two bodies meet along X, their ", "off by ", " allowed)"] {
         assert!(diagnostic.contains(part), "no `{part}` in\n{diagnostic}");

@@ -175,7 +175,7 @@ fn a_rate_of_finite_elements() {
 }
 
 #[test]
-fn a_suite_of_one_level_that_only_bounds_is_sound() {
+fn suite_with_bounds_and_one_level_is_valid() {
     let bounds = "    error_below: \"v0\"\n    error_above: 1e-9\n    drift: {mass: 1e-14}\n    observed_within: 1\n";
     let text = BAR.replace(EXPECTED, bounds).replace("cells: [6, 12]", "cells: 12");
     let text = text.replace("{norm: rms}", "{of: velocity, norm: max_linf, scale: v0}");

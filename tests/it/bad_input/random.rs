@@ -43,7 +43,7 @@ proptest! {
     }
 
     #[test]
-    fn nor_do_several(slips in vec((any::<usize>(), key(), any::<u8>()), 2..6)) {
+    fn several_slips_never_panic(slips in vec((any::<usize>(), key(), any::<u8>()), 2..6)) {
         let wrong = slips.into_iter().fold(BAR.to_owned(), |text, (at, key, kind)| {
             slip(&text, at, key, kind)
         });
@@ -55,7 +55,7 @@ proptest! {
 
 /// The corpus of the fuzzer, `tests/fuzz/corpus/suite`: inputs that reach new code or once failed.
 #[test]
-fn the_corpus_of_the_fuzzer_is_read_or_refused() {
+fn fuzzer_corpus_is_parsed_or_refused() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz/corpus/suite");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let count = files.map(|file| suite_input::load(&std::fs::read(file).unwrap())).count();

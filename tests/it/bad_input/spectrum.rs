@@ -128,7 +128,7 @@ fn a_spectrum(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 /// The unchanged suite has waves of two and sixteen cells, and particles away from the lattice, on
 /// any grid.
 #[test]
-fn the_unchanged_suite_is_sound() {
+fn unchanged_suite_is_valid() {
     let shifted = WAVE.replace("ppc: 2}", "ppc: 2, shift: [-0.2]}").replace("[8, 16]", "2");
     for text in [WAVE, &shifted] {
         super::load(text).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));

@@ -104,7 +104,7 @@ fn a_pulled_bar_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 }
 
 #[test]
-fn a_bar_that_swings_a_hundred_times_is_sound() {
+fn bar_with_a_hundred_oscillations_is_valid() {
     let long = BAR.replace("until: 0.5, dt: 1e-3", "until: 1000, dt: 1e-2");
     if let Err(diagnostic) = super::load(&long) {
         panic!("{diagnostic}");
@@ -173,7 +173,7 @@ fn a_manufactured_motion_is_refused_with(#[case] edits: Edits<'_>, #[case] words
         ("\"sin(pi*X/2)*sin(omega*t)/omega\", 0", "\"0.05*sin(pi*X)*sin(2*pi*Y)*sin(omega*t)\", \"0.1*sin(2*pi*X)*sin(2*pi*Y)*sin(omega*t)\""),
     ]
 )]
-fn a_force_is_manufactured_for_hencky_as_well(#[case] sound: &str, #[case] edits: Edits<'_>) {
+fn force_can_be_manufactured_for_hencky(#[case] sound: &str, #[case] edits: Edits<'_>) {
     let mut text = sound.replace("neo_hookean", "hencky").replace("linear_elastic", "hencky");
     for (right, other) in edits {
         assert!(text.contains(right), "the suite does not say `{right}`");
@@ -198,7 +198,7 @@ fn with_its_force(force: &str) -> String {
 const FORCE: &str = "pi^2*u(X, t)/rho*E*(0.5*(1 + 1/f(X, t)^2) - 1)";
 
 #[test]
-fn a_stated_force_that_is_right_is_taken() {
+fn correct_stated_force_is_accepted() {
     if let Err(diagnostic) = super::load(&with_its_force(FORCE)) {
         panic!("{diagnostic}");
     }

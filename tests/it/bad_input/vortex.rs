@@ -71,7 +71,7 @@ const PUBLISHED: &str = r#"  radial(r, a, s): "(stretch(r, s) - centripetal(r, s
 #[rstest]
 #[case::in_the_current_basis(CURRENT)]
 #[case::in_the_reference_basis(PUBLISHED)]
-fn the_right_force_is_taken(#[case] force: &str) {
+fn correct_force_is_accepted(#[case] force: &str) {
     if let Err(diagnostic) = load(&VORTEX.replace("FORCE", force)) {
         panic!("{diagnostic}");
     }

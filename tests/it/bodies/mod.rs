@@ -67,7 +67,7 @@ fn is_the_solver<const D: usize>(scheme: SchemeName, friction: Option<f64>) {
 }
 
 #[rstest]
-fn one_body_with_contact_is_its_solver_bit_for_bit(
+fn single_body_is_bit_identical_to_its_solver(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(None, Some(0.3))] friction: Option<f64>,
@@ -89,7 +89,7 @@ fn do_not_know_each_other<const D: usize>(scheme: SchemeName) {
 }
 
 #[rstest]
-fn bodies_far_apart_are_two_solvers_bit_for_bit(
+fn distant_bodies_are_bit_identical_to_two_solvers(
     #[values(1, 2)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
@@ -116,7 +116,7 @@ fn halves_are_the_whole<const D: usize>(scheme: SchemeName, start: Start) {
 }
 
 #[rstest]
-fn bodies_that_share_one_field_are_one_body(
+fn bodies_with_a_shared_field_move_as_one_body(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
@@ -184,7 +184,7 @@ fn change(before: &Totals, after: &Totals) -> f64 {
 }
 
 #[rstest]
-fn bodies_that_collide_keep_their_momentum(
+fn colliding_bodies_conserve_momentum(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
@@ -259,7 +259,7 @@ fn impact(cells: usize, scheme: SchemeName) -> (f64, f64) {
 /// & Thomee 1971), and so does the error of the contact time. It is below h/c on these grids, but
 /// not on much finer ones.
 #[rstest]
-fn two_bars_part_when_the_wave_is_back(
+fn bars_separate_when_the_wave_returns(
     #[values(10, 20, 40)] cells: usize,
     #[values(SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
@@ -270,7 +270,7 @@ fn two_bars_part_when_the_wave_is_back(
 /// The bars rebound with their initial speed, except for the energy of the oscillations behind the
 /// front.
 #[rstest]
-fn two_bars_bounce_with_an_error_of_the_order_of_the_front(
+fn rebound_error_has_the_order_of_the_wave_front(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     let [coarse, fine] = [20, 160].map(|cells| 1.0 - impact(cells, scheme).1);

@@ -56,7 +56,7 @@ fn the_linear_term_bounds_the_overshoot_of_a_weak_shock(
 
 /// The quadratic term acts in strong shocks. It is negligible at a thousandth of the wave speed.
 #[rstest]
-fn the_quadratic_term_does_nothing_to_a_weak_shock(
+fn quadratic_term_has_no_effect_on_a_weak_shock(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     let [with, without] = [2.0, 0.0].map(|c2| pressures(40, scheme, 1e-4, [0.0, c2])[0]);

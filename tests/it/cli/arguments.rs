@@ -3,7 +3,7 @@
 use super::{BAD_INPUT, BAR, Folder, refusals};
 
 #[test]
-fn values_of_options_are_refused_with_what_is_expected() {
+fn invalid_option_values_are_refused_with_the_expected_form() {
     let folder = Folder::with("bar.yaml", BAR);
     let text = refusals(
         &folder,
@@ -70,7 +70,7 @@ fn values_of_options_are_refused_with_what_is_expected() {
 
 /// The suggestion of `clap`, `-- -1`, would pass the number as a suite.
 #[test]
-fn a_stray_negative_number_gets_no_advice_that_fails() {
+fn advice_for_a_stray_negative_number_works() {
     let folder = Folder::with("bar.yaml", BAR);
     let answer = folder.call(&["run", "bar.yaml", "-1"]);
     assert_eq!(answer.code, BAD_INPUT);

@@ -20,7 +20,7 @@ fn with_note(name: &str) -> String {
 const NOTE: &str = "note: the time step is the same on every level";
 
 #[test]
-fn notes_are_printed_for_suites_that_are_named() {
+fn notes_are_printed_for_named_suites() {
     let folder = Folder::with("bars/a.yaml", with_note("bar-a"));
     folder.write("bars/b.yaml", with_note("bar-b"));
     let of_folder = folder.call(&["check", "bars"]);

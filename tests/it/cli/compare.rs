@@ -24,7 +24,7 @@ fn runs_of(other: &str) -> Folder {
 }
 
 #[test]
-fn a_run_against_itself_says_that_nothing_moved() {
+fn run_compared_with_itself_has_no_changes() {
     let folder = two_runs();
     let out = folder.accepted(&["compare", "old.json", "old.json"]);
     insta::assert_snapshot!(out, @"
@@ -35,7 +35,7 @@ fn a_run_against_itself_says_that_nothing_moved() {
 }
 
 #[test]
-fn twice_the_particles_are_more_expensive() {
+fn doubled_particles_are_reported_as_more_work() {
     let folder = two_runs();
     let found = folder.call(&["compare", "old.json", "new.json"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
@@ -55,7 +55,7 @@ fn twice_the_particles_are_more_expensive() {
 }
 
 #[test]
-fn markdown_is_a_comment() {
+fn markdown_output_fits_a_comment() {
     let folder = two_runs();
     let found = folder.call(&["compare", "old.json", "new.json", "--format", "markdown"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
@@ -77,7 +77,7 @@ fn a_worse_run() -> Folder {
 /// reports of the last run and stores the comment.
 #[cfg(unix)]
 #[test]
-fn the_workflow_comments_what_moved() {
+fn workflow_comments_the_changes() {
     use std::os::unix::fs::PermissionsExt;
     let folder = a_worse_run();
     let text = include_str!("../../../examples/ci/action.yml");
@@ -161,7 +161,7 @@ fn both_bad_files_are_named() {
 }
 
 #[test]
-fn the_tolerance_is_a_share() {
+fn tolerance_must_be_a_fraction() {
     let folder = two_runs();
     for bad in ["-1", "nan", "inf", "much"] {
         let found =
@@ -230,7 +230,7 @@ fn changes_of_snapshots_are_listed() {
 }
 
 #[test]
-fn another_problem_is_no_worse_solver() {
+fn changed_problem_is_not_reported_as_worse() {
     let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
     let stiffer = REPORT.replace("E = 100", "E = 101").replace("left fixed", "left roller");
     let found = snapshots(&worse, &stiffer).call(&["compare", "old", "new"]);
@@ -254,7 +254,7 @@ fn another_problem_is_no_worse_solver() {
 }
 
 #[test]
-fn a_commit_that_is_not_there_is_an_error() {
+fn missing_commit_is_an_error() {
     let found = snapshots(OVERVIEW, REPORT).call(&["compare", "older", "new"]);
     assert_eq!(found.code, BAD_INPUT);
     assert_contains(

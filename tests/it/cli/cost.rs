@@ -15,7 +15,7 @@ fn list(value: &Value) -> &[Value] {
 }
 
 #[test]
-fn the_report_has_levels_a_model_and_both_rankings() {
+fn report_has_levels_model_and_both_rankings() {
     let folder = Folder::with("bar.yaml", BAR);
     let out = folder.accepted(&["cost", "bar.yaml"]);
     assert_contains(
@@ -64,7 +64,7 @@ fn every_level_has_its_seconds_and_its_work() {
 
 /// With twice the stable time step a method fails. Its levels must still be in the table.
 #[test]
-fn what_breaks_is_a_row() {
+fn failed_level_has_a_row() {
     let folder = Folder::with(
         "bar.yaml",
         BAR.replace("until: 0.05, dt: 1e-3", "until: 4, dt: \"0.16*h\", instants: 1"),
@@ -78,7 +78,7 @@ fn what_breaks_is_a_row() {
 }
 
 #[test]
-fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
+fn budget_gives_a_setting_with_its_measured_result() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "--budget", "30ms"]);
     let best = &document["suites"][0]["best_candidate"];
@@ -103,7 +103,7 @@ fn a_budget_is_answered_with_a_setting_and_what_came_of_it() {
 
 /// The order is not the expected one. Therefore no error is predicted for finer levels.
 #[test]
-fn no_budget_buys_an_error_that_is_not_predicted() {
+fn unpredicted_levels_are_not_chosen_for_a_budget() {
     let folder = Folder::with("bar.yaml", ambitious());
     let out = folder.accepted(&["cost", "bar.yaml", "--budget", "1s"]);
     let why = "nothing finer     no error is predicted: the levels are judged too low";
@@ -111,7 +111,7 @@ fn no_budget_buys_an_error_that_is_not_predicted() {
 }
 
 #[test]
-fn what_cannot_be_bought_says_so() {
+fn impossible_budget_is_reported() {
     let folder = Folder::with("bar.yaml", BAR);
     let poor = folder.call(&["cost", "bar.yaml", "--budget", "1e-9s"]);
     assert_eq!(poor.code, FAILED);
@@ -122,7 +122,7 @@ fn what_cannot_be_bought_says_so() {
 }
 
 #[test]
-fn words_that_are_not_known_are_answered() {
+fn invalid_arguments_are_refused_with_a_hint() {
     let folder = Folder::with("bar.yaml", BAR);
     for (arguments, words) in [
         (&["--budget", "10"][..], "such as `10s`"),

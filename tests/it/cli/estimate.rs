@@ -61,7 +61,7 @@ fn a_series_without_a_limit_is_refused_with_the_reason() {
 }
 
 #[test]
-fn bad_input_has_a_place() {
+fn invalid_input_is_reported_with_its_position() {
     let folder = Folder::with("series", "4 1.0\n2 x\n");
     let answer = folder.call(&["estimate", "series"]);
     assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));

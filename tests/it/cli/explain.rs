@@ -29,7 +29,7 @@ fn a_suite_that_is_built_in(#[case] name: &str, #[case] words: &[&str]) {
 }
 
 #[test]
-fn a_suite_of_ones_own() {
+fn local_suite_is_explained() {
     let folder = Folder::with("bar.yaml", BAR);
     let found = folder.call(&["explain", "bar.yaml"]);
     assert_contains(
@@ -44,7 +44,7 @@ fn a_suite_of_ones_own() {
 }
 
 #[test]
-fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
+fn cost_of_a_step_is_shown_with_and_without_an_effect() {
     let out = Folder::new().accepted(&["explain", "set-force", "--without", "force"]);
     assert_contains(
         &out,
@@ -60,7 +60,7 @@ fn what_a_step_takes_and_what_it_would_not_without_an_effect() {
 }
 
 #[test]
-fn contact_can_be_left_out_too() {
+fn contact_can_be_removed() {
     let found = Folder::new().call(&["explain", "two-bar-impact", "--without", "contact"]);
     for words in
         ["effects           contact\n", "`contact` these lines change:", "p2g mass gradient"]
@@ -70,7 +70,7 @@ fn contact_can_be_left_out_too() {
 }
 
 #[test]
-fn without_what_is_not_there_nothing_changes() {
+fn removing_an_unused_effect_changes_nothing() {
     let found = Folder::new().call(&["explain", "set-force", "--without", "gravity"]);
     assert_contains(&found.out, &["`gravity` is not used, so nothing changes"]);
 }
@@ -84,7 +84,7 @@ fn an_unknown_effect_is_refused_with_a_hint() {
 }
 
 #[test]
-fn what_a_mechanician_looks_for_comes_first() {
+fn sketch_comes_first() {
     let folder = Folder::with("bar.yaml", BAR);
     let found = folder.call(&["explain", "bar.yaml"]);
     assert_eq!(found.code, SOUND, "{}", found.errors);

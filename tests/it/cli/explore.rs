@@ -9,7 +9,7 @@ fn open(text: &str) -> &str {
 }
 
 #[test]
-fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
+fn suite_without_expectations_reports_results_and_passes() {
     let folder = Folder::with("bar.yaml", open(BAR));
     let found = folder.call(&["run", "bar.yaml"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
@@ -34,7 +34,7 @@ fn a_suite_without_expectations_says_what_it_sees_and_is_no_gate() {
 }
 
 #[test]
-fn a_run_that_fails_is_no_failure_of_a_suite_that_explores() {
+fn failed_run_does_not_fail_a_suite_without_expectations() {
     let folder = Folder::new();
     let long = open(BAR).replace("dt: 1e-3", "dt: 0.2").replace("until: 0.05", "until: 20");
     folder.write("bar.yaml", long);
@@ -81,7 +81,7 @@ fn what_is_proposed_passes() {
 }
 
 #[test]
-fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
+fn proposals_do_not_depend_on_existing_expectations() {
     let folder = Folder::new();
     let wrong = "expect:\n  - order: [3.9, 4.1]\n    because: a guess\n";
     folder.write("open.yaml", STEPS);
@@ -92,7 +92,7 @@ fn expectations_that_a_suite_has_do_not_bend_what_is_proposed() {
 
 /// In addition to the results of the run, a proposal states the gain of a smaller amplitude.
 #[test]
-fn a_proposal_says_what_the_amplitude_leaves() {
+fn proposal_states_the_effect_of_the_amplitude() {
     let folder = Folder::with("large.yaml", STEPS.replace("1e-3*", "0.1*"));
     let found = folder.call(&["propose", "large.yaml"]);
     assert_eq!(found.code, SOUND, "{}", found.errors);

@@ -15,7 +15,7 @@ fn member<'a>(row: &'a Value, column: &str) -> &'a Value {
 }
 
 #[test]
-fn the_csv_has_each_number_of_the_json() {
+fn csv_contains_each_number_of_the_json() {
     let folder = Folder::new();
     let run = |format: &str| folder.accepted(&["run", "vibrating-bar", "--format", format]);
     let document: Value = serde_json::from_str(&run("json")).unwrap();
@@ -50,7 +50,7 @@ fn the_csv_has_each_number_of_the_json() {
 }
 
 #[test]
-fn a_suite_without_levels_has_rows_of_its_own() {
+fn suite_without_levels_has_its_own_rows() {
     let csv = Folder::new().accepted(&["run", "grid-crossing", "--format", "csv"]);
     let mut lines = csv.lines();
     let head = lines.next().unwrap();
@@ -123,7 +123,7 @@ fn a_folder_of_results_has_tables_and_sources_of_figures() {
 }
 
 #[test]
-fn titles_and_labels_are_those_of_tables_and_figures_only() {
+fn titles_and_labels_change_only_tables_and_figures() {
     let folder = Folder::with("bar.yaml", BAR);
     let labels = ["--title", "Bar of E = 1", "--label", "mpm-linear-flip-musl=MPM"];
     let out = ["run", "bar.yaml", "--out", "out", "--format", "latex"];
@@ -149,7 +149,7 @@ fn titles_and_labels_are_those_of_tables_and_figures_only() {
     "--label|a",
     "error: invalid value 'a' for '--label <CASE=TEXT>': expected the name of a case, `=` and a text"
 )]
-fn labels_that_cannot_be_used_are_refused(#[case] options: &str, #[case] error: &str) {
+fn invalid_labels_are_refused(#[case] options: &str, #[case] error: &str) {
     let folder = Folder::with("bar.yaml", BAR);
     let options: Vec<&str> = options.split('|').collect();
     let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());

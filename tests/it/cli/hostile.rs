@@ -21,13 +21,13 @@ fn a_file_of(#[case] bytes: Vec<u8>, #[case] message: &str) {
 }
 
 #[test]
-fn a_folder_in_the_place_of_a_file() {
+fn folder_in_place_of_a_file_is_refused() {
     let folder = Folder::with("suites/bad.yaml/notes.txt", "");
     refused(&folder, &["check", "suites"], &["this is a folder, not a suite file", "bad.yaml"]);
 }
 
 #[test]
-fn a_file_that_is_not_there() {
+fn missing_file_is_refused() {
     let words = ["there is no such file", "missing.yaml"];
     refused(&Folder::new(), &["run", "missing.yaml"], &words);
 }

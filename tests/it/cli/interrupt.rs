@@ -9,7 +9,7 @@ const INTERRUPTED: i32 = 130;
 
 #[cfg(unix)]
 #[test]
-fn a_run_that_is_interrupted_says_how_to_go_on() {
+fn interrupted_run_prints_how_to_resume() {
     let folder = Folder::with("first.yaml", BAR.replace("short-bar", "first"));
     let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-8");
     folder.write("long.yaml", long);

@@ -94,14 +94,14 @@ fn a_stability_study_has_rows_and_no_levels() {
 }
 
 #[test]
-fn the_schema_in_the_documents_is_the_one_that_is_printed() {
+fn json_schema_in_documents_is_the_printed_one() {
     let kept = include_str!("../../../docs/report.schema.json");
     let written = "`mpm-verify schema json > docs/report.schema.json` writes it anew";
     assert!(kept == report_schema(), "{written}");
 }
 
 #[test]
-fn every_key_is_there_and_no_other() {
+fn document_has_exactly_the_documented_keys() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
     has(&document, &["version", "commit", "suites"]);
@@ -132,7 +132,7 @@ fn every_key_is_there_and_no_other() {
 }
 
 #[test]
-fn a_case_that_converges_has_its_figures() {
+fn converging_case_has_all_values() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml"], SOUND);
     let suite = &document["suites"][0];
@@ -157,7 +157,7 @@ fn a_case_that_converges_has_its_figures() {
 }
 
 #[test]
-fn null_stands_for_what_finite_elements_do_not_have() {
+fn values_that_fem_lacks_are_null() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml"], SOUND);
     let case = &document["suites"][0]["cases"][1];
@@ -179,7 +179,7 @@ fn an_internal_force_study_has_forces_and_no_levels() {
 }
 
 #[test]
-fn what_is_not_finite_is_a_string() {
+fn non_finite_numbers_are_strings() {
     let document = document(&Folder::new(), &["steffen-bar"], SOUND);
     let cases = list(&document["suites"][0]["cases"]);
     let broken = cases.iter().find(|case| case["verdict"] == "failed").expect("a failure");
@@ -192,7 +192,7 @@ fn what_is_not_finite_is_a_string() {
 }
 
 #[test]
-fn what_was_not_met_is_listed() {
+fn unmet_expectations_are_listed() {
     let folder = Folder::with("bar.yaml", ambitious());
     let document = document(&folder, &["bar.yaml"], FAILED);
     let suite = &document["suites"][0];
@@ -202,7 +202,7 @@ fn what_was_not_met_is_listed() {
 }
 
 #[test]
-fn a_bad_file_leaves_one_document_of_the_good_ones() {
+fn document_contains_valid_suites_despite_an_invalid_file() {
     let folder = Folder::with("bad.yaml", mistaken());
     let document = document(&folder, &["bad.yaml", "grid-crossing"], BAD_INPUT);
     let suites = list(&document["suites"]);
@@ -211,7 +211,7 @@ fn a_bad_file_leaves_one_document_of_the_good_ones() {
 
 /// The ranking by transfers must have the documented keys.
 #[test]
-fn a_suite_ranks_its_methods_by_what_accuracy_costs() {
+fn methods_are_ranked_by_the_cost_of_accuracy() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);
     let [bar, forces] = list(&document["suites"]) else { panic!("two suites") };
@@ -261,7 +261,7 @@ fn every_command_prints_one_document(
 }
 
 #[test]
-fn what_is_wrong_with_a_file_is_in_the_document_of_check() {
+fn document_of_check_contains_the_errors() {
     let folder = Folder::with("bad.yaml", mistaken());
     let found = folder.call(&["check", "bad.yaml", "--format", "json"]);
     assert_eq!((found.code, found.errors.as_str()), (BAD_INPUT, ""));

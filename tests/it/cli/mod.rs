@@ -95,7 +95,7 @@ fn mistaken() -> String {
 }
 
 #[test]
-fn without_a_folder_of_suites_the_ones_built_in_are_listed() {
+fn built_in_suites_are_listed_without_a_folder() {
     let folder = Folder::new();
     let out = folder.accepted(&["list"]);
     for line in ["oedometer: Oedometer at large strain", "  mpm-linear-flip-usl-vs-exact"] {
@@ -104,7 +104,7 @@ fn without_a_folder_of_suites_the_ones_built_in_are_listed() {
 }
 
 #[test]
-fn a_folder_of_suites_takes_the_place_of_the_ones_built_in() {
+fn folder_of_suites_replaces_the_built_in_ones() {
     let folder = Folder::with("verification/short-bar.yaml", BAR);
     folder.write("verification/notes.txt", "not a suite");
     let wanted = "short-bar: Short bar\n  mpm-linear-flip-musl\n  fem-linear-lumped\n";
@@ -116,7 +116,7 @@ fn a_folder_of_suites_takes_the_place_of_the_ones_built_in() {
 }
 
 #[test]
-fn a_suite_may_lie_anywhere() {
+fn suite_may_be_in_any_folder() {
     let folder = Folder::new();
     let path = folder.write("some where/bar.yaml", BAR);
     for target in ["some where/bar.yaml", "some where", path.to_str().expect("a name")] {
@@ -127,7 +127,7 @@ fn a_suite_may_lie_anywhere() {
 }
 
 #[test]
-fn check_says_what_is_sound_and_what_is_not() {
+fn check_reports_valid_and_invalid_suites() {
     let folder = Folder::with("a.yaml", BAR);
     folder.write("b.yaml", mistaken());
     folder
@@ -149,7 +149,7 @@ fn check_says_what_is_sound_and_what_is_not() {
 }
 
 #[test]
-fn built_in_suites_have_no_error_and_no_warning() {
+fn built_in_suites_have_no_errors_or_warnings() {
     let answer = Folder::new().call(&["check", "--strict"]);
     assert_eq!(answer.code, SOUND, "{}", answer.errors);
     assert!(answer.out.lines().all(|line| line.contains(": sound, ")), "{}", answer.out);
@@ -157,7 +157,7 @@ fn built_in_suites_have_no_error_and_no_warning() {
 }
 
 #[test]
-fn a_misspelt_name_is_answered_with_the_right_one() {
+fn misspelt_name_gets_a_suggestion() {
     for command in ["list", "check", "explain", "run", "cost"] {
         let errors = Folder::new().refused(&[command, "odometer"]);
         assert_contains(
@@ -175,7 +175,7 @@ fn a_misspelt_name_is_answered_with_the_right_one() {
     "did you mean `verification/short-bar.yaml`?"
 )]
 #[case::a_file_that_is_built_in("oedometre.yaml", "did you mean the suite `oedometer`?")]
-fn suites_at_hand_are_suggested(#[case] name: &str, #[case] help: &str) {
+fn existing_suites_are_suggested(#[case] name: &str, #[case] help: &str) {
     let folder = Folder::with("verification/short-bar.yaml", BAR);
     let errors = folder.refused(&["check", name]);
     assert_contains(&errors, &[help]);
@@ -185,7 +185,7 @@ fn suites_at_hand_are_suggested(#[case] name: &str, #[case] help: &str) {
 #[case("chek", "did you mean the command `check`?")]
 #[case("lst", "did you mean the command `list`?")]
 #[case("odometer", "did you mean `oedometer`?")]
-fn a_misspelt_command_is_answered_with_the_right_one(#[case] word: &str, #[case] help: &str) {
+fn misspelt_command_gets_a_suggestion(#[case] word: &str, #[case] help: &str) {
     for words in [&[word][..], &[word, "--strict", "bar.yaml"], &["--color", "never", word]] {
         let errors = Folder::new().refused(words);
         let understood = help.contains("command") || !words.contains(&"--strict");
@@ -196,7 +196,7 @@ fn a_misspelt_command_is_answered_with_the_right_one(#[case] word: &str, #[case]
 }
 
 #[test]
-fn a_suite_that_is_nearer_than_a_command_is_meant() {
+fn more_similar_suite_is_suggested_instead_of_a_command() {
     let folder = Folder::with("verification/checks.yaml", BAR);
     let found = folder.call(&["cheks"]);
     insta::assert_snapshot!(found.errors, @"
@@ -207,7 +207,7 @@ fn a_suite_that_is_nearer_than_a_command_is_meant() {
 }
 
 #[test]
-fn a_name_like_no_other_is_answered_with_where_they_are() {
+fn unknown_name_gets_a_hint_to_list() {
     let found = Folder::new().call(&["check", "zzz"]);
     assert_eq!(found.code, BAD_INPUT);
     assert_contains(&found.errors, &["`mpm-verify list` shows the "]);

@@ -6,7 +6,7 @@ use rstest::rstest;
 use serde_json::Value;
 
 #[rstest]
-fn a_new_suite_is_sound_and_shows_an_order(
+fn new_suite_is_valid_and_has_an_order(
     #[values("1", "2", "3")] dimension: &str,
     #[values("linear_elastic", "neo_hookean", "hencky")] material: &str,
 ) {
@@ -28,7 +28,7 @@ fn a_new_suite_is_sound_and_shows_an_order(
 }
 
 #[test]
-fn without_options_the_defaults_hold() {
+fn defaults_apply_without_options() {
     let folder = Folder::new();
     folder.call(&["new", "first"]);
     let text = folder.read("first.yaml");
@@ -45,7 +45,7 @@ fn without_options_the_defaults_hold() {
 }
 
 #[test]
-fn the_truth_settles_the_material_that_is_not_named() {
+fn exact_solution_determines_the_default_material() {
     let folder = Folder::new();
     folder.call(&["new", "wave", "--truth", "standing_wave"]);
     assert!(folder.read("wave.yaml").contains("{linear_elastic: "));
@@ -54,7 +54,7 @@ fn the_truth_settles_the_material_that_is_not_named() {
 }
 
 #[test]
-fn a_truth_that_the_material_does_not_have_is_refused() {
+fn solution_that_does_not_fit_the_material_is_refused() {
     let folder = Folder::new();
     let calls = [
         "new first --truth manufactured --material linear_elastic",
@@ -71,7 +71,7 @@ fn a_truth_that_the_material_does_not_have_is_refused() {
 
 /// Every combination of offered choices gives a suite, or is refused as an invalid combination.
 #[test]
-fn every_choice_that_is_offered_makes_a_suite() {
+fn every_offered_choice_gives_a_valid_suite() {
     let bases = BasisName::ALL.iter().map(|basis| ("--basis", basis.name()));
     let transfers = TransferName::ALL.iter().map(|transfer| ("--transfer", transfer.name()));
     let schemes = SchemeName::ALL.iter().map(|scheme| ("--scheme", scheme.name()));
@@ -84,7 +84,7 @@ fn every_choice_that_is_offered_makes_a_suite() {
 }
 
 #[test]
-fn lists_and_parameters_are_taken_as_suites_have_them() {
+fn options_accept_lists_and_parameters_in_suite_notation() {
     let folder = Folder::new();
     let basis = ["--basis", "[linear, cpdi]", "--transfer", "{fmpm: 8}"];
     folder.accepted(&[&["new", "first"], basis.as_slice()].concat());
@@ -92,7 +92,7 @@ fn lists_and_parameters_are_taken_as_suites_have_them() {
 }
 
 #[test]
-fn what_is_proposed_for_a_new_suite_makes_it_a_gate() {
+fn proposals_for_a_new_suite_are_valid_expectations() {
     let folder = Folder::new();
     folder.call(&["new", "first", "--output", "suites of mine.yaml"]);
     let path = "suites of mine.yaml";
@@ -105,7 +105,7 @@ fn what_is_proposed_for_a_new_suite_makes_it_a_gate() {
 }
 
 #[test]
-fn a_file_that_is_there_is_left_alone() {
+fn existing_file_is_not_changed() {
     let folder = Folder::with("first.yaml", "mine");
     let errors = folder.refused(&["new", "first"]);
     insta::assert_snapshot!(errors, @"error: first.yaml already exists and is not overwritten; choose another file with --output");
@@ -126,7 +126,7 @@ fn a_file_that_is_there_is_left_alone() {
 #[case::quotes(&["a\"b"], "NAME:1:1", "this is not a name for a suite")]
 #[case::no_name(&[""], "NAME:1:1", "this is not a name for a suite")]
 #[case::no_folder(&["first", "--output", "none/first.yaml"], "none/first.yaml", "error: ")]
-fn what_cannot_be_used_is_shown_where_it_was_given(
+fn invalid_option_is_reported_with_its_position(
     #[case] words: &[&str],
     #[case] place: &str,
     #[case] help: &str,

@@ -3,7 +3,7 @@
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains, mistaken};
 
 #[test]
-fn a_page_has_verdicts_figures_reports_and_the_suites() {
+fn page_has_verdicts_figures_reports_and_suites() {
     let folder = Folder::with("bar.yaml", BAR);
     let arguments = ["run", "bar.yaml", "grid-crossing", "--html", "new/page.html"];
     let out = folder.accepted(&arguments);
@@ -53,7 +53,7 @@ fn a_page_begins_with_the_achievements_of_each_method() {
 }
 
 #[test]
-fn a_page_says_what_is_not_as_expected() {
+fn page_lists_unexpected_results() {
     let folder = Folder::with("bar.yaml", ambitious());
     folder.write("bad.yaml", mistaken());
     assert_eq!(folder.call(&["run", "bar.yaml", "--html", "page.html"]).code, FAILED);
@@ -81,7 +81,7 @@ fn a_page_of_chosen_cases_has_the_files_of_their_suites() {
 }
 
 #[test]
-fn a_page_that_cannot_be_written_is_refused_before_anything_runs() {
+fn unwritable_page_is_refused_before_the_run() {
     let folder = Folder::with("file", "in the way");
     for place in ["file/page.html", "."] {
         let errors = folder.refused(&["run", "grid-crossing", "--html", place]);

@@ -32,7 +32,7 @@ fn column(case: &Value, key: &str) -> Vec<f64> {
 /// A run has a whole number of steps: a step of 7e-4 s becomes 1/71 of the run. The judge must use
 /// this actual step.
 #[test]
-fn refined_time_steps_are_the_ones_that_are_taken() {
+fn refined_time_steps_are_used() {
     let text =
         bar("run: {until: 0.05}", "refine: {dt: [1e-3, 7e-4, 3e-4], cells: 8, ppc: 4}", TOO_FEW);
     let case = case(&text, &[], SOUND);
@@ -54,7 +54,7 @@ fn refined_particles_are_judged_by_their_spacing() {
 }
 
 #[test]
-fn cells_and_time_steps_go_together_level_by_level() {
+fn cells_and_time_steps_are_paired_by_level() {
     let refine = "refine: {cells: [4, 8, 12], dt: [1e-3, 5e-4, \"0.025*h/10*0.12\"], ppc: 4}";
     let case = case(&bar("run: {until: 0.05}", refine, TOO_FEW), &[], SOUND);
     assert_eq!(case["axis"], "space");
@@ -88,7 +88,7 @@ fn the_wrong_axis_is_not_accepted() {
 const WITH_FULL: &str = "refine: {cells: [4, 6, 8], ppc: 4, full: [12, 16]}";
 
 #[test]
-fn finer_levels_wait_for_full() {
+fn finer_levels_run_only_with_full() {
     let expect = "  - verdict: too_few_levels
     full: {order: [1.7, 2.3], because: five levels are enough}\n";
     let text = bar("run: {until: 0.05, dt: 1e-3}", WITH_FULL, expect);
@@ -99,14 +99,14 @@ fn finer_levels_wait_for_full() {
 }
 
 #[test]
-fn without_words_of_its_own_a_full_run_is_held_to_the_same() {
+fn full_run_has_the_same_expectation_by_default() {
     let text = bar("run: {until: 0.05, dt: 1e-3}", WITH_FULL, TOO_FEW);
     let full = case(&text, &["--full"], FAILED);
     assert_eq!(full["unmet"][0], "expected the verdict `too few levels`, got `converging`");
 }
 
 #[test]
-fn reports_speak_of_the_axis_that_is_refined() {
+fn reports_name_the_refined_axis() {
     let folder = Folder::new();
     let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4], cells: 8, ppc: 4, full: [1.25e-4]}";
     folder.write("bar.yaml", bar("run: {until: 0.05}", refine, TOO_FEW));

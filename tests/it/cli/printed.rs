@@ -18,7 +18,7 @@ fn six() -> Folder {
 }
 
 #[test]
-fn the_bare_command_prints_an_overview_and_in_full_only_what_did_not_come_as_expected() {
+fn bare_command_prints_overview_and_unexpected_results() {
     let folder = six();
     let found = folder.call(&[]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
@@ -37,7 +37,7 @@ fn the_bare_command_prints_an_overview_and_in_full_only_what_did_not_come_as_exp
 }
 
 #[test]
-fn every_report_is_printed_where_few_suites_are_named_or_all_are_asked_for() {
+fn reports_are_printed_for_few_named_suites_or_on_request() {
     let folder = six();
     let reports = |words: &[&str]| {
         let out = folder.call(words).out;
@@ -51,7 +51,7 @@ fn every_report_is_printed_where_few_suites_are_named_or_all_are_asked_for() {
 }
 
 #[test]
-fn a_quiet_run_speaks_only_of_what_did_not_come_as_expected() {
+fn quiet_run_prints_only_unexpected_results() {
     let folder = six();
     let found = folder.call(&["run", "--quiet", "bars"]);
     assert_eq!((found.code, found.out.as_str(), found.errors.as_str()), (SOUND, "", ""));
@@ -69,13 +69,13 @@ fn a_quiet_run_speaks_only_of_what_did_not_come_as_expected() {
 #[case::group("bars", 5)]
 #[case::pattern_in_a_group("proud/*", 1)]
 #[case::name("bar-3", 1)]
-fn suites_are_chosen_by_pattern_and_group(#[case] target: &str, #[case] count: usize) {
+fn suites_are_selected_by_pattern_and_group(#[case] target: &str, #[case] count: usize) {
     let found = six().call(&["check", target]);
     assert_eq!((found.code, found.out.lines().count()), (SOUND, count), "{}", found.out);
 }
 
 #[test]
-fn a_pattern_that_fits_nothing_is_an_error() {
+fn pattern_without_a_match_is_an_error() {
     let errors = six().refused(&["check", "bear-*"]);
     insta::assert_snapshot!(errors, @"
     error: no suite matches `bear-*`
@@ -86,7 +86,7 @@ fn a_pattern_that_fits_nothing_is_an_error() {
 }
 
 #[test]
-fn groups_and_patterns_are_those_of_the_built_in_suites_where_there_is_no_folder() {
+fn groups_and_patterns_select_built_in_suites_without_a_folder() {
     let folder = Folder::new();
     let group = folder.call(&["list", "the-talk"]);
     assert!(group.code == SOUND && group.out.contains("\nvibrating-bar: "), "{}", group.out);
@@ -114,7 +114,7 @@ fn fed(folder: &Folder, arguments: &[&str], input: &str) -> (Option<i32>, String
 #[case(&["explain", "-"], "short-bar: Short bar")]
 #[case(&["propose", "-"], "# short-bar")]
 #[case(&["problem", "-"], "\n")]
-fn a_suite_comes_by_standard_input(#[case] arguments: &[&str], #[case] words: &str) {
+fn suite_is_read_from_standard_input(#[case] arguments: &[&str], #[case] words: &str) {
     let (code, out, errors) = fed(&Folder::new(), arguments, BAR);
     assert_eq!(code, Some(SOUND), "{errors}");
     assert_contains(&out, &[words]);
@@ -169,7 +169,7 @@ fn colours_are_for_terminals_or_on_request() {
 #[case(&["compare", "report.json", "report.json"])]
 #[case(&["completions", "fish"])]
 #[case(&["man"])]
-fn an_output_that_cannot_be_written_is_an_error(#[case] arguments: &[&str]) {
+fn unwritable_output_is_an_error(#[case] arguments: &[&str]) {
     let folder = Folder::with("bar.yaml", BAR);
     folder.write("report.json", r#"{"suites": []}"#);
     let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device");
@@ -185,7 +185,7 @@ fn an_output_that_cannot_be_written_is_an_error(#[case] arguments: &[&str]) {
 #[case("bash", "complete -F _mpm")]
 #[case("zsh", "#compdef mpm-verify")]
 #[case("fish", "complete -c mpm-verify")]
-fn shells_complete_commands(#[case] shell: &str, #[case] words: &str) {
+fn completion_scripts_contain_the_commands(#[case] shell: &str, #[case] words: &str) {
     let found = Folder::new().call(&["completions", shell]);
     assert!(found.code == SOUND && found.out.contains(words), "{}", found.out);
     for command in ["diagnose", "propose", "completions"] {
@@ -194,7 +194,7 @@ fn shells_complete_commands(#[case] shell: &str, #[case] words: &str) {
 }
 
 #[test]
-fn there_is_a_page_for_man_of_the_program_and_of_each_command() {
+fn program_and_commands_have_manual_pages() {
     let folder = Folder::new();
     let page = folder.call(&["man"]);
     assert!(page.code == SOUND && page.out.contains(".TH mpm-verify 1"), "{}", page.out);

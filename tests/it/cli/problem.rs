@@ -33,7 +33,7 @@ fn a_level_is_a_table_of_its_particles() {
 
 /// The exact state at a later time differs from the initial state.
 #[test]
-fn the_exact_state_is_that_of_the_formula() {
+fn exact_state_agrees_with_the_formula() {
     let table = problem(&["--level", "2", "--at", "0.05"]);
     let omega = 5.0 * std::f64::consts::PI;
     let labels = column(&table, "reference_position_x");
@@ -66,7 +66,7 @@ fn arrays_for_numpy_are_a_zip_file() {
 }
 
 #[test]
-fn a_problem_that_cannot_be_written_is_refused() {
+fn unwritable_problem_is_refused() {
     let folder = Folder::with("bar.yaml", BAR);
     let text = refusals(
         &folder,

@@ -19,20 +19,20 @@ fn a_run_prints_the_report_and_the_table_of_verdicts() {
 }
 
 #[test]
-fn run_is_what_happens_without_a_command() {
+fn run_is_the_default_command() {
     let folder = Folder::new();
     assert_eq!(folder.call(&["grid-crossing"]).out, folder.call(&["run", "grid-crossing"]).out);
 }
 
 #[test]
-fn brief_leaves_the_reports_out() {
+fn brief_omits_reports() {
     let found = Folder::new().call(&["run", "--brief", "grid-crossing"]);
     assert_eq!((found.code, found.out.lines().count()), (SOUND, 7));
     assert_contains(&found.out, &["  pass  grid-crossing::mpm-linear  "]);
 }
 
 #[test]
-fn an_expectation_that_is_not_met_says_what_was_expected_and_what_came() {
+fn unmet_expectation_is_reported_with_the_result() {
     let folder = Folder::with("bar.yaml", ambitious());
     let found = folder.call(&["run", "bar.yaml"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
@@ -49,7 +49,7 @@ fn an_expectation_that_is_not_met_says_what_was_expected_and_what_came() {
 }
 
 #[test]
-fn a_bad_file_does_not_hide_the_report_of_a_good_one() {
+fn invalid_file_does_not_suppress_other_reports() {
     let folder = Folder::with("bad.yaml", mistaken());
     folder.write("good.yaml", BAR);
     let found = folder.call(&["run", "bad.yaml", "good.yaml", "odometer"]);
@@ -73,7 +73,7 @@ fn a_bad_file_does_not_hide_the_report_of_a_good_one() {
 }
 
 #[test]
-fn a_subject_that_breaks_half_way_leaves_the_other_cases_alone() {
+fn failed_case_does_not_affect_other_cases() {
     let found = Folder::new().call(&["run", "steffen-bar"]);
     assert_eq!(found.code, SOUND, "the suite expects the failure");
     let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -131,7 +131,7 @@ fn one_thread_and_two_give_the_same_bytes() {
 }
 
 #[test]
-fn zero_threads_are_too_few() {
+fn zero_threads_are_refused() {
     for jobs in ["0", "1000000", "-1", "two"] {
         let errors = Folder::new().refused(&["run", "grid-crossing", &format!("--jobs={jobs}")]);
         assert_contains(&errors, &["--jobs"]);
@@ -146,7 +146,7 @@ fn out_below_a_file_is_refused_before_anything_runs() {
 }
 
 #[test]
-fn two_suites_of_one_name_cannot_write_into_one_folder() {
+fn suites_with_equal_names_are_refused_with_out() {
     let folder = Folder::with("a.yaml", BAR);
     folder.write("b.yaml", BAR);
     let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--out", "results"]);
@@ -155,7 +155,7 @@ fn two_suites_of_one_name_cannot_write_into_one_folder() {
 }
 
 #[test]
-fn a_reader_that_goes_away_is_no_reason_to_panic() {
+fn closed_pipe_does_not_panic() {
     // There are so many suites that most remain to be printed when the reader closes the pipe.
     let folder = Folder::new();
     for number in 0..40 {
@@ -178,7 +178,7 @@ fn a_reader_that_goes_away_is_no_reason_to_panic() {
 }
 
 #[test]
-fn a_reader_that_never_came_is_no_reason_either() {
+fn pipe_closed_before_the_run_does_not_panic() {
     let folder = Folder::new();
     let mut command = folder.command(&["run", "grid-crossing", "--format", "json"]);
     let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
@@ -216,7 +216,7 @@ fn a_resumed_run_prints_the_same_bytes() {
 
 /// Cached levels are marked. They must be read back instead of being run again.
 #[test]
-fn a_kept_level_is_taken_and_one_of_another_suite_is_not() {
+fn stored_level_is_used_only_for_the_same_suite() {
     let folder = Folder::with("bar.yaml", BAR);
     folder.call(&["run", "bar.yaml", "--resume", "kept"]);
     for kept in folder.files("kept") {

@@ -27,7 +27,7 @@ fn merged(folder: &Folder, format: &str) -> String {
 }
 
 #[test]
-fn merged_parts_are_one_run_byte_for_byte() {
+fn merged_parts_equal_one_run_byte_for_byte() {
     let folder = suites();
     let parts = in_parts(&folder, 3);
     let cases = |text: &str| text.lines().filter(|line| line.contains("::")).count();
@@ -39,7 +39,7 @@ fn merged_parts_are_one_run_byte_for_byte() {
 }
 
 #[test]
-fn what_no_part_has_found_is_no_pass() {
+fn missing_result_fails_a_merge() {
     let folder = suites();
     in_parts(&folder, 3);
     let found = folder.call(&["merge", "--from", "part-1", "--from", "part-2", "--brief"]);
@@ -70,7 +70,7 @@ fn a_part_is_one_of_several(#[case] shard: &str) {
 }
 
 #[test]
-fn cases_are_chosen_by_their_names() {
+fn cases_are_selected_by_name() {
     let folder = suites();
     let found = folder.call(&["run", "--case", "flip-usl", "--brief"]);
     let cases: Vec<&str> = found.out.lines().filter(|line| line.contains("::")).collect();
@@ -80,7 +80,7 @@ fn cases_are_chosen_by_their_names() {
 }
 
 #[test]
-fn a_list_for_programs_has_the_predicted_costs() {
+fn json_list_has_the_predicted_costs() {
     let folder = suites();
     folder.write("verification/c.yaml", ambitious());
     let found = folder.call(&["list", "--format", "json"]);

@@ -11,7 +11,7 @@ fn bar(dt: &str) -> String {
 }
 
 #[test]
-fn a_step_beyond_the_stable_one_warns_and_is_taken_all_the_same() {
+fn unstable_step_is_used_with_a_warning() {
     // c = 10 m/s: 0.02 s is 0.8 h/c on the coarsest grid and 2.4 h/c on the finest.
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
     let folder = Folder::with("bar.yaml", text.split_once("expect:").expect("an expectation").0);
@@ -36,7 +36,7 @@ fn warnings(errors: &str) -> Vec<&str> {
 
 /// If a suite has an expectation about such steps, no warning is printed.
 #[test]
-fn steps_that_are_too_long_warn_where_what_was_expected_did_not_come() {
+fn unstable_steps_warn_only_if_an_expectation_is_unmet() {
     let text = bar("dt: 0.02, instants: 1").replace("until: 0.05", "until: 20");
     let folder = Folder::with("bar.yaml", &text);
     folder.accepted(&["run", "bar.yaml"]);
@@ -46,7 +46,7 @@ fn steps_that_are_too_long_warn_where_what_was_expected_did_not_come() {
 }
 
 #[test]
-fn the_share_is_of_the_same_stable_time_step() {
+fn automatic_steps_are_fractions_of_one_stable_step() {
     let steps = |rule: &str| -> Vec<f64> {
         let folder = Folder::new();
         let text = bar(&format!("dt: {rule}, instants: 1")).replace("until: 0.05", "until: 100");
@@ -69,7 +69,7 @@ fn the_share_is_of_the_same_stable_time_step() {
 }
 
 #[test]
-fn instants_leave_the_step_as_it_is() {
+fn instants_do_not_change_the_step() {
     let folder =
         Folder::with("bar.yaml", bar("dt: {courant: 0.3}").replace("until: 0.05", "until: 5"));
     let out = folder.accepted(&["steps", "bar.yaml"]);
@@ -83,7 +83,7 @@ fn instants_leave_the_step_as_it_is() {
 }
 
 #[test]
-fn a_run_of_few_steps_says_what_it_takes() {
+fn rounded_step_of_a_short_run_is_reported() {
     let folder = Folder::new();
     let text = bar("dt: \"h/100\"").replace("until: 0.05", "until: 0.006");
     folder.write("bar.yaml", text.replace("verdict: failed", "order: [1.5, 2.4]"));

@@ -61,7 +61,7 @@ fn the_errors_of_the_particles_are_those_of_the_report() {
 }
 
 #[test]
-fn what_did_not_come_as_expected_is_shown_and_no_more() {
+fn only_unexpected_results_are_written() {
     let folder = Folder::with("bars/short.yaml", BAR);
     folder.write("bars/ambitious.yaml", ambitious());
     let found = folder.call(&["run", "bars", "--brief", "--vtu", "vtu"]);
@@ -80,7 +80,7 @@ fn what_did_not_come_as_expected_is_shown_and_no_more() {
 
 /// The last frame must be the state at the failure, on the level that failed.
 #[test]
-fn a_run_that_breaks_is_shown_up_to_there() {
+fn failed_run_is_written_up_to_its_failure() {
     let folder = Folder::new();
     let case = "mpm-linear-apic-usl";
     let words = ["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"];
@@ -97,7 +97,7 @@ fn a_run_that_breaks_is_shown_up_to_there() {
 }
 
 #[test]
-fn a_study_without_runs_says_so() {
+fn study_without_runs_is_refused_with_the_reason() {
     let folder = Folder::new();
     let found = folder.call(&["run", "grid-crossing", "--case", "linear", "--brief", "--vtu", "v"]);
     assert_eq!(found.code, SOUND);
@@ -105,7 +105,7 @@ fn a_study_without_runs_says_so() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_told_before_anything_runs() {
+fn unwritable_folder_is_reported_before_the_run() {
     let folder = Folder::with("bar.yaml", BAR);
     folder.write("taken", "a file");
     let errors = folder.refused(&["run", "bar.yaml", "--case", "flip", "--vtu", "taken"]);

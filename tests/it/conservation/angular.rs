@@ -80,7 +80,7 @@ fn claims(transfer: TransferName) -> bool {
 }
 
 #[rstest]
-fn those_that_claim_it_keep_angular_momentum(
+fn angular_momentum_is_conserved_as_claimed(
     #[values(SchemeName::Usl, SchemeName::Usf)] scheme: SchemeName,
 ) {
     for (basis, name) in pairs().filter(|(_, name)| claims(*name)) {
@@ -90,7 +90,7 @@ fn those_that_claim_it_keep_angular_momentum(
 }
 
 #[rstest]
-fn so_they_do_in_3_d(
+fn angular_momentum_is_conserved_in_3d(
     #[values(BasisName::Linear, BasisName::UniformGimp, BasisName::QuadraticBSpline)]
     basis: BasisName,
     #[values(TransferName::Flip, TransferName::Apic)] name: TransferName,
@@ -110,13 +110,13 @@ fn pic_loses_angular_momentum() {
 /// MUSL maps velocities twice, and positions follow the second map. The proof for APIC requires one
 /// velocity for both, so it does not hold.
 #[test]
-fn apic_under_musl_does_not_keep_it() {
+fn apic_with_musl_loses_angular_momentum() {
     let drift = drift(setup::<2>(BasisName::Linear, TransferName::Apic, SchemeName::Musl), STEPS);
     assert!(drift >= 1e-9, "relative change {drift:.1e}");
 }
 
 #[test]
-fn meaningless_pairs_are_named() {
+fn invalid_combinations_are_refused_by_name() {
     let refused = |basis, transfer, mass, frame| {
         combine(basis, transfer, mass, frame).unwrap_err().to_string()
     };

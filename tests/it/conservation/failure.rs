@@ -102,7 +102,7 @@ fn inverts<const D: usize>() {
 }
 
 #[rstest]
-fn an_inverted_particle_is_named(#[values(1, 2, 3)] dimension: usize) {
+fn inverted_particle_is_reported(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, inverts());
 }
 
@@ -133,7 +133,7 @@ fn the_culprit_is_named<const D: usize>() {
 }
 
 #[rstest]
-fn a_state_that_is_no_number_is_traced_to_its_particle(#[values(1, 2, 3)] dimension: usize) {
+fn nan_state_is_reported_with_its_particle(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, the_culprit_is_named());
 }
 
@@ -152,12 +152,12 @@ fn a_collapsed_domain_ends_the_run<const D: usize>() {
 }
 
 #[rstest]
-fn a_domain_without_a_volume_is_no_silent_nan(#[values(1, 2, 3)] dimension: usize) {
+fn domain_without_volume_is_reported(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, a_collapsed_domain_ends_the_run());
 }
 
 #[test]
-fn fixed_nodes_do_not_hide_a_velocity_that_is_no_number() {
+fn fixed_nodes_do_not_hide_a_nan_velocity() {
     let mut setup = scene::<1>(SchemeName::Usl, 0.5, NAN);
     setup.grid = setup.kernel.grid(Vector::zeros(), 8.0, [1], [false]);
     for side in [Side::Low, Side::High] {
@@ -182,7 +182,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(3000) })]
 
     #[test]
-    fn no_state_and_no_step_makes_a_panic_or_a_silent_nan(
+    fn no_state_or_step_causes_a_panic_or_a_silent_nan(
         dimension in 1..=3_usize,
         scheme in prop::sample::select(SchemeName::ALL),
         x in prop_oneof![4 => 0.0..=8.0_f64, 1 => prop::num::f64::ANY],

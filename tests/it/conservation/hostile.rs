@@ -123,7 +123,7 @@ fn meets_every_extreme<const D: usize>() {
 }
 
 #[rstest]
-fn no_extreme_makes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize) {
+fn no_extreme_causes_a_panic_or_a_silent_nan(#[values(1, 2, 3)] dimension: usize) {
     in_dimension!(dimension, meets_every_extreme());
 }
 
@@ -151,7 +151,7 @@ fn names_the_culprit<const D: usize>(value: f64) {
 }
 
 #[rstest]
-fn a_field_that_is_no_number_is_named(
+fn nan_field_is_reported_by_name(
     #[values(1, 2, 3)] dimension: usize,
     #[values(f64::NAN, f64::INFINITY, f64::NEG_INFINITY)] value: f64,
 ) {
@@ -190,7 +190,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(1500) })]
 
     #[test]
-    fn no_numbers_make_a_panic_or_a_silent_nan(
+    fn no_numbers_cause_a_panic_or_a_silent_nan(
         dimension in 1..=3_usize,
         method in prop::sample::select(every_method()),
         scheme in prop::sample::select(SchemeName::ALL),
@@ -207,7 +207,7 @@ proptest! {
 
 /// The corpus of the fuzzer, `tests/fuzz/corpus/step`: inputs that reach new code or once failed.
 #[test]
-fn the_corpus_of_the_fuzzer_is_sound() {
+fn fuzzer_corpus_causes_no_panic() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz/corpus/step");
     let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let count = files.map(|file| step_input::step(&std::fs::read(file).unwrap())).count();

@@ -37,7 +37,7 @@ fn momentum_is_kept<const D: usize>(scheme: SchemeName, start: Start) {
 }
 
 #[rstest]
-fn a_free_body_keeps_its_linear_momentum(
+fn free_body_conserves_linear_momentum(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
@@ -49,7 +49,7 @@ fn a_free_body_keeps_its_linear_momentum(
 /// linear functions this node receives a force V sigma/h from the particle, which is lost, and its
 /// zero velocity strains the particle by v dt/h.
 #[rstest]
-fn linear_functions_know_no_body_that_ends_on_a_node(
+fn linear_functions_fail_for_a_body_that_ends_on_a_node(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
     #[values(BasisName::Linear, BasisName::ContiguousGimp)] basis: BasisName,

@@ -39,7 +39,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
 
     #[test]
-    fn usl_multiplies_the_stress_by_the_closed_form(
+    fn stress_growth_of_usl_matches_the_closed_form(
         xi in 0.02..0.98_f64,
         courant in 0.01..1.5_f64,
         sigma in prop_oneof![-0.5..-0.01_f64, 0.01..0.5_f64],
@@ -109,7 +109,7 @@ proptest! {
     /// PIC and FLIP differ by the velocity relative to the grid. A single particle has no such
     /// velocity, so the factors are equal.
     #[test]
-    fn pic_has_the_factors_of_flip(xi in 0.02..0.98_f64, courant in 0.01..1.5_f64) {
+    fn pic_and_flip_have_equal_factors(xi in 0.02..0.98_f64, courant in 0.01..1.5_f64) {
         let dt = courant * H / libm::sqrt(YOUNG / DENSITY);
         for &scheme in SchemeName::ALL {
             let stress = |name| {
@@ -188,7 +188,7 @@ fn swinging(scheme: SchemeName, start: Start, steps: u32) -> f64 {
 /// F grows by `1 + dt v/L`, while the solution grows by the exponential. The order is therefore 1,
 /// for any start of the velocity.
 #[test]
-fn a_particle_on_a_spring_of_one_cell_follows_the_closed_form_with_order_1() {
+fn particle_in_one_cell_oscillates_with_a_first_order_error() {
     for scheme in [SchemeName::Usf, SchemeName::Usl, SchemeName::Musl] {
         for start in [Start::AtZero, Start::HalfStepBack] {
             let [coarse, fine] = [2000, 4000].map(|steps| swinging(scheme, start, steps));

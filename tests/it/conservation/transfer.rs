@@ -113,7 +113,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(60) })]
 
     #[test]
-    fn p2g_keeps_mass_and_linear_momentum(rows in rows(), dimension in 1..=3_usize) {
+    fn p2g_conserves_mass_and_linear_momentum(rows in rows(), dimension in 1..=3_usize) {
         in_dimension!(dimension, p2g_keeps(&rows));
     }
 

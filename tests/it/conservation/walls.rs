@@ -54,7 +54,7 @@ fn nothing_is_lost_around_the_corner<const D: usize>(scheme: SchemeName, start: 
 }
 
 #[rstest]
-fn a_periodic_body_keeps_mass_and_momentum(
+fn periodic_body_conserves_mass_and_momentum(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
@@ -138,7 +138,7 @@ fn follows<const D: usize>(scheme: SchemeName, start: Start) {
 }
 
 #[rstest]
-fn a_layer_between_driven_walls_follows_them_in_every_scheme(
+fn layer_between_moving_walls_follows_them_in_every_scheme(
     #[values(2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
@@ -169,7 +169,7 @@ fn falls_with_its_walls<const D: usize>(scheme: SchemeName) {
 }
 
 #[rstest]
-fn walls_have_the_velocity_of_the_right_time(
+fn wall_velocities_are_evaluated_at_the_correct_time(
     #[values(2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
@@ -178,7 +178,7 @@ fn walls_have_the_velocity_of_the_right_time(
 
 /// Where walls meet, the last condition of the list applies.
 #[test]
-fn a_fixed_wall_holds_the_corner_of_a_driven_one() {
+fn fixed_wall_overrides_a_moving_wall_at_the_corner() {
     let method = (BasisName::Linear, TransferName::Flip);
     let setup = full::<2>(method, SchemeName::Usl, true);
     let mut setup =
@@ -214,7 +214,7 @@ fn set_follows<const D: usize>(scheme: SchemeName, start: Start) {
 }
 
 #[rstest]
-fn a_driven_set_goes_its_way(
+fn set_follows_its_prescribed_velocity(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,

@@ -131,7 +131,7 @@ fn page() -> (String, String) {
 }
 
 #[test]
-fn the_page_of_dispersion_has_the_figures_of_the_formulas() {
+fn page_of_dispersion_is_up_to_date() {
     let (page, expected) = page();
     assert!(page == expected, "{PAGE} is stale: run ci/pages");
 }

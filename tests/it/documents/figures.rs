@@ -26,7 +26,7 @@ fn drawn() -> Vec<(PathBuf, String)> {
 }
 
 #[test]
-fn figures_are_those_of_runs() {
+fn figures_are_up_to_date() {
     for (path, drawn) in drawn() {
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(kept == drawn, "{} is stale: run ci/pages", path.display());

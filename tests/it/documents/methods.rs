@@ -125,7 +125,7 @@ fn page() -> (String, String) {
 }
 
 #[test]
-fn the_page_of_methods_is_that_of_the_suites() {
+fn page_of_methods_is_up_to_date() {
     let (page, anew) = page();
     assert!(page == anew, "{PAGE} is stale: run ci/pages");
 }

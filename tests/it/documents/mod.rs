@@ -80,7 +80,7 @@ fn understood(arguments: &[&str]) -> Result<(), String> {
 }
 
 #[test]
-fn the_program_understands_every_command_line() {
+fn every_command_line_in_documents_is_valid() {
     let mut count = 0;
     for document in documents() {
         let shell = document.blocks.iter().filter(|b| matches!(&*b.language, "console" | "sh"));
@@ -97,13 +97,13 @@ fn the_program_understands_every_command_line() {
 }
 
 #[test]
-fn quotes_hold_words_together() {
+fn quoted_arguments_are_not_split() {
     let words = arguments("mpm-verify run a.yaml --solver 'python3 b.py --flip 1'  # slow");
     assert_eq!(words, Some(vec!["run", "a.yaml", "--solver", "python3 b.py --flip 1"]));
 }
 
 #[test]
-fn a_command_line_with_a_mistake_is_not_understood() {
+fn invalid_command_line_is_detected() {
     for line in [
         "mpm-verify rnu",
         "mpm-verify run --formta json",
@@ -127,7 +127,7 @@ fn whole_suites() -> Vec<(String, String)> {
 }
 
 #[test]
-fn suites_load_that_documents_show_whole() {
+fn complete_suites_in_documents_load() {
     for (place, text) in whole_suites() {
         let loaded = Source::from_text(&*place, &*text).and_then(|source| Suite::load(&source));
         assert!(loaded.is_ok(), "{place}\n{}", loaded.unwrap_err());
@@ -135,7 +135,7 @@ fn suites_load_that_documents_show_whole() {
 }
 
 #[test]
-fn the_suites_that_readers_see_first_pass() {
+fn first_suites_in_documents_pass() {
     let pages =
         ["README.md", "docs/writing-a-suite.md", "docs/stability.md", "docs/grammar/truth.md"];
     for page in pages {
@@ -148,7 +148,7 @@ fn the_suites_that_readers_see_first_pass() {
 
 /// The document must show the adapter that is compiled and run, not a similar one.
 #[test]
-fn the_adapter_that_the_library_page_shows_is_the_example() {
+fn adapter_on_the_library_page_is_the_example() {
     let page = include_str!("../../../docs/library.md");
     let adapter = include_str!("../../../examples/own_solver/subject.rs");
     assert!(page.contains(&format!("```rust\n{adapter}```")), "examples/own_solver/subject.rs");

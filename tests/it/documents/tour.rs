@@ -23,7 +23,7 @@ fn run(commands: &str, folder: &Folder) -> Output {
 }
 
 #[test]
-fn the_tour_shows_what_its_commands_say() {
+fn tour_shows_the_output_of_its_commands() {
     let page = include_str!("../../../docs/tour.md");
     let (folder, mut said) = (Folder::new(), String::new());
     let mut shown = 0;

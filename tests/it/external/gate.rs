@@ -92,7 +92,11 @@ fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] w
 #[rstest]
 #[case::below_the_rounding_bound("0.03", "not gated", "leaves too few levels for an order")]
 #[case::above_the_rounding_bound("0.5", "FAIL", "order")]
-fn rounding_is_no_reason_to_fail(#[case] error: &str, #[case] result: &str, #[case] reason: &str) {
+fn rounding_error_does_not_fail_the_gate(
+    #[case] error: &str,
+    #[case] result: &str,
+    #[case] reason: &str,
+) {
     let folder = folder(error);
     let single = script(error).replace("\"version\"", "\"precision\":\"single\",\"version\"");
     folder.write("solver.sh", single);
@@ -120,7 +124,7 @@ fn every_case_of_a_solver_that_a_suite_names_is_gated() {
 #[case::above_the_formal_order("order: 3", "h*h", SOUND)]
 #[case::a_bound("error_below: 1e-4", "0.1", SOUND)]
 #[case::above_the_bound("error_below: 1e-7", "0.1", FAILED)]
-fn a_suite_states_what_any_method_can_reach(
+fn requirement_is_limited_by_any_method(
     #[case] keys: &str,
     #[case] error: &str,
     #[case] code: i32,
@@ -369,7 +373,7 @@ fn a_mistake_in_a_configuration(#[case] text: &str, #[case] words: &[&str]) {
 }
 
 #[test]
-fn a_configuration_that_is_not_there_is_bad_input() {
+fn missing_configuration_is_bad_input() {
     let found = gate(&folder("h"), &["bar.yaml"], &["--solver-config", "none.yaml"]);
     assert_eq!(found.code, BAD_INPUT, "{}{}", found.out, found.errors);
     assert!(found.errors.contains("none.yaml"), "{}", found.errors);
@@ -387,7 +391,7 @@ fn a_named_study_of_a_method_fails_unless_allowed() {
 /// Errors as large as the solution are a defect of the solver, and are not due to levels or
 /// smoothness.
 #[test]
-fn a_diagnosis_sends_a_solver_of_another_problem_to_doctor() {
+fn diagnosis_recommends_doctor_for_errors_as_large_as_the_solution() {
     let folder = folder("-2");
     folder.write("bar.yaml", naming_the_solver());
     let found = folder.call(&["diagnose", "bar.yaml", "--solver", "sh solver.sh"]);

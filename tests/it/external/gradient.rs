@@ -187,7 +187,7 @@ fn states(cases: &[CaseOutcome]) -> Vec<GradientState> {
 }
 
 #[test]
-fn a_sound_solver_meets_the_gate_with_its_order() {
+fn correct_solver_meets_the_gate() {
     let cases = cases(&Differentiable::sound());
     let names: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
     assert_eq!(names, ["closed-form-young", "closed-form-density", "closed-form-initial-velocity"]);
@@ -206,7 +206,7 @@ fn a_sound_solver_meets_the_gate_with_its_order() {
 
 /// The values are closed forms of the specification, computed to 40 digits.
 #[test]
-fn exact_sensitivities_are_those_of_the_closed_form() {
+fn exact_sensitivities_match_the_closed_form() {
     for (until, displacement, by_young) in [
         (1.3, 3.611_113_426_6e-6, -3.684_182_349_2e-6),
         (0.5, 2.865_795_841_3e-6, -3.075_025_254_3e-7),

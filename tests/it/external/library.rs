@@ -85,13 +85,13 @@ fn outcome(text: &str) -> CaseOutcome {
 }
 
 #[test]
-fn a_solver_in_a_few_lines_has_the_order_of_theory() {
+fn solver_of_a_few_lines_has_the_theoretical_order() {
     let found = outcome(&bar());
     assert!(found.passed() && found.verdict.contains("converging"), "{}", found.reason);
 }
 
 #[test]
-fn what_a_maker_refuses_is_not_applicable() {
+fn refused_problem_is_not_applicable() {
     let free = bar().replace("sin(pi*X/2)", "cos(pi*X/2)").replace("left: fixed", "right: fixed");
     let found = outcome(&free);
     assert_eq!((found.result(), found.verdict.as_str()), ("n/a", "not applicable"));

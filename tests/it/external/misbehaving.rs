@@ -118,7 +118,7 @@ fn a_gate_fails_with_its_solver() {
 
 /// Child processes of a solver must be killed with it.
 #[test]
-fn no_grandchild_is_left() {
+fn child_processes_of_a_solver_are_killed() {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
     folder.write("solver.sh", script("sleep 98 & echo $! >> pids; exit 1"));

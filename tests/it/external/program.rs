@@ -64,7 +64,7 @@ fn a_program_is_judged_like_any_method() {
 
 /// The expectation of each case is the order that the solver claims.
 #[test]
-fn a_gate_holds_a_program_to_its_order() {
+fn gate_requires_the_claimed_order() {
     let folder = folder();
     let gate = ["run", "bar.yaml", "--solver", SOLVER, "--gate", "--brief"];
     let found = folder.call(&gate);
@@ -78,7 +78,7 @@ fn a_gate_holds_a_program_to_its_order() {
 
 /// If a capability is missing, the case must have neither a verdict nor a pass.
 #[test]
-fn what_a_program_lacks_is_not_applicable() {
+fn case_with_a_missing_capability_is_not_applicable() {
     let folder = folder();
     let poor = HELLO.replace(r#""laws":["linear_elastic"]"#, r#""laws":[]"#);
     folder.write("poor.sh", SECOND_ORDER.replace("HELLO", &poor));
@@ -91,7 +91,7 @@ fn what_a_program_lacks_is_not_applicable() {
 
 /// An external solver does not report the force on a node while a particle crosses it.
 #[test]
-fn studies_that_look_inside_a_method_are_left_out() {
+fn studies_of_method_internals_are_skipped() {
     let found = folder().call(&["run", "bar.yaml", "grid-crossing", "--solver", SOLVER, "--brief"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     assert!(found.errors.contains("grid-crossing: skipped"), "{}", found.errors);
@@ -113,7 +113,7 @@ fn problems(folder: &Folder) -> usize {
 const KEPT: [&str; 6] = ["run", "bar.yaml", "--solver", SOLVER, "--resume", "kept"];
 
 #[test]
-fn finished_levels_are_kept_for_the_same_solver_only() {
+fn finished_levels_are_reused_only_for_the_same_solver() {
     let folder = logged();
     let first = folder.call(&KEPT);
     assert_eq!(first.code, SOUND, "{}", first.errors);
@@ -129,7 +129,7 @@ fn finished_levels_are_kept_for_the_same_solver_only() {
 }
 
 #[test]
-fn a_level_that_broke_runs_again() {
+fn failed_level_runs_again() {
     let folder = logged();
     let ready = "echo problem >>log";
     let broken =
@@ -143,7 +143,7 @@ fn a_level_that_broke_runs_again() {
 }
 
 #[test]
-fn what_its_accuracy_costs_is_timed() {
+fn cost_measures_the_time_of_a_program() {
     let folder = folder();
     folder.write("bar.yaml", on_one_grid(&bar()));
     let found = folder.call(&["cost", "bar.yaml", "--solver", SOLVER, "--format", "json"]);
@@ -167,7 +167,7 @@ fn unknown_columns_of_a_state_are_ignored() {
 }
 
 #[test]
-fn the_kept_schema_is_that_of_the_messages() {
+fn stored_schema_is_that_of_the_messages() {
     let kept = include_str!("../../../docs/protocol.schema.json");
     let written = "`mpm-verify schema protocol > docs/protocol.schema.json` writes it anew";
     assert!(protocol_schema() == kept, "{written}");
@@ -205,7 +205,7 @@ fn expectations_are_proposed_for_a_program() {
 }
 
 #[test]
-fn a_case_that_a_program_cannot_take_is_not_diagnosed() {
+fn case_that_a_program_refuses_is_not_diagnosed() {
     let folder = folder();
     folder.write("bar.yaml", bar().replace("left: fixed", "left: roller"));
     let found = folder.call(&["diagnose", "bar.yaml", "--solver", SOLVER]);

@@ -119,7 +119,7 @@ fn each_solver_has_its_own_gate(folder: Folder) {
 }
 
 #[rstest]
-fn a_case_is_chosen_by_the_name_that_the_solver_is_given(folder: Folder) {
+fn case_is_selected_by_the_given_solver_name(folder: Folder) {
     let answer = folder.call(&[
         "run",
         "bar.yaml",
@@ -160,11 +160,7 @@ fn a_case_is_chosen_by_the_name_that_the_solver_is_given(folder: Folder) {
     "--with-methods",
     "error: the following required arguments were not provided:"
 )]
-fn what_cannot_be_told_apart_is_refused(
-    folder: Folder,
-    #[case] options: &str,
-    #[case] error: &str,
-) {
+fn equal_names_are_refused(folder: Folder, #[case] options: &str, #[case] error: &str) {
     let options: Vec<&str> = options.split('|').collect();
     let answer = folder.call(&[&["run", "bar.yaml"], &options[..]].concat());
     assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));

@@ -86,7 +86,7 @@ fn waves(name: &'static str, factor: f64) -> Waves {
 
 /// If the method is unknown, there is a measurement but no prediction.
 #[test]
-fn a_solver_of_unknown_method_is_measured() {
+fn solver_with_an_unknown_method_is_measured() {
     let found = outcome(&waves("mine", 1.0), false);
     assert_eq!((found.result(), found.verdict.as_str()), ("explored", "measured"));
     let study: &SpectrumStudy = found.results().expect("a study");
@@ -107,7 +107,7 @@ fn a_solver_of_unknown_method_is_measured() {
 
 /// The method is known from the name of a case, or from a name that the suite relates to a case.
 #[test]
-fn a_solver_of_known_method_is_compared_with_its_curve() {
+fn solver_with_a_known_method_is_compared_with_its_curve() {
     for name in ["mpm-linear-flip-musl-lumped", "numpy-linear-musl"] {
         for gate in [false, true] {
             assert_eq!(outcome(&waves(name, 1.0), gate).result(), "pass");

@@ -32,7 +32,7 @@ fn a_solver_meets_the_expectation_that_the_suite_states() {
 }
 
 #[test]
-fn a_solver_of_another_name_is_held_against_the_truth_alone() {
+fn solver_with_another_name_is_compared_only_with_theory() {
     let suite = loaded(&with_entry("{name: volumes}"));
     let cases = under(&Maker("differences"), &suite);
     assert_eq!((cases.len(), cases[0].case.as_str()), (1, "differences"));
@@ -49,7 +49,7 @@ fn without_its_command_a_solver_is_not_applicable_and_others_are_judged() {
 }
 
 #[test]
-fn a_share_of_the_step_is_one_of_what_a_wave_takes_to_cross_a_cell() {
+fn automatic_step_of_a_solver_is_a_share_of_the_crossing_time() {
     let text = with_entry("{name: differences}")
         .replace("until: 0.004, dt: \"h/250\"", "until: 0.05, dt: {courant: 0.05}");
     let cases = under(&Maker("differences"), &loaded(&text));

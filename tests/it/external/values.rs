@@ -302,7 +302,7 @@ fn nodes_on_a_rim_and_on_an_axis_are_inside() {
 /// The message must name the rim of a pressure. The values of the pressure are defined only on this
 /// circle.
 #[test]
-fn a_pressure_on_a_rim_is_handed_over() {
+fn pressure_on_a_rim_is_passed_to_solvers() {
     let name = "pressurised-cylinder-in-plane";
     let tube = problem_of(name);
     let load = serde_json::to_value(&tube.loads[0]).expect("JSON");
@@ -461,7 +461,7 @@ fn version_1_lacks_loads_and_conditions_with_numbers() {
 /// With several suites, the output ends with a summary. With `--quiet` it contains only the
 /// summary.
 #[test]
-fn a_check_lists_what_a_solver_can_take() {
+fn check_lists_the_suites_that_a_solver_can_run() {
     let folder = Folder::new();
     folder.write("suites/loaded.yaml", LOADED);
     folder.write("suites/bar.yaml", super::bar());

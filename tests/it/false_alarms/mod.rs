@@ -60,7 +60,7 @@ fn errors(outcome: &CaseOutcome) -> Vec<f64> {
 /// The example of the gate is a plane shear wave. Every change is possible for it, except a shift
 /// of the grid relative to its walls.
 #[test]
-fn a_wave_of_shear_is_the_same_whatever_must_not_matter() {
+fn irrelevant_changes_do_not_affect_a_shear_wave() {
     let suite = suite("shear-wave");
     let case = suite.case_names().iter().position(|name| name.contains("flip")).expect("FLIP");
     let plain = Runner::new(&suite).case(case, &|| ());

@@ -106,14 +106,14 @@ fn degenerate_series(#[case] points: &[(f64, f64)]) {
 }
 
 #[test]
-fn points_without_a_place_are_noted() {
+fn points_without_a_position_are_noted() {
     let mut figure = samples::less_than_a_decade();
     figure.series[0].points[0].error = 0.0;
     assert!(figure.to_svg().contains("Not drawn on logarithmic axes: 1 point"));
 }
 
 #[test]
-fn a_failure_at_the_same_size_stands_below_the_other() {
+fn failures_at_the_same_size_are_stacked() {
     let failed = |name: &str| PlotSeries {
         name: name.to_owned(),
         look: 0,

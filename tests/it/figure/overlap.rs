@@ -134,7 +134,7 @@ fn the_legend_is_below_the_frame_and_inside_the_figure(#[case] svg: String) {
 }
 
 #[test]
-fn the_measure_sees_what_meets() {
+fn distance_of_intersecting_shapes_is_not_positive() {
     let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
     assert!(distance(&square, ((-1.0, 1.0), (3.0, 1.0))) <= 0.0);
     assert!(distance(&square, ((1.0, 1.0), (1.5, 1.0))) <= 0.0);

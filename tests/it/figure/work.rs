@@ -38,7 +38,7 @@ fn the_front_the_others_and_their_failures_are_explained() {
 }
 
 #[test]
-fn without_others_and_front_there_are_no_keys_of_them() {
+fn legend_omits_absent_markers() {
     let svg = LogLogPlot { others: Vec::new(), front: Vec::new(), ..diagram() }.to_svg();
     assert!(!svg.contains("others") && !svg.contains("Pareto") && band(&svg) == 0);
 }
@@ -63,7 +63,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(100) })]
 
     #[test]
-    fn no_input_can_make_it_fail(
+    fn no_input_panics(
         points in prop::collection::vec((any_value(), any_value(), marks()), 0..9),
         front in prop::collection::vec((any_value(), any_value()), 0..4),
     ) {

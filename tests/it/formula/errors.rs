@@ -85,7 +85,7 @@ fn message_span_and_help(
 }
 
 #[test]
-fn without_variables_the_help_says_so() {
+fn help_mentions_missing_variables() {
     let error = bind("velocity", &[]).unwrap_err();
     assert_eq!(
         error.help.as_deref(),
@@ -94,7 +94,7 @@ fn without_variables_the_help_says_so() {
 }
 
 #[test]
-fn of_many_constants_the_nearest_are_listed() {
+fn most_similar_constants_are_listed() {
     let mut scope = Scope::new();
     for i in 0..12 {
         scope.constant(&format!("c{i}"), 1.0).unwrap();
@@ -108,7 +108,7 @@ fn of_many_constants_the_nearest_are_listed() {
 }
 
 #[test]
-fn without_names_the_help_says_so() {
+fn help_mentions_missing_names() {
     let error = Formula::bind(&Expr::parse("a").unwrap(), &Scope::new(), &[]).unwrap_err();
     assert_eq!(error.help.as_deref(), Some("there are no variables here"));
 }

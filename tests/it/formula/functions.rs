@@ -12,7 +12,7 @@ use super::{Expr, Formula, Scope, bind, declare};
 #[case("s(1)+s(t)/s(x)-x", -4.75)]
 #[case("wave(t,0)-wave(x,0)", -25.0)]
 #[case("sum(n,1,2,s(n*x))", -100.0)]
-fn calls_put_the_body_in_place(#[case] source: &str, #[case] value: f64) {
+fn calls_are_replaced_by_the_body(#[case] source: &str, #[case] value: f64) {
     assert_eq!(bind(source, &["x", "t"]).unwrap().eval(&[2.0, 3.0]), value);
 }
 
@@ -48,7 +48,7 @@ fn parameters_may_be_named_as_variables() {
 }
 
 #[test]
-fn functions_of_nothing_are_constants() {
+fn functions_without_parameters_are_constants() {
     let mut scope = Scope::new();
     declare(&mut scope, "two", &[], "2");
     let formula = Formula::bind(&Expr::parse("two()^two()").unwrap(), &scope, &[]).unwrap();

@@ -60,7 +60,7 @@ proptest! {
 #[case::wave("sin(x-omega*t)", 2)]
 #[case::turn("x*cos(t*(1-x^2))-x", 4)]
 #[case::sum("sum(n,1,3,sin(n*x)*cos(n*t)/n)", 9)]
-fn what_stays_is_what_needs_both(#[case] source: &str, #[case] operations: usize) {
+fn only_steps_that_depend_on_both_remain(#[case] source: &str, #[case] operations: usize) {
     let formula = bind(source, &["x", "t"]).unwrap();
     assert_eq!(Hoisted::<f64>::new(&[formula], VARIABLES).operations(), operations);
 }
@@ -84,7 +84,7 @@ fn what_is_shared_is_computed_once(#[case] one: &str, #[case] other: &str, #[cas
 #[case("x")]
 #[case("x/t-t/x")]
 #[case("(sin(x)*sin(t))*(cos(x)*cos(t))-tan(x)*(x-t)")]
-fn hoisting_keeps_the_bits_of(#[case] source: &str) {
+fn hoisting_preserves_the_bits_of(#[case] source: &str) {
     let formula = bind(source, &["x", "t"]).unwrap();
     agree(&[formula.clone(), formula], &[0.0, -0.3, 1.7], &[0.0, 0.4, -2.0]).unwrap();
 }

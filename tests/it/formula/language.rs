@@ -91,7 +91,7 @@ fn the_vibrating_bar() {
 #[case("tanh(x)", libm::tanh)]
 #[case("x^0.3", |x| libm::pow(x, 0.3))]
 #[case("x^3", |x| x * (x * x))]
-fn the_bits_are_those_of_libm(#[case] source: &str, #[case] reference: fn(f64) -> f64) {
+fn values_are_bit_identical_to_libm(#[case] source: &str, #[case] reference: fn(f64) -> f64) {
     let formula = bind(source, &["x"]).unwrap();
     for i in 1..200 {
         let x = 0.037 * f64::from(i);

@@ -165,7 +165,7 @@ proptest! {
     }
 
     #[test]
-    fn values_are_those_of_the_tree(tree in tree(), x in -3.0..3.0, y in -3.0..3.0) {
+    fn values_agree_with_the_tree(tree in tree(), x in -3.0..3.0, y in -3.0..3.0) {
         let formula = grow(&tree.text());
         let value = formula.eval(&[x, y]);
         prop_assert!(same(value, tree.value(x, y)));
@@ -174,7 +174,7 @@ proptest! {
     }
 
     #[test]
-    fn folding_is_evaluation(tree in tree(), x in -3.0..3.0, y in 0_u8..4) {
+    fn folded_constants_equal_evaluated_ones(tree in tree(), x in -3.0..3.0, y in 0_u8..4) {
         let folded = tree.text().replace('y', &y.to_string());
         let value = grow(&folded).eval(&[x, f64::NAN]);
         prop_assert!(same(value, tree.value(x, f64::from(y))));

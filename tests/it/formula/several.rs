@@ -19,7 +19,7 @@ fn agree(formula: &Formula, x: &[f64], y: f64) -> Result<(), TestCaseError> {
 
 proptest! {
     #[test]
-    fn several_values_have_the_bits_of_each(
+    fn batch_is_bit_identical_to_single_values(
         tree in tree(),
         x in prop::collection::vec(-3.0..3.0, NumberBatch::LEN),
         y in -3.0..3.0,
@@ -38,7 +38,7 @@ proptest! {
 #[case("abs(x)*sign(x)+step(x-t)")]
 #[case("sum(n,1,4,n*sin(n*x)*sum(m,0,2,cos(m*t)*(m-n)))")]
 #[case("max(0/x,1)")]
-fn branches_are_taken_for_each(#[case] source: &str) {
+fn branches_are_selected_for_each_value(#[case] source: &str) {
     let formula = bind(source, &["x", "t"]).unwrap();
     let x = [0.0, -0.0, 1.0, -2.0, 3.5, f64::NAN, f64::INFINITY, -1e300];
     for t in [0.0, 1.0, -2.0, 0.5] {

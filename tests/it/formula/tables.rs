@@ -52,7 +52,7 @@ fn a_table_by_a_constant_is_one() {
 #[rstest]
 #[case("ramp", &["X"], "`ramp` is a table by `t`, which is not defined here")]
 #[case("ramp(1)", &["t"], "`ramp` is a table, not a function")]
-fn a_table_is_read_where_its_variable_is(
+fn table_is_evaluated_at_its_variable(
     #[case] text: &str,
     #[case] variables: &[&str],
     #[case] message: &str,
@@ -65,7 +65,7 @@ fn a_table_is_read_where_its_variable_is(
 #[case("ramp", "t", "`ramp` is already a table")]
 #[case("n", "t", "`n` is already a constant")]
 #[case("new", "2*t", "`2*t` is not a name")]
-fn names_of_tables_are_names(#[case] name: &str, #[case] by: &str, #[case] message: &str) {
+fn invalid_table_names_are_refused(#[case] name: &str, #[case] by: &str, #[case] message: &str) {
     let error = scope().table(name, by, &[(0.0, 1.0), (1.0, 2.0)]).unwrap_err();
     assert_eq!(error.message, message);
 }

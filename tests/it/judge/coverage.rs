@@ -170,7 +170,7 @@ fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
 #[case(0.0, 0.95)]
 #[case(0.5, 0.847)]
 #[case(-0.5, 0.986)]
-fn correlated_neighbours_are_covered_as_theory_says(#[case] correlation: f64, #[case] about: f64) {
+fn coverage_of_correlated_errors_agrees_with_theory(#[case] correlation: f64, #[case] about: f64) {
     let theory = coverage_by_theory(6, correlation);
     let noise = Noise::Neighbours(correlation);
     let count = count(2 * SOME, &HALVINGS, noise, (6, 6), 2026);

@@ -196,7 +196,7 @@ impl Tally {
 
 #[test]
 #[ignore = "runs all suites: a few minutes"]
-fn limits_cover_the_exact_value_in_93_per_cent_of_the_suites_for_test() {
+fn limits_cover_the_exact_value_in_93_per_cent_of_the_test_suites() {
     let all = Mutex::new(Vec::new());
     let names: Vec<&str> = embedded::names().collect();
     names.par_iter().for_each(|name| {

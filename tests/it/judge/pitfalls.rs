@@ -17,7 +17,7 @@ fn a_growing_error_has_a_negative_order() {
 }
 
 #[rstest]
-fn a_non_finite_figure_fails_on_any_level(
+fn non_finite_value_fails_on_any_level(
     #[values(0, 2, 4)] level: usize,
     #[values(f64::NAN, f64::INFINITY, f64::NEG_INFINITY)] figure: f64,
     #[values(true, false)] usable: bool,
@@ -73,7 +73,7 @@ fn no_error_at_all_is_not_convergence() {
 #[case(&[1.0, 0.9, 0.8, 0.7, 0.003_906_25])]
 #[case(&[1.0, 0.005, 0.005, 0.004, 0.003_906_25])]
 #[case(&[1.0, 0.01, 0.4, 0.008, 0.003_906_25])]
-fn not_only_the_end_points_count(#[case] errors: &[f64]) {
+fn intermediate_levels_count(#[case] errors: &[f64]) {
     let verdict = judged(errors, 2.0).verdict;
     assert_ne!(verdict, Verdict::Converging);
 }
@@ -81,7 +81,7 @@ fn not_only_the_end_points_count(#[case] errors: &[f64]) {
 /// The "asymptotic range ratio" of these values is 1.0 to 1 %, so it would classify them as
 /// asymptotic.
 #[test]
-fn the_order_of_three_values_is_held_against_theory_not_against_itself() {
+fn order_of_three_values_is_compared_with_theory() {
     let richardson = Richardson::equal_ratio([103.0, 101.5, 101.0], 2.0);
     assert_eq!(richardson.class, RichardsonClass::MonotoneConvergent);
     let order = richardson.order.unwrap();
@@ -139,7 +139,7 @@ fn an_order_out_of_the_range_may_be_undecided(
 
 /// The judge must show the fitted levels, and must not remove an outlier among them.
 #[test]
-fn an_outlier_is_kept_wherever_it_lies() {
+fn outlier_on_any_level_is_kept() {
     for outlier in 1..7 {
         let mut series = halved(8, |h| h * h);
         series[outlier].error *= 5.0;
@@ -163,7 +163,7 @@ fn a_drift_through_the_expected_range_is_not_settled() {
 
 /// Small numbers are printed with all digits.
 #[test]
-fn a_reason_tells_3_2e_9_from_3_2e_7() {
+fn reason_distinguishes_3_2e_9_from_3_2e_7() {
     let at = |error: f64| judged(&[error; 4], 2.0).reason;
     assert!(at(3.2e-9).contains("3.2e-9"));
     assert!(at(3.2e-7).contains("3.2e-7"));

@@ -94,7 +94,7 @@ proptest! {
     }
 
     #[test]
-    fn converging_means_what_it_says(series in series(), formal in 0.5..3.0_f64) {
+    fn converging_implies_an_interval_in_the_range(series in series(), formal in 0.5..3.0_f64) {
         let judgement = judge(&series, &OrderHypothesis::formal(formal));
         if judgement.verdict == Verdict::Converging {
             let order = judgement.order.unwrap();
@@ -123,7 +123,7 @@ proptest! {
 /// the evidence suffices against the outermost of them only, so an inner one is in the window
 /// again.
 #[test]
-fn a_consistent_finer_level_turns_no_pass_into_a_failure() {
+fn consistent_finer_level_does_not_fail_a_pass() {
     let mut random = Random(2027);
     let (mut passed, mut came_back) = (0, 0);
     while passed < 5000 {
@@ -157,7 +157,7 @@ fn subnormal_errors_have_an_order() {
 }
 
 #[test]
-fn spacings_that_cannot_be_told_apart_fail() {
+fn indistinguishable_spacings_fail() {
     let mut h: f64 = 1e300;
     let series = [1.0, 2.0, 3.0, 4.0].map(|error| {
         h = h.next_up();

@@ -37,7 +37,11 @@ fn classes(#[case] values: [f64; 3], #[case] ratio: f64, #[case] class: Richards
 #[case([16.0, 4.0, 1.0], 0.5, Failed)]
 #[case([16.0, 4.0, 1.0], -2.0, Failed)]
 #[case([16.0, 4.0, 1.0], f64::NAN, Failed)]
-fn nothing_to_say(#[case] values: [f64; 3], #[case] ratio: f64, #[case] class: RichardsonClass) {
+fn values_without_an_order_have_no_limit(
+    #[case] values: [f64; 3],
+    #[case] ratio: f64,
+    #[case] class: RichardsonClass,
+) {
     let richardson = Richardson::equal_ratio(values, ratio);
     assert_eq!(richardson.class, class);
     assert_eq!(richardson.order, None);

@@ -21,7 +21,9 @@ fn a_pure_order_is_converging(
 }
 
 #[rstest]
-fn noise_of_two_per_cent_keeps_the_verdict(#[values(1.0, 5.0 / 3.0, 2.0, 3.0)] order: f64) {
+fn noise_of_two_per_cent_does_not_change_the_verdict(
+    #[values(1.0, 5.0 / 3.0, 2.0, 3.0)] order: f64,
+) {
     let mut random = Random(1);
     let mut series = halved(7, |h| libm::pow(h, order));
     random.disturb(&mut series, 0.02);
@@ -37,7 +39,7 @@ fn noise_of_two_per_cent_keeps_the_verdict(#[values(1.0, 5.0 / 3.0, 2.0, 3.0)] o
 #[case::order_minus_1(-1.0, 1.0, Verdict::Divergent)]
 #[case::order_minus_3(-3.0, 2.0, Verdict::Divergent)]
 #[case::order_0(0.0, 2.0, Verdict::AtFloor)]
-fn a_pure_order_against_another(
+fn pure_order_is_judged_against_another_order(
     #[case] order: f64,
     #[case] formal: f64,
     #[case] expected: Verdict,
@@ -82,14 +84,14 @@ fn a_second_term_of_lower_order(#[case] c: f64, #[case] expected: Verdict) {
 }
 
 #[test]
-fn a_term_of_higher_order_is_left_behind_on_coarse_levels() {
+fn term_of_higher_order_affects_only_coarse_levels() {
     let judgement = judge(&halved(8, |h| h * h + h * h * h * h), &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert!(judgement.window.unwrap()[0] > 0);
 }
 
 #[test]
-fn a_plateau_of_another_axis_is_a_floor_and_the_order_before_is_kept() {
+fn constant_error_of_another_axis_is_a_floor() {
     let judgement = judge(&halved(12, |h| h * h + 1e-4), &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, Verdict::AtFloor, "{}", judgement.reason);
     assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.03);
@@ -132,7 +134,7 @@ fn noise_on_levels_that_are_hardly_finer_does_not_pass() {
 }
 
 #[test]
-fn a_superconvergent_first_pair_is_left_out_of_the_window() {
+fn superconvergent_first_pair_is_outside_the_window() {
     let judgement = judged(&[16.0, 1.0, 0.25, 0.0625, 0.015_625, 0.003_906_25], 2.0);
     assert_eq!(judgement.verdict, Verdict::Converging, "{}", judgement.reason);
     assert_eq!(judgement.window, Some(vec![1, 2, 3, 4, 5]));

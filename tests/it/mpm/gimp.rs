@@ -8,7 +8,7 @@ use rstest::rstest;
 #[case::negative(-1e30)]
 #[case::infinite(f64::INFINITY)]
 #[case::nan(f64::NAN)]
-fn a_domain_of_senseless_length_stays_in_the_grid(#[case] spacing: f64) {
+fn invalid_domain_length_stays_in_the_grid(#[case] spacing: f64) {
     let kernel = kernel::<1>(BasisName::UniformGimp);
     let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(4.0));
     let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);

@@ -23,7 +23,7 @@ fn plate(basis: BasisName) -> (Box<dyn Kernel<2>>, Grid<2>, Particles<2>) {
 /// The temperature is `1 + 2 x - 3 y`. Each node, even at walls, must have the value of the field
 /// at its position.
 #[rstest]
-fn a_linear_temperature_is_shown_as_it_is(
+fn linear_temperature_is_reproduced_at_all_nodes(
     #[values(
         BasisName::Linear,
         BasisName::UniformGimp,
@@ -52,7 +52,7 @@ fn a_linear_temperature_is_shown_as_it_is(
 /// The heat of the particles must increase by the inflow: 7 W/m through an edge of 0.5 m, and 5
 /// W/kg in 1.5 kg.
 #[rstest]
-fn no_heat_is_lost(
+fn heat_is_conserved(
     #[values(BasisName::Linear, BasisName::Cpdi, BasisName::CubicBSpline)] basis: BasisName,
 ) {
     let (kernel, grid, mut particles) = plate(basis);
@@ -78,7 +78,7 @@ fn no_heat_is_lost(
 /// In a body of uniform temperature there is no flux. Forward Euler must subtract r dt of the
 /// temperature in each step.
 #[rstest]
-fn a_source_has_the_temperature_at_the_start_of_the_step(
+fn source_uses_the_temperature_at_the_start_of_the_step(
     #[values(
         BasisName::Linear,
         BasisName::UniformGimp,
@@ -108,7 +108,7 @@ fn a_source_has_the_temperature_at_the_start_of_the_step(
 }
 
 #[test]
-fn a_temperature_that_is_no_number_is_named() {
+fn nan_temperature_is_reported() {
     let (kernel, grid, mut particles) = plate(BasisName::Linear);
     let source: HeatSource<2> = Box::new(|_, _, into| into[3] = f64::INFINITY);
     let start = |_: &Vector<2>| (0.0, Vector::zeros());

@@ -150,7 +150,7 @@ fn classical_transfers_have_closed_forms(
 
 /// PIC and APIC replace velocities by mapped ones, so no particle keeps a part of its own velocity.
 #[rstest]
-fn replaced_velocities_are_not_kept(
+fn entry_of_replaced_velocities_is_zero(
     #[values(TransferName::Pic, TransferName::Apic)] transfer: TransferName,
 ) {
     let basis = BasisName::CubicBSpline;
@@ -164,7 +164,7 @@ fn replaced_velocities_are_not_kept(
 
 /// The ledger observes a step and does not change it.
 #[test]
-fn a_step_with_a_ledger_has_the_bits_of_a_step() {
+fn step_with_a_ledger_is_bit_identical() {
     let method = (BasisName::QuadraticBSpline, TransferName::Apic);
     for scheme in SchemeName::ALL {
         let [mut with, mut without] =
@@ -181,7 +181,7 @@ fn a_step_with_a_ledger_has_the_bits_of_a_step() {
 
 /// A stability study perturbs and freezes a solver with a ledger like one without.
 #[test]
-fn a_solver_with_a_ledger_has_the_state_of_the_solver() {
+fn solver_with_a_ledger_has_the_same_state() {
     let method = (BasisName::CubicBSpline, TransferName::Apic);
     let solver = || Solver::new(scattered::<2>(method, SchemeName::Usl)).expect("a solver");
     let state = |subject: &dyn Perturbable| {

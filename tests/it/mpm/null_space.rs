@@ -43,7 +43,7 @@ fn share<const D: usize>(found: &[Vector<D>], particles: &Particles<D>) -> f64 {
 
 /// There is one particle in the middle of each cell, and the signs alternate (Brackbill 1988).
 #[test]
-fn what_alternates_in_the_middle_of_cells_is_all_in_the_null_space() {
+fn alternating_velocities_are_in_the_null_space() {
     let solver = body(BasisName::Linear, 1, |p| Vector::<1>::new([1.0, -1.0][p % 2]));
     let found = solver.null_space_velocity();
     assert_relative_eq!(share(&found, solver.particles()), 1.0, max_relative = 1e-14);
@@ -80,12 +80,12 @@ fn of_any_velocity<const D: usize>() {
 #[rstest]
 #[case::line(of_any_velocity::<1>)]
 #[case::plane(of_any_velocity::<2>)]
-fn a_velocity_is_what_the_grid_can_show_and_a_part_in_the_null_space(#[case] of: fn()) {
+fn velocity_splits_into_grid_and_null_space_parts(#[case] of: fn()) {
     of();
 }
 
 #[test]
-fn what_is_no_number_stays_none() {
+fn nan_velocity_has_a_nan_energy() {
     let mut solver = body(BasisName::Linear, 2, |_| Vector::<1>::new(1.0));
     let state: Vec<f64> = (0..8).map(|p| if p == 3 { f64::NAN } else { 1.0 }).collect();
     solver.set_state(&state);

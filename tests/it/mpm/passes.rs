@@ -15,7 +15,7 @@ fn solver(scheme: SchemeName) -> Solver<2> {
 }
 
 #[rstest]
-fn a_step_by_passes_is_a_step_and_names_what_reports_list(
+fn step_by_passes_is_bit_identical_and_names_its_passes(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     let (mut whole, mut by_pass) = (solver(scheme), solver(scheme));

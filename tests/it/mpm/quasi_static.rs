@@ -225,7 +225,7 @@ fn error_of_linear_functions_grows_in_many_load_steps(#[case] case: fn(usize, u6
 
 /// If load steps have half the length, there are twice as many.
 #[test]
-fn shorter_load_steps_are_more_of_them() {
+fn half_load_steps_equal_twice_as_many() {
     let mut short = ColumnCase::drucker_prager(6, 3).build::<1>(BasisName::ContiguousGimp);
     (0..6).for_each(|_| short.step(0.5).unwrap());
     let case = ColumnCase::drucker_prager(6, 6);

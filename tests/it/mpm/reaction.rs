@@ -49,7 +49,7 @@ fn balances<const D: usize>(scheme: SchemeName, start: Start) {
 }
 
 #[rstest]
-fn reactions_are_what_changes_the_momentum(
+fn reactions_balance_the_change_of_momentum(
     #[values(1, 2, 3)] dimension: usize,
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
@@ -60,7 +60,7 @@ fn reactions_are_what_changes_the_momentum(
 /// Under uniform stress the reaction of a roller must equal the normal traction of its face, even
 /// at the edges. A moving wall has no reaction.
 #[test]
-fn a_roller_takes_the_traction_of_its_face() {
+fn reaction_of_a_roller_includes_the_traction_on_its_face() {
     let mut setup = full::<2>(BasisName::Linear, SchemeName::Usl);
     let stress = Matrix::<2>::new(0.02, 0.0, 0.0, -0.01);
     setup.particles.sigma.iter_mut().for_each(|sigma| *sigma = stress);

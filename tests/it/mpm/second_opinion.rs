@@ -169,7 +169,7 @@ fn hold_level(plan: &ConvergencePlan, level: &Level) {
 }
 
 #[rstest]
-fn a_second_opinion_agrees(#[files("tests/second_opinion/*.txt")] file: PathBuf) {
+fn independent_implementation_agrees(#[files("tests/second_opinion/*.txt")] file: PathBuf) {
     let name = file.file_stem().and_then(|stem| stem.to_str()).expect("a name");
     let suite = Suite::load(&embedded::source(name).expect("a suite").expect("its text")).unwrap();
     let plan = suite.plan::<ConvergencePlan>().expect("a convergence study");

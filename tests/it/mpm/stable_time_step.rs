@@ -23,7 +23,7 @@ fn step(material: MaterialPlan, effect: impl Effect<2> + 'static) -> f64 {
 /// A viscosity must shorten the step equally for a law in rate form, which adds the viscous stress
 /// to the stored stress, and for a law of F.
 #[test]
-fn a_viscosity_counts_once_whatever_the_law() {
+fn viscosity_counts_once_for_any_law() {
     let viscous = |material, linear| {
         let (quadratic, length, speed) = (0.0, 1.0, 1.0);
         step(material, ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() })
@@ -50,7 +50,7 @@ fn a_foundation_counts_by_its_stiffness() {
 /// Methods that are declared to have the same response share predictions, so their steps must have
 /// the same bits. Some methods have another response, so the test would detect a wrong declaration.
 #[rstest]
-fn methods_of_the_same_response_share_their_step(
+fn methods_with_the_same_response_have_equal_steps(
     #[values(
         BasisName::Linear,
         BasisName::ContiguousGimp,

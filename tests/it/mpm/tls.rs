@@ -18,7 +18,7 @@ fn uneven() -> (Grid<1>, Particles<1>) {
 }
 
 #[test]
-fn a_uniform_stress_pushes_no_node_whatever_the_cells_hold() {
+fn uniform_stress_exerts_no_force_for_any_particle_counts() {
     let (mut grid, particles) = uneven();
     let kernel = kernel::<1>(BasisName::Linear);
     kernel.p2g_internal_force(&particles, &mut grid);
@@ -49,7 +49,7 @@ fn lone(beyond: f64) -> (Vec<f64>, Vec<f64>) {
 }
 
 #[test]
-fn a_lone_particle_makes_no_mass_negative() {
+fn single_particle_causes_no_negative_mass() {
     let (mass, velocity) = lone(0.0);
     assert!(mass.iter().all(|mass| *mass > 0.0), "{mass:?}");
     assert_abs_diff_eq!(mass.iter().sum::<f64>(), 16.0, epsilon = 1e-13);
@@ -59,7 +59,7 @@ fn a_lone_particle_makes_no_mass_negative() {
 }
 
 #[rstest]
-fn periods_are_all_alike(#[values(8.0, -16.0)] beyond: f64) {
+fn result_does_not_depend_on_the_period(#[values(8.0, -16.0)] beyond: f64) {
     for (here, there) in lone(0.0).0.iter().zip(lone(beyond).0) {
         assert_abs_diff_eq!(*here, there, epsilon = 1e-12);
     }

@@ -13,7 +13,7 @@ fn plate() -> Particles<2> {
 }
 
 #[test]
-fn the_whole_force_reaches_the_grid() {
+fn total_force_on_the_grid_is_exact() {
     let particles = plate();
     let kernel = kernel::<2>(BasisName::Linear);
     let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
@@ -28,7 +28,7 @@ fn the_whole_force_reaches_the_grid() {
 /// length. The force is 2. The face is at x = 2, so the moment about the origin is `2 int Y dY =
 /// 4`.
 #[rstest]
-fn at_the_surface_the_moment_is_right_too(
+fn moment_is_exact_at_the_surface(
     #[values(
         BasisName::Linear,
         BasisName::ContiguousGimp,
@@ -60,7 +60,7 @@ fn at_the_surface_the_moment_is_right_too(
 /// A shear traction of 2 Pa acts on the right side of Cook's panel, which is 16 m long and at x =
 /// 48 m. Force and moment about the origin must be right for any first corner of the map.
 #[rstest]
-fn a_side_carries_its_whole_load_where_it_is(
+fn force_and_moment_on_a_side_are_exact(
     #[values(0, 1, 2, 3)] first: usize,
     #[values(BasisName::Linear, BasisName::Cpdi, BasisName::QuadraticBSpline)] basis: BasisName,
     #[values(Placement::Particles, Placement::Surface)] placement: Placement,

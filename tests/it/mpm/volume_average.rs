@@ -81,7 +81,7 @@ fn is_average_of_the_textbook<const D: usize>(basis: BasisName, scheme: SchemeNa
 }
 
 #[rstest]
-fn a_law_sees_the_weighted_mean_of_the_volume_ratios(
+fn law_reads_the_weighted_mean_of_volume_ratios(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     for &basis in BasisName::ALL {
@@ -125,7 +125,7 @@ fn is_law_of_average<const D: usize>(basis: BasisName, scheme: SchemeName) {
 }
 
 #[rstest]
-fn stress_is_that_of_f_with_the_averaged_volume_ratio(
+fn stress_uses_f_with_the_averaged_volume_ratio(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     for &basis in BasisName::ALL {
@@ -193,7 +193,7 @@ impl Boundary<2> for Affine {
 
 /// With a uniform velocity gradient J grows equally everywhere, and so does its mean.
 #[rstest]
-fn an_affine_motion_is_that_of_the_plain_method(
+fn averaging_does_not_change_an_affine_motion(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     let rate = Matrix::<2>::new(0.5, 0.3, -0.2, 0.4);
@@ -248,7 +248,7 @@ fn a_uniform_volume_ratio_is_its_own_average() {
 }
 
 #[rstest]
-fn a_free_body_keeps_its_momentum(
+fn free_body_conserves_momentum(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
 ) {
     let momentum = |particles: &Particles<2>| -> Vector<2> {
@@ -270,7 +270,7 @@ fn a_free_body_keeps_its_momentum(
 
 /// The loops are divided into blocks, on one thread and on several.
 #[test]
-fn threads_that_share_an_average_give_the_bits_of_one() {
+fn average_on_several_threads_is_bit_identical() {
     let run = |threads| {
         let mut setup =
             averaged::<2>(BasisName::Linear, SchemeName::Musl, Box::new(NeoHookean::new(2.0, 0.4)));
@@ -291,7 +291,7 @@ fn threads_that_share_an_average_give_the_bits_of_one() {
 }
 
 #[rstest]
-fn an_interrupted_run_gives_the_bits_of_a_whole_one(
+fn resumed_run_is_bit_identical(
     #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
     #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
 ) {

@@ -138,7 +138,7 @@ fn unstable_steps_on_the_first_levels_are_named(#[case] diagnosis: fn(&str, f64)
 
 /// The time step is a multiple of the stable step, with a factor above 1.
 #[test]
-fn a_rule_beyond_the_stable_step_is_the_cause() {
+fn automatic_step_beyond_the_stable_step_is_the_cause() {
     let found = diagnosis(&BAR.replace("\"0.2*h/c\"", "{courant: 4}"), BUDGET);
     contains(&page(&found), &["longer than the stable step, on all levels", "2.00 [2.00"]);
 }
@@ -252,9 +252,7 @@ fn pulse(cells: &str) -> String {
 #[rstest]
 #[case::of_this_crate(diagnosis)]
 #[case::external(external_diagnosis)]
-fn first_levels_that_are_too_coarse_are_to_be_left_out(
-    #[case] diagnosis: fn(&str, f64) -> Diagnosis,
-) {
+fn removal_of_too_coarse_levels_is_recommended(#[case] diagnosis: fn(&str, f64) -> Diagnosis) {
     let found = diagnosis(&pulse("40, 80, 160, 320, 640"), NO_RUNS);
     contains(
         &page(&found),
@@ -296,7 +294,7 @@ fn of_check(text: &str) -> Vec<Severity> {
 }
 
 #[test]
-fn an_equilibrium_that_nothing_damps_is_the_cause() {
+fn equilibrium_without_damping_is_the_cause() {
     let text = column("  loads:\n    - gravity: [-g]\n");
     assert_eq!(of_check(&text), [Severity::Warning]);
     for found in [diagnosis(&text, BUDGET), external_diagnosis(&text, BUDGET)] {
@@ -328,7 +326,7 @@ fn a_body_that_has_not_come_to_rest_is_the_cause() {
 
 /// Strains of 1e-2 cause an error of second order in the amplitude.
 #[test]
-fn the_error_with_a_tenth_of_the_amplitude_is_printed_as_it_is() {
+fn error_with_a_tenth_of_the_amplitude_is_printed_unscaled() {
     let text = BAR.replace("1e-4", "0.02").replace("until: 0.4", "until: 0.1");
     let text = text
         .replace("scheme: musl", "scheme: musl, frame: total_lagrangian, start: half_step_back");

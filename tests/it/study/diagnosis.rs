@@ -58,7 +58,7 @@ fn a_cause_is_found_in_time(#[case] suite: &str, #[case] case: &str, #[case] cau
 }
 
 #[rstest]
-fn no_cause_is_named_where_there_is_none(
+fn no_cause_is_named_without_a_defect(
     #[values(
         ("damped-bar", "mpm-linear-flip-musl"),
         ("damped-bar", "mpm-linear-apic-musl"),
@@ -78,7 +78,7 @@ fn no_cause_is_named_where_there_is_none(
 }
 
 #[test]
-fn what_is_beyond_the_budget_is_said() {
+fn changes_beyond_the_budget_are_listed() {
     let source = embedded::source("vibrating-bar").expect("a suite").expect("a text");
     let suite = Suite::load(&source).expect("a sound suite");
     let usf = suite.case_names().iter().position(|name| name.ends_with("usf")).expect("USF");
@@ -90,7 +90,7 @@ fn what_is_beyond_the_budget_is_said() {
 
 /// Strains of 1e-2 cause an error of this order, which vanishes with a tenth of the amplitude.
 #[test]
-fn a_truth_of_small_strain_is_told_by_the_amplitude() {
+fn smaller_amplitude_reveals_a_small_strain_solution() {
     let text = r#"suite: bar
 title: Bar
 source: a textbook
@@ -118,7 +118,7 @@ methods:
 
 /// The interface of two bars is in the middle of a cell, where linear functions have no kink.
 #[test]
-fn an_interface_inside_a_cell_is_told_by_the_alignment() {
+fn aligned_grid_reveals_an_interface_inside_a_cell() {
     let source = embedded::source("bar-of-two-materials").expect("a suite").expect("a text");
     let text = source.text().replace("cells: [20, 40, 80, 160]", "cells: [7, 11, 17, 25]");
     let source = Source::from_text("joint.yaml", &text).expect("a text");

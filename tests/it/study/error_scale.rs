@@ -20,7 +20,7 @@ fn scale(from: &str, to: &str) -> ErrorScale {
 /// The largest displacement is that of the free end, 1e-3 sin(omega t)/omega, an eighth of a period
 /// after the start.
 #[test]
-fn the_size_is_that_of_the_largest_displacement() {
+fn size_is_the_largest_displacement() {
     let largest = 1e-3 * 0.5_f64.sqrt() / (5.0 * std::f64::consts::PI);
     assert_relative_eq!(scale("", "").size, largest, max_relative = 1e-12);
     let stated = "judge: {scale: 1e-4}\nobserve:";

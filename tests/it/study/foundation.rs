@@ -83,7 +83,7 @@ fn levels(case: &CaseOutcome) -> &[LevelOutcome] {
 #[rstest]
 #[case::bar(FREE, 1.0, 14)]
 #[case::plate(PLATE, 5.0, 3)]
-fn the_load_is_that_of_the_particles_own_displacement(
+fn load_uses_the_displacement_of_each_particle(
     #[case] text: &str,
     #[case] square: f64,
     #[case] count: usize,

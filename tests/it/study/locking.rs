@@ -29,7 +29,7 @@ fn errors(nu: &str, method: &str, cells: &str) -> Vec<f64> {
 #[rstest]
 #[case::linear("basis: linear")]
 #[case::domains("basis: cpdi")]
-fn averaged_volume_ratios_give_the_error_of_a_compressible_body(#[case] basis: &str) {
+fn averaged_volume_ratios_prevent_locking(#[case] basis: &str) {
     let method = format!("{basis}, transfer: flip, scheme: musl");
     let compressible = errors("0.3", &method, "8, 16");
     let averaged = errors("0.4999", &format!("{method}, volume: averaged"), "8, 16");

@@ -111,7 +111,7 @@ const SHORT: [&str; 11] = [
 ];
 
 #[test]
-fn intervals_of_predicted_errors_have_what_is_found() {
+fn predicted_intervals_contain_measured_errors() {
     let found: Vec<Found> = SHORT.into_iter().filter_map(back_test).collect();
     let (share, width) = covered(&found);
     assert!(share >= 0.9 && width < 1.6, "{share} of the suites, median width {width}");

@@ -248,7 +248,7 @@ fn a_linearised_solution(
 /// The stated stretch of a stiff rotating rod is the first term of a series. The omitted second
 /// term is (w l/c)^4 l/5 = 2e-5 m at the ends. Unlike a free mass, the rod does not drift away.
 #[test]
-fn a_stiff_body_follows_what_a_linearised_solution_leaves() {
+fn residual_displaces_a_stiff_body_quasi_statically() {
     let source = embedded::source("rotating-rod").expect("a suite").expect("a text");
     let text = source.text().replace("e*(p1(s) + e*(p2(s) + e*(p3(s) + e*p4(s))))", "e*p1(s)");
     let is_used = |line: &&str| !["  p2(", "  p3(", "  p4("].iter().any(|p| line.starts_with(p));

@@ -171,7 +171,7 @@ fn rounding_errors_of_suites_lie_within_the_predicted_range() {
 
 /// State of the particles and nodes of a bar after three steps.
 #[test]
-fn the_state_has_numbers_of_single_precision_only_if_stated() {
+fn state_is_rounded_only_if_single_precision_is_stated() {
     let source = embedded::source("single-precision-bar").expect("a suite").expect("text");
     let suite = Suite::load(&source).expect("a suite");
     let plan = suite.plan::<ConvergencePlan>().expect("a convergence study");

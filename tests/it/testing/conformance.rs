@@ -242,7 +242,7 @@ fn each_breach_is_found_and_said(
 }
 
 #[test]
-fn our_own_solver_keeps_the_contract() {
+fn built_in_solver_meets_the_contract() {
     let bar = OurSolver::new(suite(SWINGING_BAR), Fault::Nothing).breaches();
     assert!(bar.is_empty(), "{bar:#?}");
     for name in ["mms-periodic-bar-sin", "mms-axis-aligned-2d", "rotating-disk", "two-disks"] {
@@ -254,7 +254,7 @@ fn our_own_solver_keeps_the_contract() {
 }
 
 #[test]
-fn the_solver_of_the_example_keeps_the_contract() {
+fn solver_of_the_example_meets_the_contract() {
     let breaches = conformance(&OwnSolver);
     assert!(breaches.is_empty(), "{breaches:#?}");
 }
@@ -277,7 +277,7 @@ impl SolverFactory for Refuses {
 }
 
 #[test]
-fn a_solver_that_takes_no_problem_is_told_why() {
+fn solver_without_a_supported_suite_gets_the_reason() {
     let breaches = conformance(&Refuses);
     assert_eq!(breaches.len(), 1, "{breaches:#?}");
     for words in ["problem: ", "vibrating-bar: a bad day", "the solver lacks dimensions: 2"] {

@@ -53,7 +53,7 @@ fn tests_have_names() {
 }
 
 #[test]
-fn neither_gate_knows_of_the_other() {
+fn theory_and_snapshot_checks_are_independent() {
     let folder = folder();
     folder.write("suites/swinging-bar.yaml", stated("order: [0.9, 1.1]"));
     assert!(!passes(&tests(&folder), Some("swinging-bar::own-solver")));
@@ -106,7 +106,7 @@ impl SolverFactory for Idle {
 }
 
 #[test]
-fn a_breach_of_the_contract_fails_by_itself() {
+fn breach_of_the_contract_fails_its_own_test() {
     let folder = folder();
     let idle = SuiteFolder::new(folder.path().join("suites")).judging(Idle);
     assert!(passes(&idle, Some("swinging-bar::idle")));
@@ -116,7 +116,7 @@ fn a_breach_of_the_contract_fails_by_itself() {
 /// A case that requires a missing capability is ignored. A solver without an applicable case does
 /// not pass.
 #[test]
-fn nothing_applicable_is_no_pass() {
+fn suite_without_an_applicable_case_does_not_pass() {
     let folder = folder();
     let other = SWINGING_BAR.replace("left: fixed", "left: roller").replace("swinging", "rolling");
     folder.write("suites/rolling-bar.yaml", &other);
@@ -133,7 +133,7 @@ fn nothing_applicable_is_no_pass() {
 }
 
 #[test]
-fn files_that_cannot_be_used_fail() {
+fn invalid_files_fail() {
     let empty = Folder::new();
     assert!(!passes(&tests(&empty), None), "no folder");
     empty.write("suites/README.md", "no suite");

@@ -36,7 +36,7 @@ fn errors(outcome: &CaseOutcome) -> Vec<f64> {
 #[case::with_a_poisson_ratio(
     SWINGING_BAR.replace("poisson: 0", "poisson: 0.3").replace("sqrt(E)", "sqrt(E*0.7/(1.3*0.4))")
 )]
-fn the_solver_of_the_example_has_the_errors_of_ours(#[case] text: String) {
+fn example_solver_has_the_errors_of_the_built_in_solver(#[case] text: String) {
     let ours = suite(&text);
     let theirs = under(&ours, &OwnSolver, false).expect("a convergence study");
     let ours = errors(&Runner::new(&ours).case(0, &|| ()));

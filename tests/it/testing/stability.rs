@@ -115,7 +115,7 @@ fn rows(outcome: &CaseOutcome) -> &[StabilityRow] {
 }
 
 #[test]
-fn the_same_algorithm_grows_as_ours_does() {
+fn equal_algorithms_have_equal_growth() {
     let ours = Runner::new(&suite(MOVING_BAR)).case(0, &|| ());
     let theirs = judged(MOVING_BAR, &WatchedSolver);
     assert_eq!((theirs.case.as_str(), theirs.result()), ("watched", "not gated"));
@@ -131,7 +131,7 @@ fn the_same_algorithm_grows_as_ours_does() {
 }
 
 #[test]
-fn a_limit_is_sought_by_runs() {
+fn limit_is_found_by_runs() {
     let text = MOVING_BAR.replace(
         "sweep: {C: [0.2, 0.5, 3]}",
         "sweep: {rho: [1, 4]}\ncritical: {parameter: C, from: 0.1, to: 4}",
@@ -146,7 +146,7 @@ fn a_limit_is_sought_by_runs() {
 }
 
 #[test]
-fn a_solver_that_cannot_be_watched_is_no_stable_one() {
+fn solver_without_stress_or_totals_is_not_applicable() {
     let outcome = judged(MOVING_BAR, &OwnSolver);
     assert_eq!(outcome.result(), "n/a");
     assert_eq!(outcome.lacks, ["columns: stress"]);
@@ -162,7 +162,7 @@ fn a_solver_that_cannot_be_watched_is_no_stable_one() {
     "a configuration that no step changes"
 )]
 #[case::steps_in_turn("perturb: 1e-9", "alternate: \"C*h/(2*c)\"", "steps of two lengths")]
-fn a_study_that_the_protocol_does_not_hand_over_is_lacking(
+fn study_beyond_the_protocol_is_listed_as_lacking(
     #[case] from: &str,
     #[case] to: &str,
     #[case] words: &str,

@@ -3,8 +3,7 @@
 //! Compiling a node at register `at` writes only to registers `at` and above. The result is the
 //! location of the value: a constant, a variable or a register.
 //!
-//! User functions are inlined, and sums become loops. A table is a named expression of one variable
-//! or constant.
+//! User functions are inlined, and sums become loops.
 
 mod name;
 
@@ -41,7 +40,7 @@ pub(super) struct ProgramBuilder<'a> {
     pub(super) uses: BTreeSet<String>,
     /// Functions whose bodies are being compiled; the innermost is last.
     calls: Vec<&'a str>,
-    /// The variable that functions and definitions may also use, if the scope declares one.
+    /// Variable that functions and definitions may also use, if the scope declares one.
     free: Option<(&'a str, Operand)>,
     depth: usize,
     nodes: usize,
@@ -78,9 +77,8 @@ impl<'a> ProgramBuilder<'a> {
         self.compile(&mut frame, expr.root(), 0)
     }
 
-    /// Compiles a node and its children. Chains of left operands may be as long as the source, so a
-    /// loop processes them. The depth of recursion is limited by the nesting depth that the parser
-    /// accepts.
+    /// Compiles a node and its children. A loop processes chains of left operands, which may be as
+    /// long as the source. The nesting depth that the parser accepts limits the recursion.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,
@@ -185,7 +183,7 @@ fn binary(function: Binary, left: Operand, right: Operand) -> Action {
 }
 
 impl<'a> ProgramBuilder<'a> {
-    /// Compiles each argument once, then the body with the arguments in place of its parameters.
+    /// Compiles each argument once, then the body.
     pub(self) fn call(
         &mut self,
         frame: &mut Frame<'a>,

@@ -15,8 +15,8 @@
 //! ```
 //!
 //! The margin of a periodic axis repeats the first nodes of the axis, so the nodes of a patch
-//! always form a box. The margin of other axes is zero. Functions with weight zero may read the
-//! margin.
+//! always form a box. The margin of other axes is zero, and is read only by functions with weight
+//! zero.
 //!
 //! After P2G, the field is unpacked to the columns of the grid ([`Columns`]).
 
@@ -52,7 +52,7 @@ fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
 }
 
 impl<N: PackedNode> PackedField<N> {
-    /// Gives the field the shape of `grid`, with undefined values.
+    /// Gives the field the shape of `grid`. The values are undefined.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::new(grid);
         self.nodes.resize(layout.strides[3], N::default());

@@ -12,11 +12,7 @@
 //! ```
 //!
 //! Each lane performs the same IEEE operations at every level. Products and sums are fused only
-//! where the source requests it, so results are bit-identical on every processor (tested in
-//! `tests/it/mpm/kernel`).
-//!
-//! The module also defines the processor levels with their registers, and columns of one batch of
-//! particles in memory.
+//! where the source requests it, so results are bit-identical on every processor.
 
 mod register;
 use super::algebra::{Vector, array};
@@ -67,8 +63,8 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 static LEVEL: LazyLock<Level> = LazyLock::new(Level::new);
 
-/// Runs `loops`, which uses no explicit registers, compiled for AVX2 if the processor supports it.
-/// The closure and all functions that it calls must be `#[inline(always)]`.
+/// Runs `loops`, compiled for AVX2 if the processor supports it. The closure and all functions that
+/// it calls must be `#[inline(always)]`.
 #[inline(always)]
 pub(in crate::mpm) fn vectorized<R>(loops: impl FnOnce() -> R) -> R {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -211,7 +207,6 @@ impl F64Batch {
     }
 }
 
-/// Returns the range of registers that contain these particles of a batch.
 #[inline(always)]
 pub(in crate::mpm) fn registers_of(lanes: &Range<usize>) -> Range<usize> {
     lanes.start / LANES..lanes.end.div_ceil(LANES)
@@ -253,8 +248,7 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // Each mask is checked separately, because a call that combines both masks would
-                // not be inlined.
+                // Each mask is checked separately, because a combined check would not be inlined.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -296,8 +290,8 @@ sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// Bits of 2^52. The last bit of the mantissa has the value one, so an integer in the mantissa is
-/// added to 2^52.
+/// Bits of 2^52. In this number the last bit of the mantissa has the value one, so the mantissa
+/// holds an integer that is added to 2^52.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
@@ -365,13 +359,15 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(20_000))]
 
         #[test]
-        fn logarithms_have_the_bits_of_the_library(bits in any::<[u64; BATCH]>()) {
+        fn logarithms_are_bit_identical_to_the_library(bits in any::<[u64; BATCH]>()) {
             // All numbers of each batch are positive and normal, so that the fast path is used.
             holds(bits.map(|bits| f64::from_bits(bits % (0x7fe << 52) + (1 << 52))));
         }
 
         #[test]
-        fn logarithms_near_one_have_them_too(x in proptest::array::uniform16(0.5_f64..2.0)) {
+        fn logarithms_near_one_are_bit_identical_to_the_library(
+            x in proptest::array::uniform16(0.5_f64..2.0),
+        ) {
             holds(x);
         }
     }
@@ -388,7 +384,7 @@ mod tests {
     #[case::one(1.0)]
     #[case::root_of_half(f64::from_bits(ROOT_OF_HALF))]
     #[case::below_root_of_half(f64::from_bits(ROOT_OF_HALF - 1))]
-    fn logarithms_of_extremes_have_the_bits_of_the_library(#[case] x: f64) {
+    fn logarithms_of_extremes_are_bit_identical_to_the_library(#[case] x: f64) {
         let mut numbers = [1.5; BATCH];
         numbers[5] = x;
         holds(numbers);

@@ -1,5 +1,5 @@
-//! Registers of four and eight `f64` with their arithmetic, and an array that emulates a register
-//! on processors without wide registers.
+//! Registers of four and eight `f64` with their arithmetic, and an array in place of a register on
+//! processors without wide registers.
 
 use crate::mpm::foundation::algebra::floor;
 use std::ops::{Add, AddAssign, Mul, Sub};
@@ -87,7 +87,7 @@ pub trait F64x4:
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Plain;
 
-/// Four `f64` in memory, which emulate a register.
+/// Four `f64` in memory, in place of a register.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::mpm) struct Array(pub(super) [f64; LANES]);
 

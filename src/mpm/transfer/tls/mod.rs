@@ -184,15 +184,14 @@ impl<const D: usize> Fit<'_, D> {
         self.members.iter().map(|&p| self.x[p] * share).sum()
     }
 
-    /// Returns the second moments of the particles about a point (m^2).
     fn second(&self, about: &Vector<D>) -> Matrix<D> {
         let arm = |p: usize| self.x[p] - about;
         self.members.iter().map(|&p| dyad(&arm(p), &arm(p))).sum()
     }
 
-    /// Returns `mean + g . (x - about)` with the slope g of best fit. The slope is zero if the
-    /// particles do not span all axes. Otherwise, a line fitted to a single row of particles near
-    /// the cell centre could be steep and give negative nodal masses.
+    /// Returns `mean + g . (x - about)` with the slope g of best fit. The slope is zero unless the
+    /// particles span all axes, because a line fitted to a single row of particles could be steep
+    /// and give negative nodal masses.
     fn sloped<T>(
         &self,
         point: &QuadraturePoint<D>,

@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn exponents_are_texts_of_their_own() {
+    fn exponents_are_separate_texts() {
         let svg = Label::power("10", -3).draw((0.0, 0.0), "end").render();
         let (base, exponent) = svg.split_once("</text>").unwrap();
         assert!(base.contains("text-anchor=\"end\">10"), "{svg}");

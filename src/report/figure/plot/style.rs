@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn no_look_is_repeated_within_56_series() {
+    fn the_first_56_series_have_different_styles() {
         for a in 0..56 {
             assert!((0..a).all(|b| look(a) != look(b)));
         }
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_and_lines_stand_out_on_either_paper() {
+    fn texts_and_lines_have_contrast_in_both_schemes() {
         let lines = SERIES.iter().map(|colour| colour.0).chain([EXACT, CONTEXT]);
         for (colour, least) in lines.map(|colour| (colour, 3.0)).chain([(INK, 7.0), (NEUTRAL, 7.0)])
         {
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_differ_on_either_paper() {
+    fn colours_differ_in_both_schemes() {
         for scheme in [0, 1] {
             let all = PALETTE.iter().chain(&SERIES).map(|colour| schemes(colour.0)[scheme]);
             let mut all: Vec<&str> = all.collect();

@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn minor_ticks_lie_at_the_digits() {
+    fn minor_ticks_are_at_the_digits() {
         let scale = Scale::log([0.01, 1.0].into_iter(), NONE);
         let ticks = choose(&scale, 400.0, Label::width);
         assert_eq!(ticks.iter().filter(|t| t.label.is_none()).count(), 16);

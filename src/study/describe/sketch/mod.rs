@@ -1,7 +1,7 @@
 //! Sketches a scene with its bodies, grid, faces and loads, as text and as SVG.
 //!
-//! Symbols follow the usual conventions (hatching for a fixed face, rollers, arrows for loads). All
-//! other information is written below the picture, as in reports.
+//! Symbols follow the usual conventions (hatching for a fixed face, rollers, arrows for loads).
+//! Other information is written below the picture, as in reports.
 
 mod shape;
 mod svg;

@@ -5,7 +5,7 @@ use crate::report::figure::plot::style::{INK, look};
 use crate::report::figure::plot::svg::{Pt, SvgElement, number};
 use crate::suite::model::Scene;
 
-/// Opacity of a body, which leaves the grid visible.
+/// Opacity of a body, through which the grid is visible.
 const OPACITY: &str = "0.35";
 
 /// Maximum distance between points that count as equal, relative to the size of the body.
@@ -18,7 +18,7 @@ pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
         let (left, right) = (body.from[0], body.to[0]);
         return vec![vec![(left, low), (right, low), (right, high), (left, high)]];
     };
-    // A rim ends at the point where it started. The next point starts another rim.
+    // A rim ends where it started; the next point starts another rim.
     let tolerance = ROUNDING * (body.to[0] - body.from[0]);
     let mut rims: Vec<Vec<Pt>> = vec![Vec::new()];
     for point in outline.trace() {

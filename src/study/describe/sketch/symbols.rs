@@ -54,8 +54,7 @@ impl Edge {
     }
 
     /// Returns tail and tip of an arrow in `direction`. The arrow of a pressure ends at the face,
-    /// and the arrow of a tension starts at the face. An arrow along the face is drawn next to the
-    /// face.
+    /// and the arrow of a tension starts there. An arrow along the face is drawn next to it.
     fn loaded(&self, share: f64, direction: Option<Pt>) -> (Pt, Pt) {
         let (ux, uy) = direction.unwrap_or(self.out);
         let (x, y) = (ARROW * ux, ARROW * uy);
@@ -138,12 +137,12 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // The wall is drawn next to the body, because the body can separate from it.
+            // Drawn next to the body, because the body can separate from the wall.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }
         "periodic" => group.add(&edge.line(0.0, 2.0, INK).set("stroke-dasharray", "6 4")),
-        // The direction of the prescribed motion is written as text.
+        // The direction of the prescribed motion is not drawn.
         "velocity" => group.add(&edge.line(0.0, 4.0, look(2).colour)),
         _ => {}
     }

@@ -1,4 +1,4 @@
-//! Checks suites that use load steps instead of time steps. Refuses keys that need a time, and
+//! Checks suites that use load steps instead of time steps: refuses keys that need a time, and
 //! loads, boundary conditions and laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;

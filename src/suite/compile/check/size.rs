@@ -113,8 +113,8 @@ fn along(scene: &Scene, axis: usize, level: LevelPlan) -> f64 {
 }
 
 /// Refuses a grid whose high face does not coincide with a fixed face of the body, because the
-/// condition applies to the nodes on the grid face. Also refuses periodic grids whose length is not
-/// the stated period.
+/// condition applies to the nodes on the grid face. Also refuses a periodic grid whose length is
+/// not the stated period.
 pub(crate) fn held_faces(
     evaluator: &Evaluator<'_>,
     path: &Path,

@@ -16,8 +16,8 @@ struct StatedStep {
 }
 
 /// Checks that every level and the reference have valid time steps. If time is refined, the steps
-/// must decrease from level to level. In a run that is compared with a computed reference, steps
-/// must end at the instants of the reference. This may change the time step by at most
+/// must decrease from level to level. A run that is compared with a computed reference must have
+/// steps that end at the instants of the reference, with a change of the time step by at most
 /// [`STEP_TOLERANCE`].
 pub(crate) fn refuse_unusable(
     evaluator: &Evaluator<'_>,

@@ -251,8 +251,8 @@ fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds settings to equal names, and returns whether a name has changed. The caller repeats this,
-/// because a new name may equal the name of another method.
+/// Adds settings to equal names, and returns whether a name has changed. A new name may equal the
+/// name of another method, so the caller repeats this.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -11,8 +11,8 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 /// the distance to its neighbour.
 const MOST: f64 = 0.5;
 
-/// Maximum random offset, as a share of the spacing, if a face carries a load. This keeps the
-/// particle layer at the face separate from the next layer.
+/// Maximum random offset, as a share of the spacing, if a face carries a load. The particle layer
+/// at the face then stays separate from the next layer.
 const MOST_AT_LOADS: f64 = 0.25;
 
 const SEED: u64 = 1;

@@ -205,9 +205,8 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
-/// Default maximum energy of a stable run, relative to the initial energy. The value allows for a
-/// leapfrog scheme just below its stability limit, in which energy is exchanged between velocities
-/// and stresses.
+/// Default maximum energy of a stable run, relative to the initial energy. Just below its stability
+/// limit, a leapfrog scheme exchanges much energy between velocities and stresses.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Default energy, relative to the initial energy, above which a run is unstable.

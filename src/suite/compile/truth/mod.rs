@@ -19,8 +19,8 @@ use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
 use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
 
-/// Maximum number of operations in a formula of a solution. The limit is needed because the check
-/// before a run evaluates the formula about 30000 times with all its derivatives.
+/// Maximum number of operations in a formula of a solution, because the check before a run
+/// evaluates the formula about 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
 /// Compiles the problem that the stated formulas must solve, if any. The solution is checked later.

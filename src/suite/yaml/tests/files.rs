@@ -33,7 +33,7 @@ fn refused(path: &Path) -> Diagnostic {
 }
 
 #[test]
-fn a_good_file_keeps_the_name_it_was_asked_for() {
+fn valid_file_keeps_its_given_name() {
     let file = Temporary::holding("good.yaml", b"\xef\xbb\xbfsuite: bar\n");
     let source = Source::read(&file.0).unwrap();
     assert_eq!(source.name(), file.0.display().to_string());
@@ -68,7 +68,7 @@ fn a_named_pipe() {
 }
 
 #[test]
-fn fifty_megabytes_are_not_read() {
+fn large_file_is_refused_unread() {
     let file = Temporary::new("large.yaml");
     File::create(&file.0).unwrap().set_len(50_000_000).unwrap();
     let message = "the file is too large: 48829 KiB, at most 64 KiB";
@@ -83,7 +83,7 @@ fn an_endless_device_is_not_read_to_its_end() {
 }
 
 #[test]
-fn the_cap_is_exact() {
+fn maximum_size_is_exact() {
     assert!(Source::from_text("full", "#".repeat(MAX_BYTES)).is_ok());
     let diagnostic = Source::from_text("over", "#".repeat(MAX_BYTES + 1)).unwrap_err();
     assert_eq!(diagnostic.one_line(), "over: the file is too large: 65 KiB, at most 64 KiB");

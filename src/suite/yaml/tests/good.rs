@@ -18,7 +18,7 @@ fn text<T: serde::de::DeserializeOwned>(yaml: &str) -> T {
 }
 
 #[test]
-fn the_sample_says_what_it_means() {
+fn sample_is_parsed_as_intended() {
     let suite: Suite = text(SAMPLE);
     let names: Vec<&str> = suite.parameters.as_slice().iter().map(|(k, _)| k.as_str()).collect();
     assert_eq!(names, ["L", "E", "rho", "omega"]);
@@ -70,7 +70,7 @@ fn one_or_many_takes_every_form_of_its_type() {
 #[case("'25'", formula("25"), "25")]
 #[case("340282366920938463463374607431768211455", number(u128::MAX as f64), "3.402823669209385e38")]
 #[case("-9223372036854775809", number(-9.223_372_036_854_776e18), "-9.223372036854776e18")]
-fn number_text_keeps_what_was_written(
+fn number_text_preserves_the_source_text(
     #[case] yaml: &str,
     #[case] want: NumberText,
     #[case] shown: &str,

@@ -61,7 +61,7 @@ fn is_refused_at_once(#[case] yaml: String, #[case] message: &str) {
 }
 
 #[test]
-fn nesting_up_to_the_cap_is_fine() {
+fn nesting_up_to_the_maximum_is_accepted() {
     let yaml = format!("{}{}", "[".repeat(64), "]".repeat(64));
     read::<IgnoredAny>(&Source::from_text("deep", yaml).unwrap()).unwrap();
 }
@@ -78,7 +78,7 @@ fn a_key_of_sixty_kilobytes_is_shown_in_part() {
 }
 
 #[test]
-fn what_an_excerpt_hides_or_reorders_is_made_visible() {
+fn invisible_and_reordering_characters_are_escaped() {
     let yaml = "suite: {\u{202e}olleh: 1}";
     let source = Source::from_text("bidi\u{7}.yaml", yaml).unwrap();
     let diagnostic = read::<Suite>(&source).unwrap_err();

@@ -131,7 +131,7 @@ impl<'de> Deserialize<'de> for Even {
 }
 
 #[test]
-fn refusals_of_other_types_arrive_whole() {
+fn refusals_of_other_types_keep_message_and_help() {
     let diagnostic = wrong::<Ordered<Even>>("{a: 2, b c: 3}");
     assert_eq!(diagnostic.label(), Some("an even number"));
     // An error that is raised after parsing a value is located at the enclosing map or list.
@@ -140,7 +140,7 @@ fn refusals_of_other_types_arrive_whole() {
 }
 
 #[test]
-fn it_looks_like_a_compiler_error() {
+fn diagnostic_is_formatted_like_a_compiler_error() {
     let diagnostic = wrong::<Suite>(&SAMPLE.replacen("cells:", "cels:", 1));
     let want = "\
 error: unknown key `cels`

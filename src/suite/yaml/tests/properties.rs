@@ -79,17 +79,17 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn any_text_is_survived(text in any::<String>()) {
+    fn no_text_panics(text in any::<String>()) {
         survives(&text);
     }
 
     #[test]
-    fn any_yaml_like_text_is_survived(text in yaml_like()) {
+    fn no_yaml_like_text_panics(text in yaml_like()) {
         survives(&text);
     }
 
     #[test]
-    fn any_changed_suite_is_survived(text in mutated()) {
+    fn no_changed_suite_panics(text in mutated()) {
         survives(&text);
     }
 
@@ -117,7 +117,7 @@ proptest! {
 
     /// Parts of a verbatim text are located correctly in any quotation style.
     #[test]
-    fn a_part_of_a_formula_is_where_it_says(
+    fn part_of_a_formula_is_located(
         style in prop::sample::select(vec!["", "'", "\""]),
         words in "[a-zé][a-z0-9*/()+é]{0,12}[a-z)]",
         from in 0usize..14,

@@ -92,8 +92,8 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
 }
 
 /// Compares six steps in one message with six messages of one step. The body accelerates under all
-/// loads that the solver supports, because only acceleration reveals an operation that is done once
-/// per message instead of once per step.
+/// loads that the solver supports, to reveal an operation that is done once per message instead of
+/// once per step.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -103,7 +103,7 @@ fn grouped_under_acceleration(
         let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
         for i in 0..kind.0 {
             stretch.gradient[i][i] = 0.1;
-            // At this velocity, particles change cells.
+            // Particles change cells at this velocity.
             stretch.value[i] = 1.0;
         }
         scene.velocity = stretch;

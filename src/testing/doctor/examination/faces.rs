@@ -16,8 +16,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Distance (cells) by which the outermost particles have crossed a cell face. Nodes that only
-/// these particles reach have only this fraction of a regular nodal mass.
+/// Distance (cells) by which the outermost particles have crossed a cell face. The nodes that only
+/// these particles reach have this fraction of a regular nodal mass.
 const SLIVER: f64 = 1.0 / (1_u64 << 44) as f64;
 
 /// Maximum strain of a rigid body due to rounding errors.
@@ -80,8 +80,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
         most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
-        // The stress of a fluid is not checked, because it is not proportional to an elastic
-        // modulus.
+        // The stress of a fluid is not proportional to an elastic modulus.
         if ELASTIC.contains(&scene.law) {
             most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }

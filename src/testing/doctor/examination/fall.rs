@@ -46,8 +46,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(0.5 * end * end, g), d)
     );
     let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
-    // Wrong velocities also cause wrong positions, so positions are examined only if the velocities
-    // have no defect.
+    // Positions are examined only if the velocities have no defect, because wrong velocities cause
+    // wrong positions.
     if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
         findings.extend(of_distance(patient, &course, g));
     }

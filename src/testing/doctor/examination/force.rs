@@ -62,7 +62,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     )?;
     let asked = Questions::default();
     let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
-    // A request for a position outside the body ends the run. A second run without this check
+    // A request for a position outside the body ends the run, so a second run without this check
     // records all requests.
     if matches!(course, Err(Hindrance::Broke(_))) {
         let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
@@ -70,7 +70,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             course = again;
         }
     }
-    // If the requests are wrong, they are the reported cause of a failed run.
+    // Wrong requests are reported as the cause of a failed run.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
@@ -220,7 +220,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    // In a leapfrog scheme, late forces are visible in the requests but not in the momentum.
+    // In a leapfrog scheme, the momentum does not show that forces are late, but the requests do.
     let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
     if is(1.0) || is_late {
         return Some(SolverFinding::remark(
@@ -254,8 +254,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if the velocities after one step do not grow linearly with X. The force in the
-/// run `course` grows linearly with X.
+/// Returns a finding if the velocities after one step do not grow linearly with X, as the force
+/// does in the run `course`.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {

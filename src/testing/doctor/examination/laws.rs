@@ -4,7 +4,7 @@
 //! A body with negligible stiffness moves with `v = L (X - C)` until stretch, shear and rotation
 //! are of order one. In the middle of the body, the column `deformation_gradient` is compared with
 //! F from the displacements. The column `stress` is compared with the initial stress of a second
-//! body, whose initial displacement `(F - I) (X - C)` gives the same F.
+//! body, which starts with the same F because of its initial displacement `(F - I) (X - C)`.
 
 use super::stress::{impulses, inside};
 use crate::mpm::det_of_rows;
@@ -49,8 +49,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     kinds.sort_unstable();
     kinds.dedup();
     let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
-    // One law also runs from a deformed start, because F and the velocity gradient commute if a
-    // body starts undeformed.
+    // In a body that starts undeformed, F and the velocity gradient commute. One law therefore also
+    // runs from a deformed start.
     let elastic = FINITE.map(|law| (first.dimension, law));
     let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
     scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));
@@ -83,7 +83,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             of_law.push(of_stress(&name, column, &stress, gradient, scene)?);
         }
     }
-    // Findings on F replace those on the stress, because a wrong F causes a wrong stress.
+    // Findings on F replace findings on the stress, which follow from a wrong F.
     let mut findings: Vec<SolverFinding> = Vec::new();
     for finding in if of_f.is_empty() { of_law } else { of_f } {
         if findings.iter().all(|known| known.name != finding.name) {
@@ -114,7 +114,7 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
 }
 
 /// Compares the momentum flux in a body stretched to 1.5 times its length with the flux according
-/// to the law. A solver that uses reference volumes in its forces has a wrong flux.
+/// to the law. The flux is wrong if forces contain reference volumes.
 fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
     let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);

@@ -82,8 +82,7 @@ fn examine_ends(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 /// Returns the share of momentum that the upper half of a body loses across the ends of a periodic
-/// axis. The initial velocity increases linearly along the axis, so the ends collide across the
-/// period.
+/// axis. The initial velocity increases along the axis, so the ends collide.
 fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + LONG * H;

@@ -2,10 +2,10 @@
 //! objectivity and the number of steps.
 //!
 //! The body is so heavy that no wave moves during the run. It therefore follows `v = L (X - X_c)`,
-//! and its deformation gradient grows from I to `I + L` in one second. The stress in the middle of
-//! the body follows from the law along this path. The built-in solver computes the expected stress
-//! in a Total Lagrangian run, which represents the motion exactly. The measured motion determines
-//! the path, because averaging (PIC) and basis functions on a fixed grid change the motion.
+//! and its deformation gradient grows from I to `I + L` in one second. The built-in solver computes
+//! the expected stress in the middle of the body in a Total Lagrangian run, which represents the
+//! motion exactly. The measured motion determines the path, because averaging (PIC) and basis
+//! functions on a fixed grid change it.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -33,8 +33,8 @@ const NEAR: f64 = 0.025;
 /// a rotation in their first step.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
-/// The stress depends on the number of steps if the errors with one and with 20 steps have at most
-/// this ratio (smaller to larger).
+/// Maximum ratio (smaller to larger) of the errors with one and with 20 steps, for which the stress
+/// depends on the number of steps.
 const STEP_RATIO: f64 = 0.3;
 
 /// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the final
@@ -415,7 +415,7 @@ mod tests {
     #[rstest]
     #[case("drucker_prager", cone)]
     #[case("mohr_coulomb", pyramid)]
-    fn expected_stress_is_that_of_the_closed_form(
+    fn expected_stress_matches_the_closed_form(
         #[case] law: &'static str,
         #[case] closed_form: fn(&BoxScene, f64) -> (f64, f64),
         #[values(1, STEPS)] steps: u64,

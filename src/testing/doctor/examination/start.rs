@@ -1,8 +1,8 @@
 //! Examination of a body that starts deformed and stressed, and is released.
 //!
-//! The displacement of the body is a simple shear, so F and the stress are uniform. The momentum of
-//! one half grows due to the initial first Piola-Kirchhoff stress: `dP_j/dt = -P_ji A` through the
-//! reference plane with normal i, until waves arrive from the free faces.
+//! The displacement of the body is a simple shear, so F and the stress are uniform. Until waves
+//! arrive from the free faces, the initial first Piola-Kirchhoff stress changes the momentum of one
+//! half by `dP_j/dt = -P_ji A` through the reference plane with normal i.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
@@ -21,9 +21,9 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Other
-/// deformations distribute the particles unevenly over cells. With linear functions, this reduces
-/// the force by a tenth.
+/// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Otherwise
+/// cells would have unequal numbers of particles, which reduces the force by a tenth with linear
+/// functions.
 const SHEAR: f64 = 1.0;
 
 /// Initial stretch in one dimension.
@@ -38,8 +38,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let laws = FINITE.into_iter();
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &scene).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
-    // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes. The
-    // stretched body has a law that depends on F, if possible.
+    // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes.
     if first.dimension > 1 {
         let law = scenes.last().map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law)));

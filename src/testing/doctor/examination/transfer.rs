@@ -1,10 +1,10 @@
 //! Examination of the velocity transfer between particles and grid, using a stress-free body that
 //! rotates or stretches.
 //!
-//! Weights that sum to one transfer a uniform velocity exactly, so the examination `translation`
-//! does not test the transfer of a velocity gradient. Here the velocity is `v = L (X - C)`, a
-//! rotation or a stretch about the centre C. The moment `M = sum m (X - C) x v` (rotation) or `M =
-//! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
+//! Here the velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform
+//! velocity is transferred exactly by all weights that sum to one.) The moment `M = sum m (X - C) x
+//! v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this velocity is
+//! transferred.
 //!
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. Here d is the number
 //! of axes along which v varies, and beta is the share of PIC. D is the second moment of the
@@ -77,7 +77,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // If velocities are in another order than points, the whole moment is lost in the first step,
+    // If velocities and points are in different orders, the whole moment is lost in the first step,
     // and nothing later.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step, the velocities of a stretching body belong to other points";
@@ -104,8 +104,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
-/// Examines a stretching body: whether the solver uses the initial velocity, stores vectors point
-/// by point, and keeps the velocity from growing.
+/// Examines a stretching body, for solvers that ignore the initial velocity, confuse vectors of
+/// different points, or increase the velocity.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -224,9 +224,9 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // Losses are twice those of averaging if the affine matrix is transposed. They occur in
-        // every step if the matrix starts with the velocity gradient, and in every step except the
-        // first if it starts at zero.
+        // If the affine matrix is transposed, losses are twice those of averaging: in every step if
+        // the matrix starts with the velocity gradient, and otherwise in every step except the
+        // first.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {
@@ -249,7 +249,7 @@ fn cause(
         );
     }
     // Partial averaging affects all motions and steps equally. An affine matrix that starts at zero
-    // averages completely in its first step, so only later steps show the effect of the matrix.
+    // averages completely in its first step, so only later steps show its effect.
     let most = averaging.iter().map(|l| l.later).fold(0.0, f64::max);
     let is_share = losses.iter().all(|loss| (-KEPT..=1.1 * most + KEPT).contains(loss));
     let of_basis = averaging.iter().find(|l| is_alike(l.first, stretch.first));

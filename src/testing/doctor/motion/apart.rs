@@ -45,8 +45,8 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
 }
 
 /// Returns a finding for non-uniform drag: points slow down at different rates, which do not depend
-/// on the step length. With wrong weights, points would lose a fixed share of the speed in each
-/// step. The body has no stiffness, so points exert no forces on each other.
+/// on the step length. Wrong weights would reduce the speed by a fixed share in each step. The body
+/// has no stiffness, so points exert no forces on each other.
 fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
@@ -55,8 +55,8 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // The losses are compared at the end of the first step, before they saturate. With half the
-    // step length, the loss in this time is the same for drag, and doubled for wrong weights. The
+    // The losses at the end of the first step are compared, before they saturate. With half the
+    // step length, drag causes the same loss in this time, and wrong weights twice the loss. The
     // limit for the ratio is the geometric mean of 1 and 2.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());

@@ -125,8 +125,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // With half the step length, a loss per unit time keeps its rate, and a loss per step doubles
-    // its rate.
+    // With half the step length, the rate of a loss per unit time is the same, and that of a loss
+    // per step doubles.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
@@ -184,7 +184,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let mean = |k| course.mean(displacement, k);
     let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
     let (ahead, slope, off) = line(t, &ways);
-    // Smaller errors are rounding errors. Another finding reports rounding in single precision.
+    // Smaller errors are rounding errors, which another finding reports.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
     if off > NEAR * dt || !is_systematic {
         return None;

@@ -96,7 +96,7 @@ fn a_defect_is_named_and_no_other(#[case] defect: Defect, #[case] name: &str) {
     Defect::ForceOfTheEnd,
     &["rounding-grows-on-faces", "start-half-a-step-off", "force-of-the-end-of-the-step"]
 )]
-fn a_sound_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&str]) {
+fn correct_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&str]) {
     let (defects, found, page) = found(scheme);
     assert!(defects.is_empty(), "{page}");
     assert_eq!(found, remarks, "{page}");
@@ -104,7 +104,7 @@ fn a_sound_client_has_remarks_only(#[case] scheme: Defect, #[case] remarks: &[&s
 
 /// The solver of the example is one-dimensional, has no gravity, and sends no requests.
 #[test]
-fn the_solver_of_the_example_is_sound() {
+fn solver_of_the_example_has_no_defects() {
     let report = doctor(&OwnSolver, &|_| ());
     assert_eq!(report.defects(), 0, "{}", page(&report));
     let not_applicable =
@@ -116,7 +116,7 @@ fn the_solver_of_the_example_is_sound() {
 
 /// The last lines must be the verdict, because some authors read only these.
 #[test]
-fn the_page_ends_with_the_verdict() {
+fn report_ends_with_the_verdict() {
     let (_, _, page) = found(Defect::Drag);
     let flat = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(flat.contains("speed is lost at a rate of 0.5"), "{page}");

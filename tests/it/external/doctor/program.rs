@@ -43,7 +43,7 @@ fn call(script: &str, more: &[&str]) -> (i32, String, String) {
 }
 
 #[test]
-fn a_program_is_told_of_the_gravity_that_it_has() {
+fn built_in_gravity_of_a_program_is_reported() {
     let (code, out, errors) = call(&MOVER.replace('G', "9.81"), &[]);
     assert_eq!(code, FAILED, "{out}{errors}");
     let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -58,7 +58,7 @@ fn a_program_is_told_of_the_gravity_that_it_has() {
 }
 
 #[test]
-fn the_same_as_json() {
+fn json_report_has_the_same_findings() {
     let (code, out, _) = call(&MOVER.replace('G', "0"), &["--format", "json"]);
     assert_eq!(code, FAILED, "{out}");
     let report: serde_json::Value = serde_json::from_str(&out).expect("JSON");
@@ -74,7 +74,7 @@ fn the_same_as_json() {
 }
 
 #[test]
-fn a_program_that_dies_cannot_be_examined() {
+fn terminated_program_cannot_be_examined() {
     let (code, out, _) = call("read -r m; echo 'HELLO'; read -r m; exit 3", &[]);
     assert_eq!(code, BAD_INPUT, "{out}");
     let flat = out.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -84,7 +84,7 @@ fn a_program_that_dies_cannot_be_examined() {
 }
 
 #[test]
-fn a_program_without_abilities_cannot_be_examined() {
+fn program_without_capabilities_cannot_be_examined() {
     let poor = HELLO.replace(r#""dimensions":[1]"#, r#""dimensions":[]"#);
     let (code, out, _) = call(&MOVER.replace("HELLO", &poor).replace('G', "0"), &[]);
     assert_eq!(code, BAD_INPUT, "{out}");

@@ -63,9 +63,7 @@ fn a_particle_on_a_node_has_no_affine_part() {
 
 /// One particle is at a corner between two quadratic functions, where both are 1/2.
 #[rstest]
-fn quadratic_symbols_at_knots_are_those_of_linear_functions(
-    #[values(0.3, PI / 4.0, 2.5)] theta: f64,
-) {
+fn quadratic_symbols_at_knots_equal_linear_ones(#[values(0.3, PI / 4.0, 2.5)] theta: f64) {
     let quadratic = WaveSymbols::new(Spline::Quadratic, theta, &[0.0]);
     let linear = WaveSymbols::new(Spline::Linear, theta, &[0.5]);
     assert_abs_diff_eq!(quadratic.stiffness, linear.stiffness, epsilon = 1e-14);

@@ -131,7 +131,7 @@ fn are_the_same<const D: usize>(periodic: bool) {
 }
 
 #[rstest]
-fn blocks_give_the_same_on_any_number_of_threads(
+fn blocks_do_not_depend_on_the_number_of_threads(
     #[values(false, true)] periodic: bool,
     #[values(1, 2, 3)] dimension: usize,
 ) {

@@ -277,7 +277,7 @@ fn obey<const D: usize>(periodic: bool) {
 }
 
 #[rstest]
-fn the_loops_of_every_basis_obey_their_laws(
+fn loops_of_every_basis_agree_with_the_textbook(
     #[values(false, true)] periodic: bool,
     #[values(1, 2, 3)] dimension: usize,
 ) {

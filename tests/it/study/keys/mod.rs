@@ -62,7 +62,7 @@ fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
 }
 
 #[test]
-fn every_word_has_its_row() {
+fn every_key_and_name_has_its_row() {
     let keys = keys(&GRAMMARS);
     let (rows, names) = (page::numbers(), page::names());
     let numbers = keys.iter().filter(|(_, (is_number, _))| *is_number).map(|(key, _)| key);
@@ -118,7 +118,7 @@ fn the_manual_has_every_verdict() {
 /// A key is marked `required` if it is required wherever it is allowed. A key with a default is
 /// optional somewhere.
 #[test]
-fn the_manual_says_which_keys_must_stand() {
+fn manual_lists_required_keys() {
     let (required, pages) = (required::required(), manual::pages());
     let mut held = 0;
     for (key, rows) in manual::rows(&pages) {

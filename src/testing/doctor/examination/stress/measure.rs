@@ -12,15 +12,14 @@ pub(super) const STRETCH: f64 = -5e-3;
 /// Rate of shear (1/s).
 pub(super) const SHEAR: f64 = 4e-3;
 
-/// Half the width (cells) of the tube. The tube is the set of points near an axis whose momentum is
-/// measured.
+/// Half the width (cells) of the tube: the points near an axis whose momentum is measured.
 const TUBE: f64 = 2.0;
 
-/// Distance that waves travel during the run (cells). The distance is so short that waves from free
-/// faces do not affect the momentum of the tube.
+/// Distance that waves travel during the run (cells), so short that waves from free faces do not
+/// reach the tube.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
-/// Number of steps. The number is small, because averaging (PIC) spreads momentum in each step.
+/// Number of steps, small because averaging (PIC) spreads momentum in each step.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
@@ -42,7 +41,7 @@ pub(super) struct MeasuredModuli {
 
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // With a cell of 0.15 m and these particle numbers, each defect causes a different factor.
+    // With a cell of 0.15 m and these particle numbers, each defect causes another factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -114,8 +113,7 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
 
 /// Computes the impulse (Pa s) of the stress component with normal i and force direction j, at each
 /// time. The impulse is the momentum transferred from the upper to the lower half of a tube along
-/// axis i, divided by the area of the tube. The calculation uses only velocities and reference
-/// positions.
+/// axis i, divided by the area of the tube.
 pub(in crate::testing::doctor) fn impulses(
     course: &Course,
     scene: &BoxScene,
@@ -148,8 +146,7 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Maximum relative error of a column. The value is large because the column may be one step old,
-/// and waves are near.
+/// Maximum relative error of a column, large because the column may be one step old.
 pub(super) const NEAR: f64 = 0.2;
 
 /// Returns the growth of the column `stress` along the stretch, relative to its expected growth;

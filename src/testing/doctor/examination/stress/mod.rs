@@ -2,10 +2,10 @@
 //! through the middle.
 //!
 //! With an initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
-//! the free faces. Until then, there is no net force inside the body. Momentum is transferred from
-//! one half to the other by `dP_j/dt = -sigma_ij A` through the middle plane with normal i. The
-//! transfer is measured in a tube, which consists of the points near axis i. Velocities alone
-//! determine this transfer exactly, for any basis functions.
+//! the free faces. Momentum is transferred from one half to the other by `dP_j/dt = -sigma_ij A`
+//! through the middle plane with normal i. The transfer is measured in a tube, which consists of
+//! the points near axis i. It is computed from velocities alone, and is exact for any basis
+//! functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`

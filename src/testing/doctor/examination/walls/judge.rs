@@ -10,11 +10,11 @@ use crate::testing::doctor::scene::FACES;
 /// over the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Wall forces up to this value, relative to the expected force, count as zero: the body separates
-/// from the wall or slides along it.
+/// Maximum wall force, relative to the expected force, of a body that separates from the wall or
+/// slides along it.
 const NONE: f64 = 0.2;
 
-/// A wall is missing if its forces are at most this value, relative to the expected force.
+/// Maximum force, relative to the expected force, of a wall that counts as missing.
 const ABSENT: f64 = 0.1;
 
 /// Maximum relative difference between forces of walls that are mirror images, or that differ only
@@ -22,23 +22,22 @@ const ABSENT: f64 = 0.1;
 const UNEVEN: f64 = 0.05;
 
 /// Maximum displacement through a wall with a correct force, relative to the displacement of a free
-/// body while a wave crosses one cell.
+/// body in the time in which a wave crosses one cell.
 const THROUGH: f64 = 0.8;
 
-/// Maximum relative error of the force under gravity. Averaging (PIC) with cubic functions has an
-/// error of 0.15.
+/// Maximum relative error of the force under gravity.
 const SMOOTH: f64 = 0.2;
 
 /// The wall force under gravity may be too small by this share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// The wall force under gravity may be too large by this share of the weight of a cell. With
-/// averaging (PIC), it is too large by 0.14.
+/// The wall force under gravity may be too large by this share of the weight of a cell, because
+/// averaging (PIC) increases it.
 const CARRIED: f64 = 0.4;
 
-/// Maximum error of displacements in a uniform stretch. A correct solver with quadratic functions
-/// that are modified at the wall has an error of up to 0.04. Functions that are truncated at the
-/// wall cause an error of 0.07 or more.
+/// Maximum error of displacements in a uniform stretch. Quadratic functions that are modified at
+/// the wall have an error of up to 0.04, and functions that are truncated at the wall of 0.07 or
+/// more.
 const STRETCH: f64 = 0.05;
 
 /// Names of findings in order of priority: a finding may be the cause of those after it.
@@ -216,7 +215,7 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
 /// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // With averaging (PIC) the body also sinks, but smaller steps make it sink more.
+    // Averaging (PIC) also makes the body sink, but more with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
     // The wall fixes its nodes correctly but does not carry their weight (half a cell).
     let is_missing =

@@ -180,8 +180,8 @@ pub(super) fn walls_across(
 ///
 /// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
 /// uniformly until a wave arrives from its free end. A method reproduces this motion if its basis
-/// functions represent a linear velocity up to the wall. This fails if nodes behind the wall have
-/// zero velocity, because the linear velocity has the opposite sign there.
+/// functions represent a linear velocity up to the wall. Nodes behind the wall must therefore not
+/// have zero velocity.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -199,7 +199,7 @@ fn stretch_errors(
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
             (depth <= 2.0 * H).then_some(error)
         });
-        // The larger error; NaN propagates.
+        // NaN propagates.
         errors.fold(0.0, |largest: f64, error| {
             if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
         })
