@@ -10,7 +10,7 @@ use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
 use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
-use crate::suite::scene::numbers::sources;
+use crate::suite::scene::numbers::{sources, unit_after};
 use crate::verify::rounded;
 
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
@@ -95,12 +95,13 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     if one {
         push(rows, "material", &material(&scene.material));
     }
-    let across = match scene.plane {
-        PlaneState::Strain => "",
-        PlaneState::Stress => "stress, sigma_33 = 0",
-        PlaneState::Axisymmetric => "axisymmetric, X is the radius, sums are per radian",
-    };
-    push(rows, "plane", across);
+    match scene.plane {
+        PlaneState::Strain => {}
+        PlaneState::Stress => push(rows, "plane stress", "sigma_33 = 0"),
+        PlaneState::Axisymmetric => {
+            push(rows, "axisymmetry", "X is the radius, and sums over the body are per radian");
+        }
+    }
     for (number, face) in scene.faces.iter().enumerate() {
         rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
         let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();
@@ -123,14 +124,16 @@ fn initial_stress(scene: &Scene) -> String {
     let written = |(i, j, formula): &(usize, usize, Formula)| {
         format!("{}{} = {}", AXES[*i], AXES[*j], formula.source())
     };
-    let components = scene.initial_stress.components().iter().map(written);
-    let components = components.collect::<Vec<_>>().join(", ");
-    if components.is_empty() {
-        return components;
+    let given = scene.initial_stress.components();
+    if given.is_empty() {
+        return String::new();
     }
+    let components = given.iter().map(written).collect::<Vec<_>>().join(", ");
+    let formulas: Vec<&str> = given.iter().map(|(.., formula)| formula.source()).collect();
+    let unit = unit_after(&formulas.join(", "), "Pa");
     let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
     let term = if is_finite { "F S0" } else { "S0" };
-    format!("S0 with {components} Pa, which adds {term} to P")
+    format!("S0 with {components}{unit}, and P includes the term {term}")
 }
 
 /// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.

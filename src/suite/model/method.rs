@@ -127,7 +127,7 @@ impl Method {
                     ("transfer", transfer.as_str()),
                     ("scheme", scheme.name()),
                     ("mass matrix", mass),
-                    ("walls", "nodes on a fixed face are held"),
+                    ("walls", "conditions are imposed on the nodes of each face"),
                     ("start", start.name()),
                 ];
                 // The default frame is omitted.
@@ -145,7 +145,7 @@ impl Method {
             Self::QuasiStatic { basis, .. } => owned(vec![
                 ("basis", basis.name()),
                 ("scheme", "quasi_static: Newton's method, consistent tangent"),
-                ("walls", "nodes on a fixed face are held"),
+                ("walls", "conditions are imposed on the nodes of each face"),
             ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
@@ -158,7 +158,13 @@ impl Method {
                 ("mass matrix", mass.name()),
                 ("law", law.name()),
                 ("start", start.name()),
-                ("error points", sampling.name()),
+                (
+                    "errors computed",
+                    match sampling {
+                        Sampling::Inside => "at points inside the elements",
+                        Sampling::Nodes => "at the nodes",
+                    },
+                ),
             ]),
             // The factory of an external solver provides its settings.
             Self::External { .. } => Vec::new(),

@@ -208,7 +208,10 @@ impl LoadedSet {
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
         let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        (format!("set `{name}`"), format!("({}) to ({}) m, {load}", corner(from), corner(to)))
+        (
+            format!("particle set `{name}`"),
+            format!("({}) to ({}) m, {load}", corner(from), corner(to)),
+        )
     }
 
     /// Returns the indices of the particles in the set.
