@@ -128,8 +128,8 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
         kind: KnownCauseKind::NoDamping,
         cause: format!("nothing removes energy{unless}; the body oscillates about its equilibrium"),
         evidence: format!(
-            "The largest displacement of the equilibrium is {size:.3e} m, and the finest error is \
-             {:.3e}.{speed}",
+            "The largest displacement of the equilibrium is {size:.3e} m, and the error on the \
+             finest level is {:.3e}.{speed}",
             finest.error
         ),
         remedy: Some(undamped::HELP.to_owned()),

@@ -87,7 +87,7 @@ fn a_run_that_breaks_is_shown_up_to_there() {
     let found = folder.call(&[&words[..], &["--out", "out"]].concat());
     assert_eq!(found.code, SOUND, "{}", found.errors);
     let picture = folder.read("out/finite-strain-crossing-error.svg");
-    assert_contains(&picture, &[">mpm-linear-apic-usl, where it broke<"]);
+    assert_contains(&picture, &[">mpm-linear-apic-usl, at its failure<"]);
     let all = series(&folder);
     let (files, end) = last(&all[0]);
     // A period is 0.02 s.

@@ -339,7 +339,7 @@ fn the_error_with_a_tenth_of_the_amplitude_is_printed_as_it_is() {
     assert!((run.relative_ratio / run.ratio - 10.0).abs() <= 1e-9, "{run:#?}");
     let of =
         format!("is {:.3e}, 1/{:.0} of {:.3e}", run.error, 1.0 / run.ratio, found.finest_error);
-    contains(&page(&found), &[of.as_str(), "its share of the exact solution"]);
+    contains(&page(&found), &[of.as_str(), "; relative to the exact solution, it is "]);
 }
 
 /// The error of a sum is divided by the size of the sum, which decreases with the amplitude.
