@@ -164,8 +164,8 @@ fn a_wall_that_moves_along_its_normal_is_the_cause(#[case] u: &str, #[case] velo
         contains(
             &text,
             &[
-                "a wall itself stays where the grid ends",
-                "let the wall slide along itself, or move little",
+                "but walls are fixed at the end of the grid",
+                "let the wall move only along its surface",
             ],
         );
         assert!(!text.contains("larger `grid`"), "{text}");
@@ -258,7 +258,7 @@ fn first_levels_that_are_too_coarse_are_to_be_left_out(
     let found = diagnosis(&pulse("40, 80, 160, 320, 640"), NO_RUNS);
     contains(
         &page(&found),
-        &["Cause: the first levels are too coarse", "Remedy: leave out the level of 40 cells"],
+        &["Cause: the first levels are too coarse", "Remedy: leave out the level with 40 cells"],
     );
 }
 
