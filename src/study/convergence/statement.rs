@@ -149,8 +149,11 @@ fn placed(scatter: &LatticeOffsets) -> String {
         return "equally spaced".to_owned();
     }
     let shares: Vec<String> = shift.iter().map(|share| shown(*share)).collect();
-    let shifted = (!shares.is_empty())
-        .then(|| format!("shifted by ({}) times their spacing", shares.join(", ")));
+    let shifted = match &shares[..] {
+        [] => None,
+        [only] => Some(format!("shifted by {only} times their spacing")),
+        all => Some(format!("shifted by ({}) times their spacing", all.join(", "))),
+    };
     let perturbed = (*perturb > 0.0).then(|| {
         let most = shown(*perturb);
         format!("moved at random by up to {most} times their spacing (seed {seed})")

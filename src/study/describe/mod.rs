@@ -38,8 +38,10 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
     }
 }
 
+/// Formats a position, such as `0.5` in one dimension or `(0, 0.5)`.
 fn corner(c: &[f64]) -> String {
-    c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
+    let coordinates = c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ");
+    if c.len() == 1 { coordinates } else { format!("({coordinates})") }
 }
 
 /// Formats a number with at most six significant digits.
@@ -50,7 +52,7 @@ pub(crate) fn stated(x: f64) -> String {
 fn body(scene: &Scene) -> String {
     let (from, to) = (corner(&scene.from), corner(&scene.to));
     let body = match (&scene.outline, &scene.mapped) {
-        (None, _) => format!("({from}) to ({to}) m"),
+        (None, _) => format!("{from} to {to} m"),
         (Some(outline), Some(_)) => outline.row(),
         (Some(outline), None) => outline.row() + rims(scene),
     };
@@ -90,7 +92,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
     bodies(scene, rows);
     if let Some((from, to)) = &scene.grid {
-        push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
+        push(rows, "grid", &format!("{} to {} m", corner(from), corner(to)));
     }
     if one {
         push(rows, "material", &material(&scene.material));

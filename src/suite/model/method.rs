@@ -138,18 +138,18 @@ impl Method {
                     rows.push(("volume ratio", volume.name()));
                 }
                 if *precision == Precision::Single {
-                    rows.push(("precision", "single: the state is rounded after each pass"));
+                    rows.push(("precision", "single, with the state rounded after each pass"));
                 }
                 owned(rows)
             }
             Self::QuasiStatic { basis, .. } => owned(vec![
                 ("basis", basis.name()),
-                ("scheme", "quasi_static: Newton's method, consistent tangent"),
+                ("scheme", "quasi_static, by Newton's method with the consistent tangent"),
                 ("walls", "conditions are imposed on the nodes of each face"),
             ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
-                ("temperature", "increments and gradients are mapped"),
+                ("temperature transfer", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
                 ("time integration", "forward Euler"),
             ]),
