@@ -20,10 +20,10 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
         }
     }
-    let of = cases.iter().find_map(|case| Some(case.convergence()?.of));
+    let study = cases.iter().find_map(CaseOutcome::convergence);
     let all: Vec<(&str, String)> = rankings
         .iter()
-        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking, of)?)))
+        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking, study)?)))
         .collect();
     for (problem, methods) in &all {
         let of_problem = if all.len() > 1 { format!("{problem}, ") } else { String::new() };

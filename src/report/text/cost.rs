@@ -7,7 +7,8 @@
 use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
 use crate::verify::{
-    BestCandidate, Interval, Machine, Model, Quantity, Ranked, Ranking, Reach, TimedSuite,
+    BestCandidate, Convergence, Interval, Machine, Model, Quantity, Ranked, Ranking, Reach,
+    TimedSuite,
 };
 
 const TRANSFERS: &str = "particle-node transfers";
@@ -36,9 +37,9 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Names the cheapest method for each target that a method reaches, in one line. `of` is the judged
-/// quantity.
-pub(crate) fn cheapest(ranking: &Ranking, of: Option<Quantity>) -> Option<String> {
+/// Names the cheapest method for each target that a method reaches, in one line. `study` is one of
+/// the ranked studies.
+pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option<String> {
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
@@ -46,23 +47,26 @@ pub(crate) fn cheapest(ranking: &Ranking, of: Option<Quantity>) -> Option<String
         Some(format!("{target:e}: {}, {work} {TRANSFERS}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    let errors = relative(ranking, of);
+    let errors = relative(ranking, study);
     (!best.is_empty())
         .then(|| format!("for a relative error of {}; errors are {errors}", best.join("; of ")))
 }
 
-/// Describes the value by which the errors of a ranking are divided. `of` is the judged quantity, if
-/// it is known.
-fn relative(ranking: &Ranking, of: Option<Quantity>) -> String {
-    if ranking.size == 1.0 {
-        return "divided by the `scale` of the suite".to_owned();
-    }
+/// Describes the value by which the errors of a ranking are divided. `study` is one of the ranked
+/// studies, if they are known.
+fn relative(ranking: &Ranking, study: Option<&Convergence>) -> String {
+    let with_unit = |value: String, of: Quantity| {
+        let text = format!("divided by {value} {}", of.unit());
+        text.trim_end().to_owned()
+    };
+    let is_scaled = ranking.size == 1.0;
     let size = short(ranking.size);
-    match of {
-        Some(of) => {
-            let size = format!("{size} {}", of.unit());
-            format!("divided by {}, {}", size.trim_end(), of.size_words())
+    match study {
+        Some(Convergence { of, scale: Some(scale), .. }) if is_scaled => {
+            with_unit(of.shown_scale(*scale), *of)
         }
+        _ if is_scaled => "divided by the `scale` of the suite".to_owned(),
+        Some(Convergence { of, .. }) => format!("{}, {}", with_unit(size, *of), of.size_words()),
         None => format!("divided by {size}, the largest exact value of the judged quantity"),
     }
 }

@@ -241,7 +241,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
     by_case(
         lines,
-        "largest relative change of conserved sums since t = 0, over all levels",
+        "largest relative change of sums over the body since t = 0, on any level",
         &asked,
         sums.into_iter().map(level::largest_drift),
     );
