@@ -204,7 +204,9 @@ fn changes_of_snapshots_are_listed() {
 
     Values count as equal within a relative difference of 0.001.
     ");
+    // Former versions had the heading `finest error`.
     let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
+    let worse = worse.replace("finest error", "error, finest level");
     let found = snapshots(&worse, REPORT).call(&["compare", "old", "new"]);
     assert_eq!(found.code, FAILED);
     insta::assert_snapshot!(found.out, @"
