@@ -303,7 +303,7 @@ fn sound(suite: &Suite, is_explored: bool) -> String {
     });
     let linearised = study::linearisation(suite).map_or(String::new(), |left| {
         let (residual, error) = (left.residual, rounded(left.error));
-        format!("; linearised to {residual:.1e} of its terms, an error of about {error:e} m")
+        format!("; linearised: residual {residual:.1e} of the terms of the equations, error about {error:e} m")
     });
     format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
 }

@@ -68,8 +68,8 @@ fn named(name: &str) -> Result<Dispensable, CommandError> {
 }
 
 /// Note on how the solver integrates the linear elastic law; the printed equation omits this.
-const PLAIN_RATE: &str = "in the solver sigma' = C : D, the plain rate, without the spin terms of an \
-                          objective rate";
+const PLAIN_RATE: &str = "the solver integrates the plain rate, sigma' = C : D, without the spin terms of \
+                          an objective rate";
 
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());

@@ -95,7 +95,8 @@ fn row(step: &TimeStep) -> String {
     let cells = level.cells;
     let note = if beyond(step) { "  off by more than 1 %" } else { "" };
     format!(
-        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} of {wanted:.4e} s, {} instants{note}\n",
+        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} times the requested {wanted:.4e} s, \
+         {} instants{note}\n",
         clock.steps,
         clock.dt(),
         step.ratio(),

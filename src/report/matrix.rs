@@ -14,8 +14,8 @@ const BASES: [&str; 6] =
 
 pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of all methods with \
                                  this basis, over every transfer and time scheme. Instead of an \
-                                 order: `floor`: the error stops falling; `grows`: it grows with \
-                                 refinement; `breaks`: a run fails; `unsettled` and `oscillates`: \
+                                 order: `floor`: the error stops falling; `grows`: the error grows \
+                                 with refinement; `breaks`: a run fails; `unsettled` and `oscillates`: \
                                  the order differs from one level to the next; `bounds`: quantities \
                                  are checked against limits, and no order is measured; `stable`, \
                                  `unstable` and `limit` (a critical value): results of stability \

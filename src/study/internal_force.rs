@@ -5,6 +5,7 @@ use crate::study::describe::{Rows, push};
 use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::suite::compile::internal_force;
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
+use crate::suite::scene::numbers::with_unit;
 use crate::verify;
 use crate::verify::{CaseOutcome, ForceRow, InternalForce};
 use std::sync::Arc;
@@ -35,10 +36,14 @@ impl CaseRunner for ForceRunner<'_> {
 
 fn rows(plan: &ForcePlan) -> Rows {
     let mut rows = Rows::new();
-    push(&mut rows, "cells", &format!("2 of size {} m, {} particles in each", plan.cell, plan.ppc));
+    push(
+        &mut rows,
+        "cells",
+        &format!("2 of size {} m, with {} particles in each", plan.cell, plan.ppc),
+    );
     push(&mut rows, "particle volume", &format!("{} m", plan.volume));
     push(&mut rows, "stress", &format!("{} Pa, uniform", plan.stress));
-    push(&mut rows, "prediction", &format!("{} N", plan.prediction.source()));
+    push(&mut rows, "prediction", &with_unit(plan.prediction.source(), "N"));
     rows
 }
 

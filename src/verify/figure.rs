@@ -15,7 +15,7 @@ use crate::subject::LedgerStage;
 /// Calls the macro `declare` with every measured value that a convergence study can bound. The
 /// entry
 ///
-/// `RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,`
+/// `RestBelow = rest_below, "residual speed divided by the wave speed", Maximum, StateOfRest,`
 /// `residual_speed;`
 ///
 /// defines a member of [`CaseFigure`], its key in suites, its text in reports, its [`BoundKind`],
@@ -36,7 +36,7 @@ macro_rules! each_case_figure {
         ObservedWithin = observed_within, "error at the observed point (m)", Maximum,
             ObservedPlace, observed_error;
         /// Largest speed near the end on every level that counts, divided by the wave speed.
-        RestBelow = rest_below, "residual speed over the wave speed", Maximum, StateOfRest,
+        RestBelow = rest_below, "residual speed divided by the wave speed", Maximum, StateOfRest,
             residual_speed;
         }
     };

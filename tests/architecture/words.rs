@@ -99,12 +99,12 @@ pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
     ("longest safe", "stable"),
     ("a particle  ", "particle memory"),
     ("a node  ", "node memory"),
-    ("in full also", "--full adds"),
+    ("in full also", "further levels"),
     ("g2p slope", "g2p scalar gradient"),
     ("p2g flow", "p2g scalar flux"),
     ("p2g amount", "p2g scalar source"),
     ("leaves at", "critical eigenvalue"),
-    ("speed at rest over", "residual speed over"),
+    ("speed at rest over", "residual speed divided by"),
     ("never beyond them", "interpolated, never extrapolated"),
 ];
 

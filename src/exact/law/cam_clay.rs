@@ -206,7 +206,8 @@ impl ConstitutiveLaw for CamClayLaw {
     const NAME: &'static str = "cam_clay";
     const EQUATION: &'static str = "modified Cam-clay in monotonic uniaxial compression, \
                                     rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                    q^2/M^2 + p (p - pc) <= 0, d eps_e = kappa dp/p";
+                                    q^2/M^2 + p (p - pc) <= 0 for the mean stress p (positive in \
+                                    compression) and q = sqrt(3 J2), d eps_e = kappa dp/p";
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {

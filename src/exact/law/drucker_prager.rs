@@ -48,7 +48,9 @@ impl UniaxialPlasticity for DruckerPragerLaw {
     const MATERIAL: &'static str = "drucker_prager";
     const TEXT: &'static str = "Drucker-Prager in monotonic uniaxial strain, \
                                 rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                tau = L tr(eps_e) I + 2 mu eps_e, sqrt(J2) + eta p <= k";
+                                tau = lambda tr(eps_e) I + 2 mu eps_e, \
+                                sqrt(J2) + eta p <= k for p = tr(tau)/3 and \
+                                J2 = dev(tau) : dev(tau)/2";
 
     fn response(&self) -> &UniaxialLaw {
         &self.0

@@ -26,9 +26,11 @@ impl GreenNaghdiLaw {
 
 impl ConstitutiveLaw for GreenNaghdiLaw {
     const NAME: &'static str = "green_naghdi";
-    const EQUATION: &'static str = "linear elasticity with the rate of Green and Naghdi in simple \
-                                    shear, rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                    tau_dot = L tr(d) I + 2 mu d + W tau - tau W, W = R_dot R^T";
+    const EQUATION: &'static str = "linear elastic law for the Kirchhoff stress tau with the \
+                                    Green-Naghdi rate in simple shear, \
+                                    rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
+                                    tau_dot = lambda tr(d) I + 2 mu d + W tau - tau W, \
+                                    W = R_dot R^T";
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
         let mu = T::from(self.0.mu);

@@ -29,7 +29,8 @@ impl J2Law {
 impl ConstitutiveLaw for J2Law {
     const NAME: &'static str = "j2";
     const EQUATION: &'static str = "J2 under monotonic loading, rho0 u_tt = Div P + rho0 b, \
-                                    P = tau F^-T, tau = K tr(eps) I + s dev(eps), eps = ln(F F^T)/2";
+                                    P = tau F^-T, tau = K tr(eps) I + s dev(eps) with the secant \
+                                    modulus s, eps = ln(F F^T)/2";
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {

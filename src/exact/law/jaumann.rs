@@ -22,7 +22,8 @@ impl JaumannLaw {
 
 impl ConstitutiveLaw for JaumannLaw {
     const NAME: &'static str = "jaumann";
-    const EQUATION: &'static str = "linear elasticity with the rate of Jaumann in simple shear, \
+    const EQUATION: &'static str = "linear elastic law for the Kirchhoff stress tau with the \
+                                    Jaumann rate in simple shear, \
                                     rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
                                     tau12 = mu sin(gamma), tau11 = -tau22 = mu (1 - cos(gamma))";
 

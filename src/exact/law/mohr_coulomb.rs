@@ -66,8 +66,9 @@ impl UniaxialPlasticity for MohrCoulombLaw {
     const MATERIAL: &'static str = "mohr_coulomb";
     const TEXT: &'static str = "Mohr-Coulomb in monotonic uniaxial strain, \
                                 rho0 u_tt = Div P + rho0 b, P = tau F^-T, \
-                                tau = L tr(eps_e) I + 2 mu eps_e, \
-                                (t1 - t3) + (t1 + t3) sin(phi) <= 2 c cos(phi)";
+                                tau = lambda tr(eps_e) I + 2 mu eps_e, \
+                                (tau1 - tau3) + (tau1 + tau3) sin(phi) <= 2 c cos(phi) for the \
+                                largest and smallest principal values tau1 and tau3 of tau";
 
     fn response(&self) -> &UniaxialLaw {
         &self.0

@@ -10,7 +10,7 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     let mut columns = vec![name("method")];
     for (k, target) in ranking.targets.iter().enumerate() {
         columns.extend([
-            MethodColumn::text(format!("<= {target:e}"), "work for the error", move |row| {
+            MethodColumn::text(format!("work for {target:e}"), "work for the error", move |row| {
                 reach_text(row.reaches[k])
             }),
             MethodColumn::text("x", "times the least work", move |row| row.times[k].map(ratio)),
@@ -137,9 +137,10 @@ pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
         TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
     let terms = model().map(|column| column.within(|(_, model, _): &FittedModel| Some(model)));
     let about = "relative error of the prediction for the finest level";
-    let finest = TableColumn::<FittedModel>::new("finest", "finest_off", about, |(.., off)| {
-        Cell::number(*off, |off| format!("{:+.0} %", 100.0 * off))
-    });
+    let finest =
+        TableColumn::<FittedModel>::new("off on finest level", "finest_off", about, |(.., off)| {
+            Cell::number(*off, |off| format!("{:+.0} %", 100.0 * off))
+        });
     std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 

@@ -3,8 +3,8 @@
 use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::columns::number;
 use crate::verify::{
-    Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, RunErrors,
-    observed_order,
+    Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, Quantity,
+    RunErrors, observed_order,
 };
 use serde_json::Value;
 
@@ -54,7 +54,7 @@ pub(crate) fn names(study: &Convergence) -> Vec<String> {
 }
 
 pub(crate) fn judged<'a>() -> LevelColumn<'a> {
-    let about = "judged error; in brackets if the level does not count for the verdict";
+    let about = "judged error; in parentheses if the level does not count for the verdict";
     LevelColumn::new("error", "judged", about, |row| {
         let cell = row.error(row.level.error);
         let text = if row.counts() { cell.text } else { format!("({})", cell.text) };
@@ -83,13 +83,13 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns the columns of the largest error at the end and of its order. An error that equals the
-/// judged error is shown as a dash.
-pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
-    let heading = if is_primary { "linf at end" } else { "linf of displacement at end" };
+/// Returns the columns of the largest error of `of` at the end and of the order of this error. An
+/// error that equals the judged error is shown as a dash.
+pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
+    let heading = format!("linf of {} at end ({})", of.words(), of.unit());
     let about = "order of linf between the next coarser level and this one";
     [
-        LevelColumn::text(heading, "largest error", |row| {
+        LevelColumn::text(heading, "largest error at the end of the run", |row| {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
@@ -104,8 +104,8 @@ pub(crate) fn largest_error<'a>(is_primary: bool) -> [LevelColumn<'a>; 2] {
 }
 
 pub(crate) fn spread<'a>() -> LevelColumn<'a> {
-    let about = "largest difference between repeated runs, in the norm and over the scale of the \
-                 error";
+    let about = "largest difference between repeated runs, in the norm of the error and divided by \
+                 its scale";
     LevelColumn::new("spread", "spread", about, |row| {
         let text = |spread| if spread == 0.0 { "0".to_owned() } else { scientific(spread) };
         let spread = row.level.spread;
@@ -135,16 +135,6 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
         LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
             Cell::plain(row.level.run.counters.crossings)
         }),
-        LevelColumn::text(
-            "first crossing",
-            "coarsest level on which particles change cells",
-            |row| {
-                let crosses = |level: &&LevelOutcome| level.run.counters.crossings.unwrap_or(0) > 0;
-                let (index, level) =
-                    row.study.levels.iter().enumerate().find(|(_, level)| crosses(level))?;
-                Some(name(row.study.axis).cell(&LevelRow { study: row.study, index, level }).text)
-            },
-        ),
         LevelColumn::new(
             "outside",
             "left_domain",

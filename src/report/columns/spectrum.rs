@@ -64,9 +64,9 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
             |row| phase_error(measured(row)),
         ),
         figure(
-            "predicted",
+            "predicted phase error",
             "predicted_phase_error",
-            "relative error of the phase speed by the closed form",
+            "relative error of the phase speed, from the closed form",
             percent,
             |row| phase_error(row.predicted.as_ref()),
         ),
@@ -78,9 +78,9 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
             |row| measured(row).map(WaveFigures::kept),
         ),
         figure(
-            "predicted",
+            "predicted amplitude",
             "predicted_amplitude",
-            "factor of the amplitude in one exact period by the closed form",
+            "factor of the amplitude in one exact period, from the closed form",
             six_decimals,
             |row| row.predicted.as_ref().map(WaveFigures::kept),
         ),

@@ -17,7 +17,7 @@ fn swept(study: &StabilityStudy) -> RowColumn<'_> {
 }
 
 fn figure<'a>(figure: RunFigure) -> TrialColumn<'a> {
-    TrialColumn::new(figure.head(), figure.name(), "figure of the run", move |trial| {
+    TrialColumn::new(figure.head(), figure.name(), "measured value of the run", move |trial| {
         let value = figure.of(trial);
         let text = match figure {
             _ if value.is_nan() => "-".to_owned(),
@@ -80,8 +80,8 @@ fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> 
     let longest = critical.max_by_key(|critical| critical.confirmed.len());
     let shares = longest.into_iter().flat_map(|critical| &critical.confirmed).enumerate();
     let column = |(k, (share, _)): (usize, &(f64, Trial))| {
-        let about = "verdict of a run at this share of the predicted limit";
-        let heading = format!("runs at {share} of the predicted {sought}");
+        let about = "verdict of a run at this fraction of the predicted limit";
+        let heading = format!("runs at {share} times the predicted {sought}");
         RowColumn::text(heading, about, move |row| {
             let run = row.critical.as_ref().and_then(|critical| critical.confirmed.get(k));
             run.map(|(_, trial)| trial.verdict.words())
@@ -93,7 +93,7 @@ fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> 
 pub(crate) fn json_columns(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     let mut columns = limits(study, study.sought.as_deref().unwrap_or_default());
     columns.extend([
-        RowColumn::json("run", "verdict and figures, if no limit is sought", |row| {
+        RowColumn::json("run", "verdict and measured values, if no limit is sought", |row| {
             row.trial.as_ref().map(run)
         }),
         RowColumn::json("confirmed", "runs at fractions of the predicted limit", |row| {
@@ -115,7 +115,7 @@ fn run(trial: &Trial) -> Value {
     let columns = [
         verdict(),
         TrialColumn::json("why", "reason why the run stopped early", |trial| trial.why.clone()),
-        TrialColumn::json("figures", "all figures", |trial| json_object(&figures, trial)),
+        TrialColumn::json("figures", "all measured values", |trial| json_object(&figures, trial)),
     ];
     json_object(&columns, trial)
 }

@@ -4,7 +4,7 @@ use super::{
     TableColumn, cost, distinct, force, grouped, level, number, scientific, spectrum, stability,
     timed_level,
 };
-use crate::verify::{Axis, Ranking, StabilityStudy};
+use crate::verify::{Axis, Quantity, Ranking, StabilityStudy};
 use rstest::rstest;
 
 const DOCUMENT: &str = include_str!("../../../docs/columns.md");
@@ -30,7 +30,7 @@ fn section<R>(title: &str, tables: Vec<Vec<TableColumn<'_, R>>>) -> String {
 fn the_document_lists_the_columns() {
     let levels = vec![
         vec![level::name(Axis::Space), level::judged(), level::order()],
-        level::largest_error(true).into(),
+        level::largest_error(Quantity::Displacement).into(),
         vec![level::velocity()],
         level::counters(),
         level::energy_rate().into(),

@@ -61,8 +61,8 @@ impl Rank {
             Self::LessStable => "less stable",
             Self::MoreExpensive => "more expensive",
             Self::Better => "better",
-            Self::OtherProblem => "of another problem",
-            Self::Otherwise => "judged or refined otherwise",
+            Self::OtherProblem => "with a changed problem",
+            Self::Otherwise => "judged or refined differently",
             Self::New => "new",
             Self::Gone => "gone",
         }
@@ -197,7 +197,7 @@ impl ReportComparison {
             format!("{worse} of all {all} cases with `{word}` in their names")
         };
         let parts: Vec<String> = self.shared_words.iter().map(part).collect();
-        (!parts.is_empty()).then(|| format!("worse are {}", parts.join(", ")))
+        (!parts.is_empty()).then(|| format!("{} are worse", parts.join(", ")))
     }
 
     /// Summarises the changes in one line: `2 less accurate, 1 new, 816 unchanged`.

@@ -13,7 +13,7 @@ pub fn text(comparison: &ReportComparison) -> String {
     if !comparison.problems.is_empty() {
         lines.extend([
             String::new(),
-            "another problem, so that figures are not compared".to_owned(),
+            "changed problem: errors and orders are not compared".to_owned(),
         ]);
     }
     for problem in &comparison.problems {
@@ -39,7 +39,7 @@ pub fn text(comparison: &ReportComparison) -> String {
         lines.extend(Table::new(&targets(), &comparison.cheapest).lines());
     }
     let share = comparison.tolerance;
-    lines.extend([String::new(), format!("Figures count as equal within a share of {share}.")]);
+    lines.extend([String::new(), equality(share)]);
     lines.join("\n") + "\n"
 }
 
@@ -58,7 +58,7 @@ pub fn markdown(comparison: &ReportComparison) -> String {
         page += &format!("\n{}\n", prose(&line));
     }
     if !comparison.problems.is_empty() {
-        page += "\n**Another problem, so that figures are not compared**\n\n";
+        page += "\n**Changed problem: errors and orders are not compared**\n\n";
     }
     for problem in &comparison.problems {
         for [key, old, new] in &problem.rows {
@@ -82,8 +82,13 @@ pub fn markdown(comparison: &ReportComparison) -> String {
     page += &cheapest(comparison);
     let share = comparison.tolerance;
     page + &format!(
-        "\n<sub>Figures count as equal within a share of {share}. Transfers between particles and nodes are the measure of work.</sub>\n"
+        "\n<sub>{} Work is the number of transfers between particles and nodes.</sub>\n",
+        equality(share)
     )
+}
+
+fn equality(tolerance: f64) -> String {
+    format!("Values count as equal within a relative difference of {tolerance}.")
 }
 
 /// Creates the table of changed cases, without columns that contain only dashes.

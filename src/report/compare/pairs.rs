@@ -216,9 +216,21 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
 }
 
 /// Names of statement rows about levels and outputs. Differences in these rows are not changes of
-/// the problem.
-const OF_LEVELS: [&str; 7] =
-    ["cells", "dt", "instants", "particles", "--full adds", "judged", "crossing levels"];
+/// the problem. `--full adds` is the former name of `further levels`, and names that are read from
+/// snapshots have one word.
+const OF_LEVELS: [&str; 11] = [
+    "cells",
+    "dt",
+    "instants",
+    "particles",
+    "further levels",
+    "further",
+    "--full adds",
+    "--full",
+    "judged",
+    "crossing levels",
+    "crossing",
+];
 
 /// Returns the suites whose statement differs between the runs.
 fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {

@@ -77,7 +77,7 @@ fn common_words_of_worse_cases_are_reported() {
     };
     let found = compare(&with(1.0), &with(2.0), TOLERANCE);
     let line = "worse: 3 less accurate, 1 unchanged\n\
-                worse are 3 of all 3 cases with `apic` in their names\n";
+                3 of all 3 cases with `apic` in their names are worse\n";
     assert!(text(&found).starts_with(line), "{}", text(&found));
     assert!(markdown(&found).contains("with &#96;apic&#96; in"), "{}", markdown(&found));
 }

@@ -68,7 +68,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     LogLogPlot {
         title,
         x_label: work.to_owned(),
-        y_label: "error over the size of the solution".to_owned(),
+        y_label: "error / size of the solution".to_owned(),
         series: named.iter().map(series).collect(),
         others: others.iter().map(series).collect(),
         front: front.collect(),

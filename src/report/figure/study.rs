@@ -130,7 +130,7 @@ fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
     let field = |(name, study): (&str, &Convergence)| {
         let level = study.levels.last()?;
         let name = match level.run.failure {
-            Some(_) => format!("{name}, where it broke"),
+            Some(_) => format!("{name}, at its failure"),
             None => name.to_owned(),
         };
         Some((name, level.run.field.clone()?))
@@ -249,7 +249,7 @@ fn energies(outcome: &SuiteOutcome) -> Option<Figure> {
         return None;
     }
     let title = format!("{}: energy", outcome.title);
-    let (x_label, y_label) = ("time (s)".to_owned(), "energy over that of the start".to_owned());
+    let (x_label, y_label) = ("time (s)".to_owned(), "energy / initial energy".to_owned());
     let plot = HistoryPlot { title, x_label, y_label, curves };
     let file = format!("{}-energy.svg", outcome.suite);
     Some(Figure { file, svg: plot.to_svg(), pgfplots: plot.to_pgfplots() })

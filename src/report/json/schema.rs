@@ -67,7 +67,7 @@ fn case() -> Value {
         ("formal_order", or_null(number()), "theoretical order"),
         ("judge", or_null(judge()), "the judged error"),
         ("observed_order", or_null(interval()), "the order, with its 95 % interval"),
-        ("floor", or_null(floor()), "the finest error with another spacing halved"),
+        ("floor", or_null(floor()), "the error on the finest level with another spacing halved"),
         ("levels", list(levels), "levels, from coarse to fine"),
         ("forces", or_null(list(forces)), "rows of an internal-force study"),
         ("stability", or_null(stability_study()), "rows of a stability study"),
@@ -115,12 +115,12 @@ fn floor() -> Value {
     let causes: Vec<&str> = FloorCause::ALL.iter().map(|cause| cause.name()).collect();
     let probe = object([
         ("axis", text(), "spacing that is halved"),
-        ("error", or_null(number()), "finest error with this spacing halved"),
+        ("error", or_null(number()), "error on the finest level with this spacing halved"),
         ("failure", or_null(text()), "reason why this error is missing"),
     ]);
     object([
         ("cause", or_null(json!({"enum": causes})), "axis that causes the floor"),
-        ("error", number(), "finest error"),
+        ("error", number(), "error on the finest level"),
         ("probes", list(probe), "runs with one spacing halved"),
     ])
 }

@@ -49,16 +49,16 @@ fn cases(outcome: &SuiteOutcome) -> Html {
         |(name, class): (&str, &str)| Html::tag("th", &[("scope", "col"), ("class", class)], name);
     let mut heads = [("Case", "word"), ("Result", "word"), ("Verdict", "word")].map(head).to_vec();
     if measured {
-        let figures = ["Order", "Finest error", "Transfers"];
+        let figures = ["Order", "Error, finest level", "Transfers"];
         heads.extend(figures.map(|name| head((name, "number"))));
     }
     heads.extend([("Found", "word"), ("Expected", "word")].map(head));
     let groups = outcome.cases.chunk_by(|a, b| a.expectation() == b.expectation());
     let rows: Vec<Html> = groups.flat_map(|group| rows(outcome, group, measured)).collect();
     let mut table = Vec::new();
-    table.extend(
-        judged.map(|study| Html::tag("caption", &[], format!("Finest error: {}", study.judged()))),
-    );
+    table.extend(judged.map(|study| {
+        Html::tag("caption", &[], format!("Error on the finest level: {}", study.judged()))
+    }));
     let heads = Html::tag("tr", &[], heads);
     table.extend([Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)]);
     let label = format!("Verdicts of {}", outcome.suite);

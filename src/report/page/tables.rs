@@ -146,7 +146,7 @@ const VERDICT_COLUMNS: [(&str, bool); 8] = [
     ("Result", false),
     ("Verdict", false),
     ("Order", true),
-    ("Finest error", true),
+    ("Error, finest level", true),
     ("Transfers", true),
     ("Expected", false),
 ];
@@ -159,9 +159,8 @@ pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
         Html::tag("th", &[("scope", "col"), ("class", class)], name)
     };
     let heads = Html::tag("tr", &[], VERDICT_COLUMNS.map(head).to_vec());
-    let legend = "Order: observed, with its 95 % interval. Finest error and transfers between \
-                  particles and nodes: on the finest level. The report of a suite names the \
-                  quantity of the error.";
+    let legend = "Order: observed, with its 95 % interval. Transfers: pairs of a particle and a \
+                  node on the finest level. The report of a suite names the quantity of the error.";
     let table = [Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)];
     Html::block(
         "section",

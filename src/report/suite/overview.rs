@@ -21,7 +21,7 @@ const WIDTHS: [(&str, usize); 16] = [
     ("case", 38),
     ("verdict", 14),
     ("95 % interval", 14),
-    ("finest error", 12),
+    ("error, finest level", 19),
     ("floor", 9),
     ("for 1e-3", 8),
     ("observed", 66),

@@ -20,13 +20,17 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
             row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
         }
     }
+    let study = cases.iter().find_map(CaseOutcome::convergence);
     let all: Vec<(&str, String)> = rankings
         .iter()
-        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking)?)))
+        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking, study)?)))
         .collect();
     for (problem, methods) in &all {
         let of_problem = if all.len() > 1 { format!("{problem}, ") } else { String::new() };
         row(lines, "cheapest", &format!("{of_problem}{methods}"));
+    }
+    if !all.is_empty() && cases.iter().any(|case| case.subject == "fem") {
+        row(lines, "", "in FEM, quadrature points count as particles");
     }
     lines.push(String::new());
     let expectations = expectations(cases);
@@ -93,7 +97,7 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
             order(case).map(|order| format!("[{:.2}, {:.2}]", order.low, order.high))
         })
         .flush_left(),
-        CaseColumn::text("finest error", "judged error", |case| {
+        CaseColumn::text("error, finest level", "judged error on the finest level", |case| {
             let level = case.convergence().filter(|study| study.compared)?.levels.last()?;
             let failed = level.run.failure.is_some();
             Some(if failed { "failed".to_owned() } else { scientific(level.error) })
@@ -144,7 +148,7 @@ fn letter(k: usize) -> String {
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Adds the remarks on cases. Equal remarks are merged.
+/// Adds the remarks on single cases. Equal remarks are merged.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));
@@ -153,8 +157,12 @@ fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let all = cases
         .iter()
         .flat_map(|case| of_case(case).into_iter().map(|remark| (remark, case.case.as_str())));
-    for (remark, names) in grouped(all) {
-        hanging(lines, "-", &format!("{}: {remark}", together(&names)));
+    let all = grouped(all);
+    if !all.is_empty() && lines.last().is_some_and(|line| !line.is_empty()) {
+        lines.push(String::new());
+    }
+    for (remark, names) in all {
+        row(lines, "remark", &format!("{}: {remark}", together(&names)));
     }
 }
 

@@ -6,16 +6,24 @@
 
 use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
-use crate::verify::{BestCandidate, Interval, Machine, Model, Ranked, Ranking, TimedSuite};
+use crate::verify::{
+    BestCandidate, Convergence, Interval, Machine, Model, Quantity, Ranked, Ranking, Reach,
+    TimedSuite,
+};
 
 const TRANSFERS: &str = "particle-node transfers";
 
 /// Returns the tables of a ranking. `work` is the name of the unit of work.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
-    lines.push(format!("  {:18}{}", "error", relative(ranking)));
+    lines.push(format!("  {:18}{}", "error", relative(ranking, None)));
     let how = "interpolated between neighbouring levels, never extrapolated";
     lines.push(format!("  {:18}{work}, {how}", "work"));
+    let reaches = || ranking.rows.iter().flat_map(|row| &row.reaches);
+    if reaches().any(|reach| matches!(reach, Reach::Already { .. })) {
+        let bound = "upper bound: the coarsest level that counts already reaches the error";
+        lines.push(format!("  {:18}{bound}", "<="));
+    }
     lines.push(String::new());
     // Targets that no method reaches get no column.
     let work = Table::new(&columns::methods(ranking), &ranking.rows).without_empty_columns();
@@ -29,26 +37,38 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Names the cheapest method for each target that a method reaches, in one line.
-pub(crate) fn cheapest(ranking: &Ranking) -> Option<String> {
+/// Names the cheapest method for each target that a method reaches, in one line. `study` is one of
+/// the ranked studies.
+pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option<String> {
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
-        let work = columns::reach_text(row.reaches[k]);
+        let work = columns::reach_text(row.reaches[k]).replace("<=", "at most ");
         Some(format!("{target:e}: {}, {work} {TRANSFERS}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    let errors = relative(ranking);
+    let errors = relative(ranking, study);
     (!best.is_empty())
         .then(|| format!("for a relative error of {}; errors are {errors}", best.join("; of ")))
 }
 
-/// Describes the value by which the errors of a ranking are divided.
-fn relative(ranking: &Ranking) -> String {
-    if ranking.size == 1.0 {
-        return "divided by the `scale` of the suite".to_owned();
+/// Describes the value by which the errors of a ranking are divided. `study` is one of the ranked
+/// studies, if they are known.
+fn relative(ranking: &Ranking, study: Option<&Convergence>) -> String {
+    let with_unit = |value: String, of: Quantity| {
+        let text = format!("divided by {value} {}", of.unit());
+        text.trim_end().to_owned()
+    };
+    let is_scaled = ranking.size == 1.0;
+    let size = short(ranking.size);
+    match study {
+        Some(Convergence { of, scale: Some(scale), .. }) if is_scaled => {
+            with_unit(of.shown_scale(*scale), *of)
+        }
+        _ if is_scaled => "divided by the `scale` of the suite".to_owned(),
+        Some(Convergence { of, .. }) => format!("{}, {}", with_unit(size, *of), of.size_words()),
+        None => format!("divided by {size}, the largest exact value of the judged quantity"),
     }
-    format!("divided by {}, the largest exact value", short(ranking.size))
 }
 
 /// Returns the report of a timed suite.
@@ -161,7 +181,7 @@ fn predictions() -> [TableColumn<'static, Predicted>; 5] {
             short(*measured)
         }),
         TableColumn::<Predicted>::text(
-            "off",
+            "difference",
             "relative difference",
             |(_, [predicted, measured], _)| {
                 format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))

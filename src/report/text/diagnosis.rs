@@ -87,20 +87,21 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
     }
 }
 
-/// Describes the finest error of a changed run, compared with the error of the unchanged case.
+/// Describes the error of a changed run on the finest level, compared with the error of the
+/// unchanged case.
 fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     let (before, after) = (found.finest_error, run.error);
     if !run.ratio.is_finite() {
-        return format!("the finest error is {after:.3e} (before: not finite)");
+        return format!("the error on the finest level is {after:.3e} (before: not finite)");
     }
     let relative = if (run.relative_ratio / run.ratio - 1.0).abs() > 1e-9 {
         let share = share(run.relative_ratio);
-        format!(", or {share} its share of the exact solution")
+        format!("; relative to the exact solution, it is {share} the error before")
     } else {
         String::new()
     };
     let share = share(run.ratio);
-    format!("the finest error is {after:.3e}, {share} {before:.3e}{relative}")
+    format!("the error on the finest level is {after:.3e}, {share} {before:.3e}{relative}")
 }
 
 /// Formats a positive ratio for a text in which the reference value follows, such as `1/8 of`.
@@ -143,8 +144,8 @@ fn unknown_cause(found: &Diagnosis) -> String {
         );
     }
     format!(
-        "No single change restores the order from {range}, or removes a quarter of the finest \
-         error. The cause is none of those that `diagnose` tests."
+        "No single change restores the order from {range}, or removes a quarter of the error on the \
+         finest level. The cause is none of those that `diagnose` tests."
     )
 }
 
@@ -159,7 +160,7 @@ fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
         }),
         TableColumn::<&ChangedRun>::text(
             "error/before",
-            "finest error, relative to that before",
+            "error on the finest level, divided by the error before",
             |run| {
                 let ratio = Some(run.ratio).filter(|ratio| ratio.is_finite())?;
                 Some(if ratio >= 1e4 { format!("{ratio:.1e}") } else { format!("{ratio:.3}") })

@@ -7,13 +7,15 @@ use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
 use crate::report::columns::{TableColumn, decimals, level, short};
 use crate::report::columns::{distinct, grouped};
 use crate::verify::{
-    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, StepKind, format_number,
+    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, Quantity, StepKind,
+    format_number,
 };
 
 /// Adds tables of errors with their orders, measured values of the finest levels, drifts, rates and
 /// limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
+    first_crossings(lines, studies);
     for alike in by_levels(studies) {
         errors(lines, &alike);
         spreads(lines, &alike);
@@ -32,8 +34,34 @@ fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Describes the levels:
-/// `8, 16, 32 cells; h = 0.125 ... 0.03125 m; dt = ... s; 4 ppc; 32 ... 128 particles; ... steps`.
+/// Lists the coarsest level on which particles change cells. The row is omitted if no case has
+/// crossings, or if the cases have a single level, because the table of the finest levels then
+/// shows the crossings.
+fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
+    let crossed = |study: &Convergence| -> Vec<Option<u64>> {
+        study.levels.iter().map(|level| level.run.counters.crossings).collect()
+    };
+    let counts = |study: &Convergence| crossed(study).iter().any(Option::is_some);
+    let first = |study: &Convergence| {
+        let level = crossed(study).iter().position(|count| count.unwrap_or(0) > 0)?;
+        Some(study.levels[level].name(study.axis))
+    };
+    let is_listed = |(_, study): &&NamedStudy<'_>| study.levels.len() > 1 && counts(study);
+    let listed: Vec<NamedStudy<'_>> = studies.iter().filter(is_listed).copied().collect();
+    if listed.iter().all(|(_, study)| first(study).is_none()) {
+        return;
+    }
+    let text = |study: &Convergence| match first(study) {
+        Some(level) => format!("particles change cells from the level with {level} on"),
+        None => "no particle changes its cell".to_owned(),
+    };
+    for (text, names) in shared(listed.iter().map(|(name, study)| (*name, text(study)))) {
+        row(lines, "crossings", &format!("{text}{names}"));
+    }
+}
+
+/// Describes the levels: `8, 16, 32 cells along X; h = 0.125 ... 0.03125 m; dt = ... s;
+/// 4 particles per cell; 32 ... 128 particles; ... steps`.
 fn setting(study: &Convergence) -> String {
     // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
@@ -52,18 +80,21 @@ fn setting(study: &Convergence) -> String {
     };
     let of_axis = |axis: Axis, value: Option<String>| value.filter(|_| study.axis != axis);
     let refined = match study.axis {
-        Axis::Space => format!("{all} cells"),
+        Axis::Space => format!("{all} cells along X"),
         Axis::Time => format!("dt = {all} s"),
         Axis::Particles => format!("{all} particles per cell"),
     };
     let parts = [
         Some(refined),
-        of_axis(Axis::Space, count("cells", &|level| Some(level.cells.to_string()))),
+        of_axis(Axis::Space, count("cells along X", &|level| Some(level.cells.to_string()))),
         span(&|level| Some(format_number(level.h))).map(|h| format!("h = {h} m")),
         of_axis(Axis::Time, span(&|level| Some(format_number(level.dt))))
             .filter(|_| study.steps == StepKind::Time)
             .map(|dt| format!("dt = {dt} s")),
-        of_axis(Axis::Particles, count("per cell", &|level| level.ppc.map(|ppc| ppc.to_string()))),
+        of_axis(
+            Axis::Particles,
+            count("particles per cell", &|level| level.ppc.map(|ppc| ppc.to_string())),
+        ),
         count("particles", &|level| level.run.counters.particles.map(|count| count.to_string())),
         span(&|level| Some(level.run.steps.to_string())).map(|steps| {
             if study.steps == StepKind::Load {
@@ -92,6 +123,13 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
+    let is_excluded = |study: &Convergence| {
+        level::rows(study).any(|row| level::judged().cell(&row).text.starts_with('('))
+    };
+    if studies.iter().any(|(_, study)| is_excluded(study)) {
+        lines
+            .push("  (in parentheses: errors that are not used to determine the order)".to_owned());
+    }
 }
 
 /// Adds the table of the differences between repeated runs.
@@ -119,8 +157,22 @@ fn by_level<'a>(
     let Some((_, first)) = studies.first() else { return };
     let mut headings = vec![level::name(first.axis).heading.into_owned()];
     for (k, column) in columns.iter().enumerate() {
-        let names = level::names(first).into_iter();
-        headings.extend(names.map(|name| if k == 0 { name } else { column.heading.to_string() }));
+        let names = level::names(first);
+        if k == 0 {
+            headings.extend(names);
+            continue;
+        }
+        let is_shown = |index: &usize| {
+            studies.iter().any(|(_, study)| {
+                let row = level::rows(study).nth(*index);
+                row.is_some_and(|row| column.cell(&row).text != "-")
+            })
+        };
+        let shown = (0..names.len()).find(is_shown);
+        headings.extend((0..names.len()).map(|index| {
+            let pair = pair_heading(&names, index);
+            if shown == Some(index) { format!("{} {pair}", column.heading) } else { pair }
+        }));
     }
     let cells = |(name, study): &NamedStudy<'a>| {
         let of_column = |column: &LevelColumn<'a>| {
@@ -136,6 +188,19 @@ fn by_level<'a>(
     lines.extend([String::new(), format!("  {heading}")]);
     lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }
+
+/// Returns the heading of a value that belongs to a level and the next coarser one: both names, or
+/// only the name of the finer level if the names are long.
+fn pair_heading(names: &[String], index: usize) -> String {
+    let fine = &names[index];
+    match index.checked_sub(1).map(|coarser| &names[coarser]) {
+        Some(coarse) if coarse.len() + fine.len() <= LONGEST_PAIR => format!("{coarse}-{fine}"),
+        _ => format!("to {fine}"),
+    }
+}
+
+/// Maximum length (characters) of two level names in one heading.
+const LONGEST_PAIR: usize = 9;
 
 /// Name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
@@ -164,8 +229,9 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of_levels = ["particles", "steps"];
     let counters = level::counters().into_iter();
     let counters = counters.filter(|column| !of_levels.contains(&column.heading.as_ref()));
-    let is_primary = studies.iter().all(|(_, study)| study.of.is_primary());
-    let columns = level::largest_error(is_primary).into_iter().chain(counters);
+    let of = studies.first().map(|(_, study)| study.of).filter(|of| of.is_primary());
+    let of = of.unwrap_or(Quantity::Displacement);
+    let columns = level::largest_error(of).into_iter().chain(counters);
     by_case(lines, "on the finest level", studies, columns);
 }
 
@@ -175,7 +241,7 @@ fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
     by_case(
         lines,
-        "largest relative drift of all levels",
+        "largest relative change of sums over the body since t = 0, on any level",
         &asked,
         sums.into_iter().map(level::largest_drift),
     );
@@ -207,8 +273,8 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let answered = rows.iter().filter(|row| row.result.is_ok()).count();
     lines.push(String::new());
     lines.push(format!(
-        "  limit of u at X = {place} m, extrapolated from the four finest levels: {answered} of {} \
-         cases have one",
+        "  u at X = {place} m, extrapolated from the four finest levels to zero spacing; {answered} \
+         of {} cases have an estimate",
         rows.len()
     ));
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
@@ -245,7 +311,7 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
         LimitColumn::text("+-", "half-width of the interval of the order", |row| {
             row.estimate().map(|estimate| decimals(2)(estimate.order.half_width()))
         }),
-        LimitColumn::text("limit of u", "extrapolated value (m)", |row| {
+        LimitColumn::text("extrapolated u", "extrapolated value (m)", |row| {
             row.estimate().map(|estimate| limit_shown(&estimate))
         }),
         LimitColumn::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
@@ -255,9 +321,11 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
             let exact = row.exact?;
             row.estimate().map(|estimate| short((estimate.limit.value - exact).abs()))
         }),
-        LimitColumn::text("covered", "whether the interval contains the exact value", |row| {
-            row.is_covered.map(|covered| if covered { "yes" } else { "no" })
-        }),
+        LimitColumn::text(
+            "exact u inside",
+            "whether the interval contains the exact value",
+            |row| row.is_covered.map(|covered| if covered { "yes" } else { "no" }),
+        ),
         LimitColumn::text("reason", "why there is no limit", |row| {
             row.result.err().map(EstimateRefusal::name)
         })

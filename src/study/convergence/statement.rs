@@ -8,6 +8,7 @@ use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
+use crate::suite::scene::numbers::with_unit;
 use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
 
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
@@ -24,7 +25,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
             push(
                 &mut rows,
                 "equilibrium",
-                "under the final loads, errors at the end of the run only",
+                "under the final loads, with errors computed only at the end of the run",
             );
         }
         push(&mut rows, "amplitude", &amplitude(problem));
@@ -32,7 +33,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     }
     if let Some(fine) = &plan.reference {
         let (element, mass, law) = (fine.element.name(), fine.mass.name(), fine.equation.name());
-        let (cells, dt) = (fine.cells, fine.dt.source());
+        let (cells, dt) = (fine.cells, with_unit(fine.dt.source(), "s"));
         let text = format!("{element} {mass} FEM, {law}, {cells} elements, dt = {dt}");
         push(&mut rows, "reference", &text);
     }
@@ -44,7 +45,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "judged", &judged(plan));
     }
     if let Some(within) = &plan.within {
-        let text = format!("X in {}", within.words());
+        let text = format!("initial positions from {}", within.words());
         push(&mut rows, "judged particles", &text);
     }
     push(&mut rows, "crossing levels", plan.crossing_levels.name());
@@ -81,7 +82,7 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
                 StepKind::Load => format!("the same method on {cells} cells"),
             };
             format!(
-                "{method} (its error is about 1/{:.0} of that of the finest level at order 2)",
+                "{method} (at order 2, its error is about 1/{:.0} of the error on the finest level)",
                 ratio * ratio
             )
         }
@@ -119,7 +120,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let usual_steps = plan.steps.len().min(plan.usual);
     let (steps, further_steps) = plan.steps.split_at(usual_steps);
     let dt = steps.join(", ");
-    let dt = plan.rule.map_or(format!("{dt} s"), |share| {
+    let dt = plan.rule.map_or(with_unit(&dt, "s"), |share| {
         let share = shown(share);
         format!("{share} times the stable time step of each case and level")
     });
@@ -134,10 +135,12 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let full = match plan.axis {
         _ if further.is_empty() => String::new(),
         Axis::Space => format!("{} cells", cells(further)),
-        Axis::Time => format!("dt = {} s", further_steps.join(", ")),
+        Axis::Time => format!("dt = {}", with_unit(&further_steps.join(", "), "s")),
         Axis::Particles => format!("{} particles per cell", ppc(further)),
     };
-    push(rows, "--full adds", &full);
+    if !full.is_empty() {
+        push(rows, "further levels", &format!("{full}, with the option --full"));
+    }
 }
 
 fn placed(scatter: &LatticeOffsets) -> String {
@@ -146,11 +149,17 @@ fn placed(scatter: &LatticeOffsets) -> String {
         return "equally spaced".to_owned();
     }
     let shares: Vec<String> = shift.iter().map(|share| shown(*share)).collect();
-    let shifted = (!shares.is_empty()).then(|| format!("shifted by ({})", shares.join(", ")));
-    let perturbed = (*perturb > 0.0)
-        .then(|| format!("moved at random by up to {} (seed {seed})", shown(*perturb)));
+    let shifted = match &shares[..] {
+        [] => None,
+        [only] => Some(format!("shifted by {only} times their spacing")),
+        all => Some(format!("shifted by ({}) times their spacing", all.join(", "))),
+    };
+    let perturbed = (*perturb > 0.0).then(|| {
+        let most = shown(*perturb);
+        format!("moved at random by up to {most} times their spacing (seed {seed})")
+    });
     let both: Vec<String> = [shifted, perturbed].into_iter().flatten().collect();
-    format!("{} times their spacing", both.join(" and "))
+    both.join(" and ")
 }
 
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {

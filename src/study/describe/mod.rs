@@ -10,7 +10,7 @@ use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
 use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
-use crate::suite::scene::numbers::sources;
+use crate::suite::scene::numbers::{sources, unit_after};
 use crate::verify::rounded;
 
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
@@ -38,8 +38,10 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
     }
 }
 
+/// Formats a position, such as `0.5` in one dimension or `(0, 0.5)`.
 fn corner(c: &[f64]) -> String {
-    c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ")
+    let coordinates = c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ");
+    if c.len() == 1 { coordinates } else { format!("({coordinates})") }
 }
 
 /// Formats a number with at most six significant digits.
@@ -50,7 +52,7 @@ pub(crate) fn stated(x: f64) -> String {
 fn body(scene: &Scene) -> String {
     let (from, to) = (corner(&scene.from), corner(&scene.to));
     let body = match (&scene.outline, &scene.mapped) {
-        (None, _) => format!("({from}) to ({to}) m"),
+        (None, _) => format!("{from} to {to} m"),
         (Some(outline), Some(_)) => outline.row(),
         (Some(outline), None) => outline.row() + rims(scene),
     };
@@ -90,17 +92,18 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
     bodies(scene, rows);
     if let Some((from, to)) = &scene.grid {
-        push(rows, "grid", &format!("({}) to ({}) m", corner(from), corner(to)));
+        push(rows, "grid", &format!("{} to {} m", corner(from), corner(to)));
     }
     if one {
         push(rows, "material", &material(&scene.material));
     }
-    let across = match scene.plane {
-        PlaneState::Strain => "",
-        PlaneState::Stress => "stress, sigma_33 = 0",
-        PlaneState::Axisymmetric => "axisymmetric, X is the radius, sums are per radian",
-    };
-    push(rows, "plane", across);
+    match scene.plane {
+        PlaneState::Strain => {}
+        PlaneState::Stress => push(rows, "plane stress", "sigma_33 = 0"),
+        PlaneState::Axisymmetric => {
+            push(rows, "axisymmetry", "X is the radius, and sums over the body are per radian");
+        }
+    }
     for (number, face) in scene.faces.iter().enumerate() {
         rows.extend(scene.loads_on(LoadTarget::Face(number)).flat_map(|load| load.rows()));
         let is_loaded = scene.loads_on(LoadTarget::Face(number)).next().is_some();
@@ -123,14 +126,16 @@ fn initial_stress(scene: &Scene) -> String {
     let written = |(i, j, formula): &(usize, usize, Formula)| {
         format!("{}{} = {}", AXES[*i], AXES[*j], formula.source())
     };
-    let components = scene.initial_stress.components().iter().map(written);
-    let components = components.collect::<Vec<_>>().join(", ");
-    if components.is_empty() {
-        return components;
+    let given = scene.initial_stress.components();
+    if given.is_empty() {
+        return String::new();
     }
+    let components = given.iter().map(written).collect::<Vec<_>>().join(", ");
+    let formulas: Vec<&str> = given.iter().map(|(.., formula)| formula.source()).collect();
+    let unit = unit_after(&formulas.join(", "), "Pa");
     let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
     let term = if is_finite { "F S0" } else { "S0" };
-    format!("S0 with {components} Pa, which adds {term} to P")
+    format!("S0 with {components}{unit}, and P includes the term {term}")
 }
 
 /// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.

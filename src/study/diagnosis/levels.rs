@@ -51,7 +51,7 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let shown = |order: Option<Interval>| order.map_or("not determined".to_owned(), |o| o.shown());
     let (count, order, evidence) = if let Some((cut, judgement)) = cut {
         let evidence = format!(
-            "Without {} the order is {} (with all levels: {}).",
+            "Without {}, the order is {} (with all levels: {}).",
             names(&levels[..cut], axis),
             shown(judgement.order),
             shown(observed)
@@ -100,8 +100,9 @@ fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let coarsest = known.levels.first()?.h;
     let share = coarsest / length;
     let text = format!(
-        " The exact solution changes over a length of {length:.2e} m (its shortest wavelength over 2 \
-         pi), and a cell of the first level measures {coarsest:.2e} m, {share:.2} times that."
+        " The exact solution changes over a length of {length:.2e} m (its shortest wavelength \
+         divided by 2 pi), and a cell of the first level measures {coarsest:.2e} m, {share:.2} times \
+         this length."
     );
     share.is_finite().then_some((share, text))
 }
@@ -109,7 +110,7 @@ fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
 fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     let names: Vec<String> = levels.iter().map(|level| level.name(axis)).collect();
     let noun = if names.len() == 1 { "level" } else { "levels" };
-    format!("the {noun} of {}", names.join(", "))
+    format!("the {noun} with {}", names.join(", "))
 }
 
 /// Checks whether the suite has an equilibrium solution but no damping.
@@ -120,7 +121,7 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let size = Extremes::of(plan.exact.as_ref()?).largest_displacement();
     let speed = finest.run.residual_speed.filter(|speed| speed.is_finite());
     let speed = speed.map_or(String::new(), |speed| {
-        format!(" Towards the end of the run the body moves at {speed:.1e} of the wave speed.")
+        format!(" Near the end of the run, the largest speed is {speed:.1e} times the wave speed.")
     });
     let is_external = matches!(case.method, Method::External { .. });
     let unless = if is_external { ", unless the solver itself does" } else { "" };
@@ -128,8 +129,8 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
         kind: KnownCauseKind::NoDamping,
         cause: format!("nothing removes energy{unless}; the body oscillates about its equilibrium"),
         evidence: format!(
-            "The largest displacement of the equilibrium is {size:.3e} m, and the finest error is \
-             {:.3e}.{speed}",
+            "The largest displacement of the equilibrium is {size:.3e} m, and the error on the \
+             finest level is {:.3e}.{speed}",
             finest.error
         ),
         remedy: Some(undamped::HELP.to_owned()),
@@ -153,12 +154,11 @@ pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let is_whole = are_errors && least >= WHOLE * size && most <= CONSTANT * least && size > 0.0;
     is_whole.then(|| KnownCause {
         kind: KnownCauseKind::AnotherProblem,
-        cause: "the solver solves another problem: its errors are of the size of the solution on all \
-                levels"
+        cause: "the solver solves another problem: its errors are as large as the solution on all levels"
             .to_owned(),
         evidence: format!(
             "The errors lie between {least:.3e} and {most:.3e} on all levels, and the largest exact value \
-             is {size:.3e}. Discretisation errors fall with the cells."
+             is {size:.3e}. Discretisation errors would fall with the cell size."
         ),
         remedy: Some(
             "`mpm-verify doctor` with the same `--solver`, which looks for such faults: signs and factors \

@@ -39,8 +39,8 @@ pub(crate) struct ProbeKind {
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
-        "an error of the size of the strain, which no grid removes: of an exact solution of small \
-         strain, or of particles that a large motion carries out of their places"
+        "an error proportional to the strain, which no grid reduces: the exact solution assumes \
+         small strains, or a large motion changes the positions of particles in their cells"
     },
     remedy: "a smaller amplitude, or an exact solution of the finite-strain equations",
     apply: |_| None,
@@ -48,7 +48,7 @@ pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
 
 pub(super) const REFERENCE: ProbeKind = ProbeKind {
     change: "the reference in place of the formula",
-    cause: |_, _| "the exact formula solves another model than the method does",
+    cause: |_, _| "the exact formula solves a different model than the method",
     remedy: "compare the method with a solution of its own model",
     apply: |plan| {
         let has_both = plan.reference.is_some() && plan.cases[0].against == Against::Exact;
@@ -58,7 +58,7 @@ pub(super) const REFERENCE: ProbeKind = ProbeKind {
 
 pub(super) const FORMULA: ProbeKind = ProbeKind {
     change: "the formula in place of the reference",
-    cause: |_, _| "the reference solves another model than the method does",
+    cause: |_, _| "the reference solves a different model than the method",
     remedy: "compare the method with a solution of its own model",
     apply: |plan| {
         let has_both = plan.has_formulas() && plan.cases[0].against == Against::Reference;
@@ -67,8 +67,8 @@ pub(super) const FORMULA: ProbeKind = ProbeKind {
 };
 
 pub(super) const ALIGNMENT: ProbeKind = ProbeKind {
-    change: "cells whose lines meet every interface and loaded face",
-    cause: |_, _| "an interface or a loaded face inside a cell, where the solution is smeared",
+    change: "grid lines on every interface and loaded face",
+    cause: |_, _| "an interface or a loaded face lies inside a cell, which smears the solution",
     remedy: "numbers of cells with grid lines on the interface or the loaded face",
     apply: |plan| {
         let aligned = |h: f64| is_aligned(&plan.scene, h);
@@ -124,7 +124,7 @@ pub(super) const STEP: ProbeKind = ProbeKind {
 
 pub(super) const CELLS: ProbeKind = ProbeKind {
     change: "cells of half the size",
-    cause: |_, _| "the cells: the levels are too coarse",
+    cause: |_, _| "the cell size: the levels are too coarse",
     remedy: "finer levels",
     apply: |plan| {
         let is_of_space = plan.refine.axis == Axis::Space;
@@ -162,7 +162,7 @@ fn changed_levels(
 
 pub(super) const START: ProbeKind = ProbeKind {
     change: "`start: half_step_back`",
-    cause: |_, _| "the start: v(0) is used for v(-dt/2), an error of first order in time",
+    cause: |_, _| "the start: v(0) is used as v(-dt/2), which is an error of first order in time",
     remedy: "`start: half_step_back`",
     apply: |plan| match plan.cases[0].method {
         Method::Mpm { start: Start::AtZero, .. } | Method::Fem { start: Start::AtZero, .. } => {
@@ -179,7 +179,7 @@ pub(super) const START: ProbeKind = ProbeKind {
 
 pub(super) const SCHEME: ProbeKind = ProbeKind {
     change: "`scheme: musl`",
-    cause: |_, _| "the scheme: USF updates the stress half a step late, first order in time",
+    cause: |_, _| "the scheme: USF updates the stress half a step late, an error of first order in time",
     remedy: "`scheme: musl` or `usl`, or shorter steps",
     apply: |plan| match plan.cases[0].method {
         Method::Mpm { scheme: SchemeName::Usf, .. } => with_method(plan, |method| {
@@ -194,8 +194,8 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
 pub(super) const DOMAINS: ProbeKind = ProbeKind {
     change: "`basis: cpgimp`",
     cause: |_, _| {
-        "domains of fixed width: they separate and overlap where the body is stretched and \
-         compressed, an error of the order of the strain"
+        "domains of fixed width: they separate where the body is stretched and overlap where it is \
+         compressed, which is an error proportional to the strain"
     },
     remedy: "`basis: cpgimp`, whose domains follow the deformation",
     apply: |plan| match plan.cases[0].method {
@@ -233,7 +233,7 @@ pub(super) const GRADIENTS: ProbeKind = ProbeKind {
 
 pub(super) const MASS: ProbeKind = ProbeKind {
     change: "the consistent mass matrix",
-    cause: |_, _| "lumping: row sums are not the mass that a smooth acceleration acts on",
+    cause: |_, _| "lumping: row sums are inexact for an acceleration that varies in space",
     remedy: "`mass: consistent`",
     apply: |plan| {
         let walls = plan.scene.faces.iter();
@@ -252,15 +252,15 @@ pub(super) const FRAME: ProbeKind = ProbeKind {
     cause: |case, crossings| match case.method {
         _ if crossings == Crossings::None => {
             "the motion itself, although no particle changes its cell: the grid does not follow the \
-             motion, and an exact solution of small strain neglects it"
+             motion, and an exact solution for small strains neglects the motion"
         }
         Method::Mpm { basis: BasisName::Linear, .. } => {
             "grid crossing: the nodal forces of linear functions jump whenever a particle changes \
              its cell"
         }
         _ => {
-            "the motion carries particles out of their places: they change cells and are drawn \
-             apart, and the quadrature is worse than at the start"
+            "the motion carries particles away from their initial positions in the cells, so the \
+             quadrature is less accurate than at the start"
         }
     },
     remedy: "`frame: total_lagrangian`, a smoother basis, or a smaller motion",

@@ -59,7 +59,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
         let place: Vec<String> = jump.place.iter().map(|x| format!("{x:.4}")).collect();
         let kind = if jump.order == 1 { "a kink" } else { "a jump" };
         let cause = format!(
-            "the exact solution is not smooth: it has {kind}, its {what} jumps at X = ({}) m, \
+            "the exact solution is not smooth: it has {kind}: its {what} jumps at X = ({}) m, \
              t = {:.3e} s",
             place.join(", "),
             jump.time
@@ -70,7 +70,7 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
         (length < STEEP * finest).then_some(())?;
         let cause = format!(
             "the exact solution is not smooth at the scale of the cells: its strain changes over \
-             {length:.1e} m, and the finest cells measure {finest:.1e} m, so that it has a kink"
+             {length:.1e} m, but the finest cells measure {finest:.1e} m, so the change is a kink"
         );
         (1, cause)
     };
@@ -87,12 +87,12 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let of = plan.of.words();
     let shown = observed.map_or("not determined".to_owned(), |order| order.shown());
     let evidence = format!(
-        "On such a solution a method of order {p} has an order of at most about {limit:.2} in the \
-         {norm} norm of the {of}; the observed order is {shown}."
+        "For such a solution, a method of formal order {p} has an order of at most about \
+         {limit:.2} in the {norm} norm of the {of}; the observed order is {shown}."
     );
     let manufactured = plan.manufactured().is_some() && jump < 2;
-    let lacking = " A manufactured force has no concentrated force at a kink, so that the solver \
-                   solves another problem.";
+    let lacking = " The manufactured body force lacks the concentrated force at the kink, so the \
+                   solver solves another problem.";
     Some(KnownCause {
         kind: KnownCauseKind::NotSmooth,
         cause,

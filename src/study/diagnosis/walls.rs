@@ -54,7 +54,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     Some(KnownCause {
         kind: KnownCauseKind::OutsideGrid,
         cause: format!(
-            "the {} wall moves along its normal, and a wall itself stays where the grid ends",
+            "the {} wall moves along its normal, but walls are fixed at the end of the grid",
             face.name
         ),
         evidence: format!(
@@ -64,7 +64,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
             path / finest
         ),
         remedy: Some(format!(
-            "let the wall slide along itself, or move little: by less than a cell{or_frame}"
+            "let the wall move only along its surface, or by less than a cell{or_frame}"
         )),
         order: None,
         explains: true,

@@ -52,7 +52,7 @@ fn inside_a_cell(preflight: &Preflight<'_>, plane: &Plane) -> Option<Diagnostic>
         format!("with {cells} cells {what} at {x:.4} m is {share:.2} cells away from a grid line");
     let found = preflight.finding(plane.severity, path, &message);
     Some(found.with_help(
-        "inside a cell it can reduce the order by one: choose a cell size that divides the length",
+        "a face or interface inside a cell can reduce the order by one: choose a cell size that divides the length",
     ))
 }
 

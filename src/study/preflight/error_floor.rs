@@ -156,8 +156,8 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(first) = levels.iter().find(|level| !is_above(level)) else { return Vec::new() };
     let above = levels.iter().filter(is_above).count();
     let message = format!(
-        "the solver computes in single precision: from {} cells on the error of the cells, about \
-         {:.1e} m, lies below the rounding bound of {:.1e} m, so that these levels do not count",
+        "the solver computes in single precision: from {} cells on, the discretisation error, \
+         about {:.1e} m, is below the rounding bound of {:.1e} m, so these levels do not count",
         first.cells, first.discretisation, first.rounding
     );
     let severity = if above < LEVELS { Severity::Warning } else { Severity::Note };

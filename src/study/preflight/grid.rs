@@ -24,7 +24,7 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let excluded = preflight.plan.crossing_levels == CrossingLevels::Excluded;
     let Some(case) = preflight.of_an_order().next() else { return Vec::new() };
     if levels.len() < FEWEST_LEVELS {
-        let message = format!("{} levels support no order", levels.len());
+        let message = format!("{} levels are too few for an order", levels.len());
         let label = format!("expected at least {FEWEST_LEVELS}");
         let found = preflight.finding(Severity::Warning, &preflight.sizes(), &message);
         return vec![found.with_label(&label)];
@@ -40,7 +40,10 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         levels.len()
     );
     let label = format!("expected at least {FEWEST_LEVELS} levels that count");
-    let help = format!("a smaller motion or coarser levels: case `{}` claims an order", case.name);
+    let help = format!(
+        "use a smaller motion or coarser levels, because case `{}` claims an order",
+        case.name
+    );
     let found = preflight.finding(Severity::Warning, &preflight.sizes(), &message);
     vec![found.with_label(&label).with_help(&help)]
 }
@@ -111,8 +114,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         let x = last_on_node(plan, axis, level)?;
         let (cells, name) = (level.cells, plan.scene.faces.get(2 * axis + 1)?.name);
         let message = format!(
-            "with {cells} cells the {name} row of particles starts on nodes, at {x} m: the nodes ahead \
-             have no mass, where linear functions lose the velocity and the force"
+            "with {cells} cells the {name} row of particles starts on nodes, at {x} m: the nodes beyond \
+             have no mass, so linear functions lose velocity and force there"
         );
         let found = preflight.finding(Severity::Warning, &Path::top("refine"), &message);
         Some(found.with_help(

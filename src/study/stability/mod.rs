@@ -148,9 +148,10 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     let full = if setup.full_steps == setup.steps {
         String::new()
     } else {
-        format!(", {} with --full", setup.full_steps)
+        format!(", or {} with the option --full", setup.full_steps)
     };
-    push("run", format!("{} steps{full}", setup.steps));
+    let plural = if setup.steps == 1 { "" } else { "s" };
+    push("run", format!("{} step{plural}{full}", setup.steps));
     if let Some(share) = setup.rule {
         push("dt", format!("{} times the stable time step", shown(share)));
     }
@@ -161,12 +162,15 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
         }
     }
     if setup.frozen {
-        push("configuration", "frozen, steps move neither particles nor domains".to_owned());
+        push("configuration", "frozen: steps move neither particles nor domains".to_owned());
     }
     if setup.perturb > 0.0 {
         push(
             "start",
-            format!("random perturbation of {:e} of every component of the state", setup.perturb),
+            format!(
+                "random perturbation of every component of the state, up to {:e} of its size",
+                setup.perturb
+            ),
         );
     }
     push(

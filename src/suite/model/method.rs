@@ -127,7 +127,7 @@ impl Method {
                     ("transfer", transfer.as_str()),
                     ("scheme", scheme.name()),
                     ("mass matrix", mass),
-                    ("walls", "nodes on a fixed face are held"),
+                    ("walls", "conditions are imposed on the nodes of each face"),
                     ("start", start.name()),
                 ];
                 // The default frame is omitted.
@@ -138,18 +138,18 @@ impl Method {
                     rows.push(("volume ratio", volume.name()));
                 }
                 if *precision == Precision::Single {
-                    rows.push(("precision", "single: the state is rounded after each pass"));
+                    rows.push(("precision", "single, with the state rounded after each pass"));
                 }
                 owned(rows)
             }
             Self::QuasiStatic { basis, .. } => owned(vec![
                 ("basis", basis.name()),
-                ("scheme", "quasi_static: Newton's method, consistent tangent"),
-                ("walls", "nodes on a fixed face are held"),
+                ("scheme", "quasi_static, by Newton's method with the consistent tangent"),
+                ("walls", "conditions are imposed on the nodes of each face"),
             ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
-                ("temperature", "increments and gradients are mapped"),
+                ("temperature transfer", "increments and gradients are mapped"),
                 ("capacity matrix", "lumped (row sum)"),
                 ("time integration", "forward Euler"),
             ]),
@@ -158,7 +158,13 @@ impl Method {
                 ("mass matrix", mass.name()),
                 ("law", law.name()),
                 ("start", start.name()),
-                ("error points", sampling.name()),
+                (
+                    "errors computed",
+                    match sampling {
+                        Sampling::Inside => "at points inside the elements",
+                        Sampling::Nodes => "at the nodes",
+                    },
+                ),
             ]),
             // The factory of an external solver provides its settings.
             Self::External { .. } => Vec::new(),

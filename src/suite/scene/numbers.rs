@@ -129,6 +129,26 @@ pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }
 
+/// Writes a scalar or a vector with its unit for reports: `2 m/s2`, `2*g [m/s2]` or
+/// `(0, -g) [m/s2]`.
+pub(crate) fn value_with_unit(formulas: &[Formula], unit: &str) -> String {
+    let list = sources(formulas);
+    let unit = unit_after(&list, unit);
+    if formulas.len() == 1 { format!("{list}{unit}") } else { format!("({list}){unit}") }
+}
+
+/// Appends a unit to formulas that are separated by commas. The unit is in brackets unless all
+/// formulas are numbers: `0.1, 0.2 s` or `h/3 [s]`.
+pub(crate) fn with_unit(text: &str, unit: &str) -> String {
+    format!("{text}{}", unit_after(text, unit))
+}
+
+/// Returns the unit as written after `text`, beginning with a space.
+pub(crate) fn unit_after(text: &str, unit: &str) -> String {
+    let is_number = |one: &str| one.parse::<f64>().is_ok();
+    if text.split(", ").all(is_number) { format!(" {unit}") } else { format!(" [{unit}]") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -137,6 +157,16 @@ mod tests {
 
     fn formula(text: &str, variables: &[&str]) -> Formula {
         Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), variables).unwrap()
+    }
+
+    #[rstest]
+    #[case::number(&["-2"], "-2 m/s2")]
+    #[case::formula(&["2*t"], "2*t [m/s2]")]
+    #[case::numbers(&["0", "-2"], "(0, -2) m/s2")]
+    #[case::formulas(&["0", "-2*t"], "(0, -2*t) [m/s2]")]
+    fn units_follow_values(#[case] texts: &[&str], #[case] expected: &str) {
+        let formulas: Vec<Formula> = texts.iter().map(|text| formula(text, &["t"])).collect();
+        assert_eq!(value_with_unit(&formulas, "m/s2"), expected);
     }
 
     #[rstest]

@@ -52,7 +52,7 @@ impl JudgedBox {
     pub fn words(&self) -> String {
         let corner = |corner: &[f64]| {
             let texts: Vec<String> = corner.iter().map(ToString::to_string).collect();
-            format!("({})", texts.join(", "))
+            if let [only] = &texts[..] { only.clone() } else { format!("({})", texts.join(", ")) }
         };
         format!("{} to {} m", corner(&self.from), corner(&self.to))
     }

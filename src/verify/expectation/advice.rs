@@ -43,14 +43,18 @@ pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let Some(order) = study.judgement.order else {
         if usable < FEWEST_LEVELS {
             let more = FEWEST_LEVELS - usable;
-            advice.push(format!("levels: an order needs {FEWEST_LEVELS} that count, {more} more"));
+            advice.push(format!(
+                "levels: an order needs {FEWEST_LEVELS} levels that count, so add {more}"
+            ));
         }
         return advice;
     };
     if study.verdict() == Verdict::Converging && study.axis != Axis::Particles {
         let (formal, seen) = (range(study.formal_order), order.shown());
         if !is_inside(&order, study.formal_order) {
-            advice.push(format!("the order {seen} barely meets {formal}, and is not proposed"));
+            advice.push(format!(
+                "the order {seen} is only just within {formal}, so it is not proposed"
+            ));
         }
     }
     let points = study.judgement.window.as_ref().map_or(0, Vec::len);

@@ -135,7 +135,10 @@ impl Expectation {
     pub fn summary(&self) -> String {
         let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
         parts.extend(self.order.map(|b| format!("order within {}", show(b))));
-        parts.extend(self.finest_pair.map(|b| format!("finest pair within {}", show(b))));
+        parts.extend(
+            self.finest_pair
+                .map(|b| format!("order between the two finest levels within {}", show(b))),
+        );
         parts.extend(self.crossings.map(|some| {
             format!("{} crossings on the finest level", if some { "some" } else { "no" })
         }));

@@ -73,8 +73,8 @@ pub fn propose(study: &Convergence) -> Proposal {
             because
         }
         None if study.compared => {
-            "from the run: bounds that hold today, without a claimed order; state the reason, or \
-             correct the suite"
+            "from the run: bounds that the results meet, without a claim about the order; state the \
+             reason, or correct the suite"
                 .to_owned()
         }
         None => "conserved sums; errors are not compared".to_owned(),

@@ -88,13 +88,14 @@ impl StabilityStudy {
     /// Explains the verdict with measured values.
     pub fn reason(&self) -> String {
         let count = self.rows.len();
-        let rows = if count == 1 { "row" } else { "rows" };
+        let values = if count == 1 { "value" } else { "values" };
+        let all = format!("{count} {values} of {}", self.swept);
         if self.sought.is_none() {
             let stable = |row: &&StabilityRow| {
                 row.trial.as_ref().is_some_and(|trial| trial.verdict == Stability::Stable)
             };
             let stable = self.rows.iter().filter(stable).count();
-            return format!("{stable} of {count} {rows} stable");
+            return format!("stable for {stable} of {all}");
         }
         let critical = || self.rows.iter().filter_map(|row| row.critical.as_ref());
         let values: Vec<f64> =
@@ -106,15 +107,16 @@ impl StabilityStudy {
         let shares = longest.into_iter().flat_map(|critical| &critical.confirmed);
         let shares: Vec<String> = shares.map(|(share, _)| share.to_string()).collect();
         let found = if values.is_empty() {
-            format!("none in the range, over {count} {rows}")
+            format!("none in the range, for {all}")
         } else {
             let (least, most) = (format_number(least), format_number(most));
-            format!("from {least} to {most} over {count} {rows}")
+            let range = if least == most { least } else { format!("from {least} to {most}") };
+            format!("{range} for {all}")
         };
         if runs == 0 {
             found
         } else {
-            format!("{found}; {runs} runs at {} of the predicted limits", shares.join(", "))
+            format!("{found}; {runs} runs at {} times the predicted limits", shares.join(", "))
         }
     }
 }

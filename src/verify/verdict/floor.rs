@@ -86,22 +86,18 @@ impl Floor {
             }
             None => "the cause of the error is unknown".to_owned(),
         };
-        let probe = |(k, probe): (usize, &Probe)| {
+        let probe = |probe: &Probe| {
             let axis = probe.axis.noun();
             match &probe.error {
-                Ok(error) if k == 0 => format!(
-                    "halving the {axis} changes the error from {} to {}",
-                    format_number(self.error),
-                    format_number(*error)
-                ),
-                Ok(error) => format!("halving the {axis} changes it to {}", format_number(*error)),
-                Err(reason) => format!("with half the {axis} the run fails ({reason})"),
+                Ok(error) => format!("{} with half the {axis}", format_number(*error)),
+                Err(reason) => format!("not available with half the {axis} ({reason})"),
             }
         };
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
-        let probes: Vec<String> = told.into_iter().chain(failed).enumerate().map(probe).collect();
-        format!("on the finest level {finding}: {}", probes.join(", "))
+        let probes: Vec<String> = told.into_iter().chain(failed).map(probe).collect();
+        let error = format_number(self.error);
+        format!("on the finest level {finding}; the error is {error}, {}", probes.join(", "))
     }
 }
 
@@ -142,13 +138,13 @@ mod tests {
     fn sentences() {
         assert_eq!(
             floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
-            "on the finest level the main cause of the error is the time step: halving the time step \
-             changes the error from 1 to 0.5, halving the particle spacing changes it to 1"
+            "on the finest level the main cause of the error is the time step; the error is 1, 0.5 \
+             with half the time step, 1 with half the particle spacing"
         );
         assert_eq!(
             floor(1.0, &[(Space, Err("J"))]).sentence(),
-            "on the finest level the cause of the error is unknown: with half the cell size the run \
-             fails (J)"
+            "on the finest level the cause of the error is unknown; the error is 1, not available \
+             with half the cell size (J)"
         );
     }
 }

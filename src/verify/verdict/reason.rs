@@ -45,10 +45,12 @@ impl Reason {
         let order = window.zip(line).map(|(points, line)| order_over(levels, axis, points, line));
         let cause = self.cause(levels, axis);
         match (self, order) {
-            (Self::Floor { .. }, Some(order)) => format!("{cause}; before that {order}"),
-            (Self::Floor { .. }, None) => format!("{cause}; no order before that"),
-            (Self::Against { .. }, Some(order)) => format!("{order}, {cause}"),
-            (_, Some(order)) => format!("{cause}: {order}"),
+            (Self::Floor { .. }, Some(order)) => {
+                format!("{cause}; before that, the order is {order}")
+            }
+            (Self::Floor { .. }, None) => format!("{cause}; before that, there is no order"),
+            (Self::Against { .. }, Some(order)) => format!("order {order}, {cause}"),
+            (_, Some(order)) => format!("{cause}: order {order}"),
             (_, None) => cause,
         }
     }
@@ -74,13 +76,13 @@ impl Reason {
     }
 }
 
-/// Formats an order, such as `order 2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`.
+/// Formats an order, such as `2.003 [1.991, 2.015] over 5 levels, h = 5 ... 0.4167`.
 fn order_over(levels: &[Level], axis: Axis, points: &[LogPoint], line: &FittedLine) -> String {
     let ends = [points.first(), points.last()];
     let [coarse, fine] = ends.map(|p| p.map_or(f64::NAN, |p| levels[p.level].h));
     let (order, count) = (order(&line.order()), points.len());
     let (coarse, fine) = (format_number(coarse), format_number(fine));
-    format!("order {order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
+    format!("{order} over {count} levels, {} = {coarse} ... {fine}", axis.symbol())
 }
 
 /// Formats error and spacing of a level, such as `0.25 at h = 0.5`.
@@ -111,7 +113,8 @@ fn floor(levels: &[Level], axis: Axis) -> String {
 
 fn against(verdict: Verdict, range: (f64, f64), overlaps: bool) -> String {
     let (low, high) = (format_number(range.0), format_number(range.1));
-    let undecided = if overlaps { ", but the interval overlaps it: not decided" } else { "" };
+    let undecided =
+        if overlaps { ", but the interval overlaps this range: not decided" } else { "" };
     match verdict {
         Verdict::Converging => format!("within [{low}, {high}]"),
         Verdict::TooGood => format!("above [{low}, {high}]{undecided}"),

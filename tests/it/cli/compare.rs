@@ -30,7 +30,7 @@ fn run_compared_with_itself_has_no_changes() {
     insta::assert_snapshot!(out, @"
     nothing worse: 2 unchanged
 
-    Figures count as equal within a share of 0.001.
+    Values count as equal within a relative difference of 0.001.
     ");
 }
 
@@ -202,9 +202,11 @@ fn changes_of_snapshots_are_listed() {
     insta::assert_snapshot!(out, @"
     nothing worse: 1 unchanged
 
-    Figures count as equal within a share of 0.001.
+    Values count as equal within a relative difference of 0.001.
     ");
+    // Former versions had the heading `finest error`.
     let worse = OVERVIEW.replace("1.000e-04", "2.000e-04");
+    let worse = worse.replace("finest error", "error, finest level");
     let found = snapshots(&worse, REPORT).call(&["compare", "old", "new"]);
     assert_eq!(found.code, FAILED);
     insta::assert_snapshot!(found.out, @"
@@ -214,7 +216,7 @@ fn changes_of_snapshots_are_listed() {
       case                verdict     order                 error   times                at
       bar::mpm-flip-musl  converging   1.99  1.000e-4 -> 2.000e-4  2.00 x  the finest level
 
-    Figures count as equal within a share of 0.001.
+    Values count as equal within a relative difference of 0.001.
     ");
     let failing = OVERVIEW.replace("  pass", "  NOT AS EXPECTED");
     let found = snapshots(&failing, REPORT).call(&["compare", "old", "new"]);
@@ -225,7 +227,7 @@ fn changes_of_snapshots_are_listed() {
       case                verdict                          order
       bar::mpm-flip-musl  converging -> converging (FAIL)   1.99
 
-    Figures count as equal within a share of 0.001.
+    Values count as equal within a relative difference of 0.001.
     ");
 }
 
@@ -236,17 +238,17 @@ fn changed_problem_is_not_reported_as_worse() {
     let found = snapshots(&worse, &stiffer).call(&["compare", "old", "new"]);
     assert_eq!(found.code, SOUND);
     insta::assert_snapshot!(found.out, @"
-    nothing worse: 1 of another problem
+    nothing worse: 1 with a changed problem
 
-    another problem, so that figures are not compared
+    changed problem: errors and orders are not compared
       bar: parameters E = 100 -> E = 101
       bar: left fixed -> roller
 
-    of another problem
+    with a changed problem
       case                verdict     order
       bar::mpm-flip-musl  converging   1.99
 
-    Figures count as equal within a share of 0.001.
+    Values count as equal within a relative difference of 0.001.
     ");
     let finer = REPORT.replace("0.1*h/c", "0.05*h/c");
     let found = snapshots(&worse, &finer).call(&["compare", "old", "new"]);

@@ -14,12 +14,12 @@ use rstest::rstest;
     "mpm-linear-flip-usl-vs-exact\n  expected: failed\n  because: a particle that has just entered",
 ])]
 #[case::a_linearised_wave("acoustic-column", &[
-    "linearised        residual of 2.0e-6 of the terms of its equations (5e-6 allowed), which causes an \
-     error of about 3e-13 m during the run, because strains are 1e-6",
+    "linearised        the residual of the exact solution is 2.0e-6 of the terms of its equations \
+     (tolerance: 5e-6) and causes an error of about 3e-13 m during the run. Reason: strains are 1e-6",
 ])]
 #[case::one_particle("grid-crossing", &[
     "grid-crossing: Mechanism of grid crossing",
-    "prediction        -sigma*Omega*(n_left - n_right)/h N",
+    "prediction        -sigma*Omega*(n_left - n_right)/h [N]",
     "mpm-linear\n  expected: agrees with the prediction within 1e-14\n  because: the gradients",
 ])]
 #[case::a_study_of_stability("courant-limit", &["mpm-linear-flip-usl\n  expected: predictions confirmed by runs; the limit 1/sqrt(2 - short) within"])]

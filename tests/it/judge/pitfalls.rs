@@ -116,8 +116,8 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
 
 /// An order outside the range, whose interval overlaps the range, is undecided.
 #[rstest]
-#[case(1.85, 0.06, Verdict::TooLow, "below [1.9, 2.1], but the interval overlaps it")]
-#[case(2.15, 0.06, Verdict::TooGood, "above [1.9, 2.1], but the interval overlaps it")]
+#[case(1.85, 0.06, Verdict::TooLow, "below [1.9, 2.1], but the interval overlaps this range")]
+#[case(2.15, 0.06, Verdict::TooGood, "above [1.9, 2.1], but the interval overlaps this range")]
 #[case(1.5, 0.01, Verdict::TooLow, "below [1.9, 2.1]")]
 #[case(2.5, 0.01, Verdict::TooGood, "above [1.9, 2.1]")]
 fn an_order_out_of_the_range_may_be_undecided(
@@ -132,7 +132,7 @@ fn an_order_out_of_the_range_may_be_undecided(
     let judgement = judge(&series, &OrderHypothesis::formal(2.0));
     assert_eq!(judgement.verdict, verdict, "{}", judgement.reason);
     assert!(judgement.reason.contains(words), "{}", judgement.reason);
-    let undecided = judgement.reason.ends_with("the interval overlaps it: not decided");
+    let undecided = judgement.reason.ends_with("the interval overlaps this range: not decided");
     let interval = judgement.order.unwrap();
     assert_eq!(undecided, interval.low <= 2.1 && interval.high >= 1.9);
 }

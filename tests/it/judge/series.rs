@@ -201,8 +201,8 @@ fn a_floor_is_that_of_usable_levels() {
 #[case(&POWERS_OF_4[..3], "3 usable levels, but an order needs 4")]
 #[case(&[4.0, 2.0, 4.0, 2.0], "the error goes up and down without a trend: 4, 2, 4, 2")]
 #[case(&[4.0, 1.0, 2.0, 4.0], "the error grows from 1 at h = 0.5 to 4 at h = 0.125: order -1.000 [-1.000, -1.000] over 3 levels, h = 0.5 ... 0.125")]
-#[case(&[4.0, 1.0, 0.0, 0.0], "the error stays at 0 for h <= 0.25; no order before that")]
-#[case(&[16.0, 4.0, 1.0, 0.0], "the error stays at 0 for h <= 0.125; before that order 2.000 [2.000, 2.000] over 3 levels, h = 1 ... 0.25")]
+#[case(&[4.0, 1.0, 0.0, 0.0], "the error stays at 0 for h <= 0.25; before that, there is no order")]
+#[case(&[16.0, 4.0, 1.0, 0.0], "the error stays at 0 for h <= 0.125; before that, the order is 2.000 [2.000, 2.000] over 3 levels, h = 1 ... 0.25")]
 fn reasons_give_the_figures(#[case] errors: &[f64], #[case] expected: &str) {
     assert_eq!(judged(errors, 2.0).reason, expected);
 }

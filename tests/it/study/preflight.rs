@@ -74,7 +74,7 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
 #[rstest]
 #[case::too_few_levels(
     &[("[6, 12, 18, 24]", "[6, 12, 18]")],
-    Severity::Warning, ("cells", "3 levels support no order", "at least 4")
+    Severity::Warning, ("cells", "3 levels are too few for an order", "at least 4")
 )]
 #[case::a_multiple_of_the_stable_step(
     &[("dt: \"0.2*h/c\"", "dt: {courant: 5}")],
@@ -106,7 +106,7 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
 )]
 #[case::single_precision_that_shows(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
-    Severity::Warning, ("displacement", "from 12 cells on the error of the cells, about 3.4e-7 m, lies below the rounding bound of 6.9e-7 m", "an amplitude 17 times as large leaves 4 levels above the bound")
+    Severity::Warning, ("displacement", "from 12 cells on, the discretisation error, about 3.4e-7 m, is below the rounding bound of 6.9e-7 m", "an amplitude 17 times as large leaves 4 levels above the bound")
 )]
 #[case::single_precision_far_from_the_origin(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 1e-4")],
@@ -114,7 +114,7 @@ fn findings(sound: &str, edits: &[(&str, &str)]) -> Vec<Diagnostic> {
 )]
 #[case::single_precision_on_a_fifth_level(
     &[(MPM, SINGLE), ("a: 1e-8", "a: 2e-3"), ("[6, 12, 18, 24]", "[6, 12, 18, 24, 48]")],
-    Severity::Note, ("displacement", "from 48 cells on the error of the cells", "")
+    Severity::Note, ("displacement", "from 48 cells on, the discretisation error", "")
 )]
 #[case::small_strain_at_rest(
     &[

@@ -49,7 +49,7 @@ impl BoundaryCondition for FrictionFace {
     }
 
     fn row(&self) -> String {
-        format!("wall without tension, coefficient of friction {:.4}", self.0)
+        format!("wall without tension, with the coefficient of friction {:.4}", self.0)
     }
 
     fn strength(&self) -> u8 {

@@ -4,7 +4,7 @@ use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry,
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Prescribed};
-use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, sources};
+use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ impl BoundaryCondition for MovingFace {
     }
 
     fn row(&self) -> String {
-        format!("velocity {} m/s", sources(&self.0))
+        format!("velocity = {}", value_with_unit(&self.0, "m/s"))
     }
 
     fn is_driven(&self) -> bool {

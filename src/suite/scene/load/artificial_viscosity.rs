@@ -78,8 +78,8 @@ impl SceneLoad for ViscosityLoad {
 
     fn rows(&self) -> Vec<(String, String)> {
         let Self { linear, quadratic, .. } = self;
-        let text = format!("artificial, linear {linear}, quadratic {quadratic}");
-        vec![("viscosity".to_owned(), text)]
+        let text = format!("linear coefficient {linear}, quadratic coefficient {quadratic}");
+        vec![("artificial viscosity".to_owned(), text)]
     }
 
     fn disturbs_rest(&self) -> bool {

@@ -5,7 +5,9 @@ use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Formula, Hoisted, Jet};
 use crate::mpm::{BodyForce, Effect, Particles, Vector};
-use crate::suite::scene::numbers::{LoadNumbers, of_displacement, of_place_and_time, sources};
+use crate::suite::scene::numbers::{
+    LoadNumbers, of_displacement, of_place_and_time, value_with_unit,
+};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -96,7 +98,7 @@ impl SceneLoad for BodyForceLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![("body force".to_owned(), format!("{} m/s2", sources(&self.0)))]
+        vec![("body force".to_owned(), value_with_unit(&self.0, "m/s2"))]
     }
 }
 

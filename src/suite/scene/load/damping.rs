@@ -6,7 +6,7 @@ use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Damping, Effect};
 use crate::suite::evaluator::shown;
-use crate::suite::scene::numbers::LoadNumbers;
+use crate::suite::scene::numbers::{LoadNumbers, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -68,7 +68,7 @@ impl SceneLoad for DampingLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![("damping".to_owned(), format!("{} 1/s", self.0.source()))]
+        vec![("damping".to_owned(), with_unit(self.0.source(), "1/s"))]
     }
 }
 

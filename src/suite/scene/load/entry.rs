@@ -207,8 +207,12 @@ pub(crate) struct LoadedSet {
 impl LoadedSet {
     pub(crate) fn row(&self, load: &str) -> (String, String) {
         let Region { name, from, to } = &self.region;
-        let corner = |c: &[f64]| c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        (format!("set `{name}`"), format!("({}) to ({}) m, {load}", corner(from), corner(to)))
+        let corner = |c: &[f64]| {
+            let coordinates = c.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+            if c.len() == 1 { coordinates } else { format!("({coordinates})") }
+        };
+        let text = format!("{} to {} m, {load}", corner(from), corner(to));
+        (format!("particle set `{name}`"), text)
     }
 
     /// Returns the indices of the particles in the set.

@@ -5,7 +5,7 @@ use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, Gravity};
-use crate::suite::scene::numbers::{LoadNumbers, of_time, sources};
+use crate::suite::scene::numbers::{LoadNumbers, of_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ impl SceneLoad for GravityLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![("gravity".to_owned(), format!("{} m/s2", sources(&self.0)))]
+        vec![("gravity".to_owned(), value_with_unit(&self.0, "m/s2"))]
     }
 }
 

@@ -17,6 +17,7 @@ use crate::suite::scene::boundary::thermal::{
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::by_face;
 use crate::suite::scene::face::face;
+use crate::suite::scene::numbers::with_unit;
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use std::sync::Arc;
 
@@ -106,13 +107,14 @@ impl SceneLoad for SceneHeat {
     fn rows(&self) -> Vec<(String, String)> {
         let (k, c) = (self.conductivity, self.capacity);
         let mut texts = vec![format!("conductivity {k} W/(m K), capacity {c} J/(kg K)")];
-        texts.extend(self.source.iter().map(|source| format!("source {} W/kg", source.source())));
-        texts
-            .extend(self.initial.iter().map(|initial| format!("initially {} K", initial.source())));
-        let faces = self
-            .faces
-            .iter()
-            .filter_map(|face| Some((format!("heat {}", face.name), face.condition.row()?)));
+        let row = |name: &str, value: &Formula, unit: &str| {
+            format!("{name} = {}", with_unit(value.source(), unit))
+        };
+        texts.extend(self.source.iter().map(|source| row("source", source, "W/kg")));
+        texts.extend(self.initial.iter().map(|initial| row("initial temperature", initial, "K")));
+        let faces = self.faces.iter().filter_map(|face| {
+            Some((format!("thermal condition {}", face.name), face.condition.row()?))
+        });
         [("heat".to_owned(), texts.join(", "))].into_iter().chain(faces).collect()
     }
 

@@ -8,7 +8,7 @@ use crate::fem::TimeFunction;
 use crate::mpm::{Effect, Placement, Pressure, RimCircle, Side};
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::face_or_rim;
-use crate::suite::scene::numbers::{LoadNumbers, scalar};
+use crate::suite::scene::numbers::{LoadNumbers, scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -100,7 +100,8 @@ impl SceneLoad for PressureLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        let pressure = format!("pressure {} Pa, which follows the", self.value.source());
+        let pressure = with_unit(self.value.source(), "Pa");
+        let pressure = format!("pressure = {pressure}, normal to the deformed");
         vec![match &self.site {
             PressedPart::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
             PressedPart::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),

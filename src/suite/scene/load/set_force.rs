@@ -6,7 +6,7 @@ use crate::exact::Term;
 use crate::exact::formula::Formula;
 use crate::mpm::{Effect, SetForce};
 use crate::subject::PlaneState;
-use crate::suite::scene::numbers::{LoadNumbers, of_time, sources};
+use crate::suite::scene::numbers::{LoadNumbers, of_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -78,7 +78,7 @@ impl SceneLoad for SetForceLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![self.set.row(&format!("total force {} N", sources(&self.value)))]
+        vec![self.set.row(&format!("total force = {}", value_with_unit(&self.value, "N")))]
     }
 }
 

@@ -5,7 +5,7 @@ use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Term};
 use crate::mpm::{Effect, PrescribedVelocity};
-use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, sources};
+use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ impl SceneLoad for SetVelocityLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![self.set.row(&format!("velocity {} m/s", sources(&self.value)))]
+        vec![self.set.row(&format!("velocity = {}", value_with_unit(&self.value, "m/s")))]
     }
 }
 

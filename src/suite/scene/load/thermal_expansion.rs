@@ -88,7 +88,7 @@ impl Term for ExpansionLoad {
 impl SceneLoad for ExpansionLoad {
     fn rows(&self) -> Vec<(String, String)> {
         let Expansion { coefficient, reference } = self.0;
-        let text = format!("{coefficient} 1/K, zero strain at {reference} K");
+        let text = format!("coefficient {coefficient} per K, zero strain at {reference} K");
         vec![("thermal expansion".to_owned(), text)]
     }
 

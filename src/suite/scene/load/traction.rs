@@ -8,7 +8,7 @@ use crate::fem::TimeFunction;
 use crate::mpm::{Effect, Placement, Traction};
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::face_name;
-use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, sources};
+use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -71,7 +71,8 @@ impl SceneLoad for TractionLoad {
     }
 
     fn rows(&self) -> Vec<(String, String)> {
-        vec![self.face.row(&format!("traction {} Pa", sources(&self.value)), self.placement)]
+        let traction = format!("traction = {}", value_with_unit(&self.value, "Pa"));
+        vec![self.face.row(&traction, self.placement)]
     }
 
     fn condition(self: Arc<Self>) -> Option<Arc<dyn Condition>> {

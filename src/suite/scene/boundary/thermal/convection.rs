@@ -6,7 +6,7 @@ use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
 use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
-use crate::suite::scene::numbers::scalar;
+use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -49,7 +49,8 @@ impl ThermalCondition for Convection {
 impl HeatCondition for Convection {
     fn row(&self) -> Option<String> {
         let Self { coefficient, ambient } = self;
-        Some(format!("convection, {coefficient} W/(m2 K), ambient {} K", ambient.source()))
+        let ambient = with_unit(ambient.source(), "K");
+        Some(format!("convection, {coefficient} W/(m2 K), ambient temperature = {ambient}"))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
 use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
-use crate::suite::scene::numbers::scalar;
+use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ impl ThermalCondition for GivenFlux {
 
 impl HeatCondition for GivenFlux {
     fn row(&self) -> Option<String> {
-        Some(format!("heat flux {} W/m2 into the body", self.0.source()))
+        Some(format!("heat flux = {} into the body", with_unit(self.0.source(), "W/m2")))
     }
 }
 

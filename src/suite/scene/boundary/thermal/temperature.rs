@@ -6,7 +6,7 @@ use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
 use crate::mpm::Thermal;
 use crate::suite::scene::boundary::FaceEntry;
-use crate::suite::scene::numbers::scalar;
+use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ impl ThermalCondition for GivenTemperature {
 
 impl HeatCondition for GivenTemperature {
     fn row(&self) -> Option<String> {
-        Some(format!("temperature {} K", self.0.source()))
+        Some(format!("temperature = {}", with_unit(self.0.source(), "K")))
     }
 }
 
