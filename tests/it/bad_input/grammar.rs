@@ -90,7 +90,7 @@ fn a_stability_study_without_a_run() {
     &["a particle's volume is -0.125, but must be above zero"]
 )]
 #[case::no_reason(
-    &[("because: >\n", "because: ▸\"\" #\n"), ("      the gradients of", "      # the gradients of"), ("      the error that", "      # the error that")],
+    &[("because: >\n", "because: ▸\"\" #\n"), ("      the gradients of", "      # the gradients of"), ("      force jumps when", "      # force jumps when")],
     &["`because` is empty: state the reason for this expectation"]
 )]
 #[case::a_basis_twice(

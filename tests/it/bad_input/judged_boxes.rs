@@ -53,7 +53,7 @@ const FREE: (&str, &str) = ("  boundary: {left: fixed}\n", "");
 )]
 #[case::an_observed_place_outside_the_box(
     &[("{norm: rms}", "{norm: rms, within: {from: [15], to: [20]}}"), ("at: [12.5]", "at: ▸[12.5]")],
-    &["the observed point is outside `judge.within`", "expected a point in (15) to (20) m"]
+    &["the observed point is outside `judge.within`", "expected a point in 15 to 20 m"]
 )]
 #[case::a_wave_from_the_low_face(
     &[FREE, OBSERVE, ("{norm: rms}", "{norm: rms, within: {from: [▸4.9], to: [20]}}")],
