@@ -180,8 +180,9 @@ pub(crate) fn row(problem: &Problem, norm: NormName) -> String {
     let (residual, error) = left.map_or((f64::NAN, f64::NAN), |left| (left.residual, left.error));
     let allowed = shown(stated.tolerance);
     format!(
-        "the residual of the exact solution is {residual:.1e} of the terms of its equations \
-         (tolerance: {allowed}) and causes an error of about {error:.0e} m {when}. Reason: {}",
+        "the exact solution is approximate: its equations have a residual of {residual:.1e} times \
+         their terms (tolerance: {allowed}), which causes an error of about {error:.0e} m {when}. \
+         Reason for the tolerance: {}",
         stated.because
     )
 }

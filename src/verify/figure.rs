@@ -200,7 +200,7 @@ run_figures! {
     /// Largest stress at the end, divided by the modulus.
     Stress = "stress", "stress/M", |trial| trial.stress;
     /// Largest displacement (m) at the end.
-    Displacement = "displacement", "displacement (m)", |trial| trial.displacement;
+    Displacement = "displacement", "largest displacement (m)", |trial| trial.displacement;
     /// Number of steps.
     Steps = "steps", "steps", |trial| trial.steps as f64;
     /// Difference between the sum of the entries of the energy ledger and the change of the energy,

@@ -43,8 +43,12 @@ pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
-        let work = columns::reach_text(row.reaches[k]).replace("<=", "at most ");
-        Some(format!("{target:e}: {}, {work} {TRANSFERS}", row.method.name))
+        let work = columns::reach_text(row.reaches[k]).replace("<=", "");
+        let coarsest = match row.reaches[k] {
+            Reach::Already { .. } => " on its coarsest level",
+            _ => "",
+        };
+        Some(format!("{target:e}: {}{coarsest}, {work} {TRANSFERS}", row.method.name))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
     let errors = relative(ranking, study);
@@ -65,7 +69,7 @@ fn relative(ranking: &Ranking, study: Option<&Convergence>) -> String {
         Some(Convergence { of, scale: Some(scale), .. }) if is_scaled => {
             with_unit(of.shown_scale(*scale), *of)
         }
-        _ if is_scaled => "divided by the `scale` of the suite".to_owned(),
+        None if is_scaled => "divided by the `scale` of the suite".to_owned(),
         Some(Convergence { of, .. }) => format!("{}, {}", with_unit(size, *of), of.size_words()),
         None => format!("divided by {size}, the largest exact value of the judged quantity"),
     }

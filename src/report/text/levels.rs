@@ -42,17 +42,22 @@ fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         study.levels.iter().map(|level| level.run.counters.crossings).collect()
     };
     let counts = |study: &Convergence| crossed(study).iter().any(Option::is_some);
-    let first = |study: &Convergence| {
-        let level = crossed(study).iter().position(|count| count.unwrap_or(0) > 0)?;
-        Some(study.levels[level].name(study.axis))
-    };
+    let first =
+        |study: &Convergence| crossed(study).iter().position(|count| count.unwrap_or(0) > 0);
     let is_listed = |(_, study): &&NamedStudy<'_>| study.levels.len() > 1 && counts(study);
     let listed: Vec<NamedStudy<'_>> = studies.iter().filter(is_listed).copied().collect();
     if listed.iter().all(|(_, study)| first(study).is_none()) {
         return;
     }
     let text = |study: &Convergence| match first(study) {
-        Some(level) => format!("particles change cells from the level with {level} on"),
+        Some(0) => "particles change cells on every level".to_owned(),
+        Some(level) if level + 1 == study.levels.len() => {
+            "particles change cells on the finest level only".to_owned()
+        }
+        Some(level) => {
+            let name = study.levels[level].name(study.axis);
+            format!("particles change cells on the level with {name} and on finer levels")
+        }
         None => "no particle changes its cell".to_owned(),
     };
     for (text, names) in shared(listed.iter().map(|(name, study)| (*name, text(study)))) {
@@ -190,12 +195,12 @@ fn by_level<'a>(
 }
 
 /// Returns the heading of a value that belongs to a level and the next coarser one: both names, or
-/// only the name of the finer level if the names are long.
+/// the numbers of the two levels if the names are long.
 fn pair_heading(names: &[String], index: usize) -> String {
     let fine = &names[index];
     match index.checked_sub(1).map(|coarser| &names[coarser]) {
         Some(coarse) if coarse.len() + fine.len() <= LONGEST_PAIR => format!("{coarse}-{fine}"),
-        _ => format!("to {fine}"),
+        _ => format!("levels {index}-{}", index + 1),
     }
 }
 

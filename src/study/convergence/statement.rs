@@ -19,6 +19,8 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         if problem.manufactured {
             push(&mut rows, "motion", &problem.motion.source());
             push(&mut rows, "body force", "manufactured, b = u_tt - Div P / rho0");
+        } else {
+            push(&mut rows, "exact displacement", &problem.motion.source());
         }
         push(&mut rows, "equation", problem.equation.text());
         if problem.at_rest {
@@ -43,6 +45,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     refinement(plan, &mut rows);
     if !is_truthless(plan) {
         push(&mut rows, "judged", &judged(plan));
+        push(&mut rows, "errors", &divisor(plan));
     }
     if let Some(within) = &plan.within {
         let text = format!("initial positions from {}", within.words());
@@ -89,6 +92,16 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
     }
 }
 
+/// Returns the formula and the value by which errors are divided; empty if the suite states no
+/// formula.
+fn divisor(plan: &ConvergencePlan) -> String {
+    let (Some(formula), Some(scale)) = (&plan.scale_formula, plan.scale) else {
+        return String::new();
+    };
+    let text = format!("divided by {formula} = {} {}", plan.of.shown_scale(scale), plan.of.unit());
+    text.trim_end().to_owned()
+}
+
 fn judged(plan: &ConvergencePlan) -> String {
     if let Some(sum) = &plan.sum {
         let (norm, of, unit) = (plan.norm.name(), plan.of.words(), plan.of.unit());
@@ -99,7 +112,10 @@ fn judged(plan: &ConvergencePlan) -> String {
         return format!("{norm} over the instants of the error of the {of}, divided by {divisor}");
     }
     let judged = format!("{} error of the {}", plan.norm.name(), plan.of.words());
-    plan.scale.map_or_else(|| judged.clone(), |scale| format!("{judged}, divided by {scale}"))
+    match plan.scale.filter(|_| plan.scale_formula.is_none()) {
+        Some(scale) => format!("{judged}, divided by {scale}"),
+        None => judged,
+    }
 }
 
 /// Returns the rows with time steps and particles, and with cells if they are not refined.
@@ -125,7 +141,12 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         format!("{share} times the stable time step of each case and level")
     });
     if study.steps == StepKind::Time {
-        push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps"));
+        // Runs are compared with each other only at instants that they share.
+        let between = match study.cases.iter().any(|case| case.against.is_computed()) {
+            true => ", or of steps between instants if compared with another run",
+            false => "",
+        };
+        push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps{between}"));
         push(rows, "instants", &format!("{instants}"));
     }
     if plan.has_particles() {

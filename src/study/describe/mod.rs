@@ -8,6 +8,7 @@ use crate::study::setup::dispatch;
 use crate::subject::{PlaneState, Profile};
 use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
+use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::{sources, unit_after};
@@ -15,11 +16,19 @@ use crate::verify::rounded;
 
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
-    let parameter = |(name, text, value): &(String, String, Option<f64>)| match value {
-        Some(value) if text.parse() != Ok(*value) => {
-            format!("{name} = {text} = {}", shown(rounded(*value, 7)))
+    let varied = varied(suite);
+    let parameter = |(name, text, value): &(String, String, Option<f64>)| {
+        if let Some((_, row)) = varied.iter().find(|(known, _)| known == name)
+            && let Some(row) = row
+        {
+            return format!("{name} (see {row})");
         }
-        _ => format!("{name} = {text}"),
+        match value {
+            Some(value) if text.parse() != Ok(*value) && !reads(text, &varied) => {
+                format!("{name} = {text} = {}", shown(rounded(*value, 7)))
+            }
+            _ => format!("{name} = {text}"),
+        }
     };
     let parameters: Vec<String> = suite.parameters.iter().map(parameter).collect();
     push(&mut rows, "parameters", &parameters.join(", "));
@@ -27,6 +36,26 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
         push(&mut rows, "function", &format!("{head} = {body}"));
     }
     rows
+}
+
+/// Returns the parameters of a stability study whose values differ between runs: the swept and the
+/// sought parameter, each with the name of its row, and the parameters that depend on them.
+fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
+    let Some(plan) = suite.plan::<StabilityPlan>() else { return Vec::new() };
+    let mut varied = vec![(plan.swept.clone(), Some("sweep"))];
+    varied.extend(plan.sought.iter().map(|(name, ..)| (name.clone(), Some("search"))));
+    for (name, text, _) in &suite.parameters {
+        if reads(text, &varied) && varied.iter().all(|(known, _)| known != name) {
+            varied.push((name.clone(), None));
+        }
+    }
+    varied
+}
+
+/// Whether a formula contains the name of one of the parameters.
+fn reads(text: &str, parameters: &[(String, Option<&'static str>)]) -> bool {
+    let mut names = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+    names.any(|name| parameters.iter().any(|(parameter, _)| parameter == name))
 }
 
 pub(crate) type Rows = Vec<(String, String)>;

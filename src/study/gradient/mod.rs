@@ -128,7 +128,9 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
 
 fn rows(plan: &GradientPlan) -> Rows {
     let mut rows = statement::rows(&plan.problem);
-    rows.retain(|(key, _)| !["instants", "judged", "crossing levels"].contains(&key.as_str()));
+    rows.retain(|(key, _)| {
+        !["instants", "judged", "errors", "crossing levels"].contains(&key.as_str())
+    });
     push(&mut rows, "functional", &plan.of.name().replace('_', " "));
     for one in &plan.parameters {
         let follows = match one.velocity_factor {

@@ -98,6 +98,12 @@ pub(crate) fn convergence_plan(
         sum: None,
         within,
         scale: scale.transpose()?,
+        scale_formula: spec
+            .judge
+            .scale
+            .as_ref()
+            .map(ToString::to_string)
+            .filter(|text| text.parse::<f64>().is_err()),
         crossing_levels: spec.judge.crossing_levels,
         any_method: AnyMethod::default(),
         cases: Vec::new(),

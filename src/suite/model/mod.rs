@@ -81,6 +81,8 @@ pub struct ConvergencePlan {
     pub within: Option<JudgedBox>,
     /// Divisor of the error, if any.
     pub scale: Option<f64>,
+    /// Formula of the divisor; `None` if the suite states a number or nothing.
+    pub scale_formula: Option<String>,
     /// Whether the order may use levels on which particles change their cell.
     pub crossing_levels: CrossingLevels,
     /// Accuracy that any method can reach.

@@ -133,7 +133,11 @@ impl Expectation {
 
     /// Returns the expectation in one line, for reports.
     pub fn summary(&self) -> String {
-        let mut parts: Vec<String> = self.verdict.iter().map(Verdict::to_string).collect();
+        let verdict = |verdict: &Verdict| match verdict {
+            Verdict::TooLow => "too low (below the order of theory)".to_owned(),
+            other => other.to_string(),
+        };
+        let mut parts: Vec<String> = self.verdict.iter().map(verdict).collect();
         parts.extend(self.order.map(|b| format!("order within {}", show(b))));
         parts.extend(
             self.finest_pair
@@ -144,7 +148,7 @@ impl Expectation {
         }));
         parts.extend(self.limits.summary());
         parts.extend(self.floor.map(|cause| match cause {
-            FloorCause::Nothing => "floor that no axis lowers".to_owned(),
+            FloorCause::Nothing => "floor that no single refinement lowers".to_owned(),
             _ => format!("floor caused by {}", cause.name()),
         }));
         parts.join(", ")

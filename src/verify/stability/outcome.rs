@@ -89,7 +89,7 @@ impl StabilityStudy {
     pub fn reason(&self) -> String {
         let count = self.rows.len();
         let values = if count == 1 { "value" } else { "values" };
-        let all = format!("{count} {values} of {}", self.swept);
+        let all = format!("{count} {values} of `{}`", self.swept);
         if self.sought.is_none() {
             let stable = |row: &&StabilityRow| {
                 row.trial.as_ref().is_some_and(|trial| trial.verdict == Stability::Stable)

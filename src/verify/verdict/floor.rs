@@ -82,7 +82,7 @@ impl Floor {
             Some(FloorCause::Space) => of(Axis::Space),
             Some(FloorCause::Particles) => of(Axis::Particles),
             Some(FloorCause::Nothing) => {
-                "no finer spacing lowers the error by a quarter".to_owned()
+                "no refinement tested here lowers the error by a quarter".to_owned()
             }
             None => "the cause of the error is unknown".to_owned(),
         };

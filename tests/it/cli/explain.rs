@@ -14,8 +14,9 @@ use rstest::rstest;
     "mpm-linear-flip-usl-vs-exact\n  expected: failed\n  because: a particle that has just entered",
 ])]
 #[case::a_linearised_wave("acoustic-column", &[
-    "linearised        the residual of the exact solution is 2.0e-6 of the terms of its equations \
-     (tolerance: 5e-6) and causes an error of about 3e-13 m during the run. Reason: strains are 1e-6",
+    "linearised        the exact solution is approximate: its equations have a residual of 2.0e-6 \
+     times their terms (tolerance: 5e-6), which causes an error of about 3e-13 m during the run. \
+     Reason for the tolerance: strains are 1e-6",
 ])]
 #[case::one_particle("grid-crossing", &[
     "grid-crossing: Mechanism of grid crossing",

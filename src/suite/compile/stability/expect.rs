@@ -3,8 +3,8 @@
 use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
 use crate::suite::model::stability::SetupTemplate;
-use crate::suite::yaml::{Diagnostic, Path};
-use crate::verify::{FigureBounds, RunFigure, StabilityExpectation};
+use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::verify::{FigureBounds, RunFigure, StabilityExpectation, format_number};
 
 pub(crate) fn named(
     evaluator: &Evaluator<'_>,
@@ -131,7 +131,14 @@ fn wanted(
     Ok(FigureBounds { is, above, below })
 }
 
-pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
+/// Describes entry `spec` of `expect`. `expected` are its expectations for `rows`, which contain the
+/// value of the swept parameter.
+pub(crate) fn summary(
+    spec: &StabilityExpectSpec,
+    expected: &[StabilityExpectation],
+    rows: &[Vec<(&str, f64)>],
+    predicted: bool,
+) -> String {
     let mut parts = Vec::new();
     if let Some(verdicts) = &spec.verdict {
         let names: Vec<&str> = verdicts.as_slice().iter().map(|verdict| verdict.words()).collect();
@@ -141,22 +148,59 @@ pub(crate) fn summary(spec: &StabilityExpectSpec, predicted: bool) -> String {
         parts.push("predictions confirmed by runs".to_owned());
     }
     if let Some(critical) = &spec.critical {
-        parts.push(format!("the limit {}", bounds_text(critical)));
+        let bounds: Vec<FigureBounds> = expected.iter().filter_map(|row| row.critical).collect();
+        parts.push(format!("the limit {}", bounds_text(critical, &bounds, rows)));
     }
-    let figures = spec.figures.as_slice().iter();
-    parts.extend(figures.map(|(name, spec)| {
+    let figures = spec.figures.as_slice().iter().enumerate();
+    parts.extend(figures.map(|(k, (name, spec))| {
+        let of_row = |row: &StabilityExpectation| row.figures.get(k).map(|(_, bounds)| *bounds);
+        let bounds: Vec<FigureBounds> = expected.iter().filter_map(of_row).collect();
         let known = RunFigure::by_name(name);
-        format!("{} {}", known.map_or(name.as_str(), |figure| figure.head()), bounds_text(spec))
+        let head = known.map_or(name.as_str(), |figure| figure.head());
+        format!("{head} {}", bounds_text(spec, &bounds, rows))
     }));
     parts.join("; ")
 }
 
-fn bounds_text(spec: &FigureSpec) -> String {
+fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f64)>]) -> String {
+    let text = |text: &NumberText, value: fn(&FigureBounds) -> Option<f64>| {
+        let values: Vec<f64> = bounds.iter().filter_map(value).collect();
+        with_values(&text.to_string(), &values, rows)
+    };
     let mut parts = Vec::new();
     if let (Some(is), Some(within)) = (&spec.is, &spec.within) {
+        let is = text(is, |bounds| Some(bounds.is?.0));
         parts.push(format!("{is} within {within}"));
     }
-    parts.extend(spec.above.as_ref().map(|least| format!("at least {least}")));
-    parts.extend(spec.below.as_ref().map(|most| format!("at most {most}")));
+    let above = spec.above.as_ref().map(|least| text(least, |bounds| bounds.above));
+    let below = spec.below.as_ref().map(|most| text(most, |bounds| bounds.below));
+    parts.extend(above.map(|least| format!("at least {least}")));
+    parts.extend(below.map(|most| format!("at most {most}")));
     parts.join(", ")
+}
+
+/// Maximum number of rows for which the values of a formula are written out.
+const MOST_VALUES: usize = 3;
+
+/// Returns a bound in words. A formula with one value for all rows is followed by this value; a
+/// formula with few values is replaced by them.
+fn with_values(formula: &str, values: &[f64], rows: &[Vec<(&str, f64)>]) -> String {
+    if formula.parse::<f64>().is_ok() || values.len() != rows.len() {
+        return formula.to_owned();
+    }
+    let shown: Vec<String> = values.iter().map(|value| format_number(*value)).collect();
+    match &shown[..] {
+        [first, others @ ..] if others.iter().all(|other| other == first) => {
+            format!("{formula} = {first}")
+        }
+        _ if rows.len() <= MOST_VALUES => {
+            let of_row = |(value, row): (&String, &Vec<(&str, f64)>)| {
+                let swept: Vec<String> =
+                    row.iter().map(|(name, swept)| format!("{name} = {swept}")).collect();
+                format!("{value} for {}", swept.join(", "))
+            };
+            shown.iter().zip(rows).map(of_row).collect::<Vec<_>>().join(" and ")
+        }
+        _ => formula.to_owned(),
+    }
 }
