@@ -170,6 +170,7 @@ fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f6
     let mut parts = Vec::new();
     if let (Some(is), Some(within)) = (&spec.is, &spec.within) {
         let is = text(is, |bounds| Some(bounds.is?.0));
+        let within = text(within, |bounds| Some(bounds.is?.1));
         parts.push(format!("{is} within {within}"));
     }
     let above = spec.above.as_ref().map(|least| text(least, |bounds| bounds.above));
