@@ -18,9 +18,7 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let varied = varied(suite);
     let parameter = |(name, text, value): &(String, String, Option<f64>)| {
-        if let Some((_, row)) = varied.iter().find(|(known, _)| known == name)
-            && let Some(row) = row
-        {
+        if let Some((_, Some(row))) = varied.iter().find(|(known, _)| known == name) {
             return format!("{name} (see {row})");
         }
         match value {
