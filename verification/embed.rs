@@ -9,10 +9,12 @@ use std::{
 };
 
 fn main() {
-    let root = path("CARGO_MANIFEST_DIR");
+    let package = path("CARGO_MANIFEST_DIR");
+    let root = package.ancestors().find(|folder| folder.join("verification/embed.rs").is_file());
+    let root = root.expect("the package is in the repository");
     println!("cargo:rerun-if-changed={}", root.join("verification").display());
     let mut rows = String::new();
-    for (name, path) in suites(&root) {
+    for (name, path) in suites(root) {
         let file = root.join(&path);
         let file = file.to_str().expect("the path of the checkout is valid UTF-8");
         writeln!(rows, "    ({name:?}, {path:?}, include_str!({file:?})),")

@@ -12,6 +12,7 @@ mod documents;
 mod effects;
 mod external;
 mod false_alarms;
+mod fem;
 mod figure;
 mod formula;
 mod fuzz_corpus;

@@ -209,9 +209,8 @@ fn cases(
     let predicted = seeks && spec.run.frozen;
     let case = |((name, method), owner): ((String, Method), Option<usize>)| {
         let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
-        let summary = owner.map(|owner| {
-            expect::summary(&spec.expect[owner], &expected[owner].0, &rows, predicted)
-        });
+        let summary =
+            owner.map(|owner| expect::summary(&spec.expect[owner], &expected, &rows, predicted));
         StabilityCase { name, method, expected, summary, because, gating: None }
     };
     Ok(drafts.into_iter().zip(owners).map(case).collect())

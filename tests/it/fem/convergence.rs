@@ -1,11 +1,11 @@
 //! Tests of orders in space and time, stability limits and energy conservation of bars.
 
 use super::{bar_at_rest, orders, rms, run, vibrating_bar};
-use crate::fem::Element::{Linear, Quadratic};
-use crate::fem::Mass::{Consistent, Lumped};
-use crate::fem::Sampling::{Inside, Nodes};
-use crate::fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise};
-use crate::subject::{Checkpoint, Samples, Start, Subject};
+use mpm_verify::fem::Element::{Linear, Quadratic};
+use mpm_verify::fem::Mass::{Consistent, Lumped};
+use mpm_verify::fem::Sampling::{Inside, Nodes};
+use mpm_verify::fem::{Bar, BarSetup, Element, Mass, Sampling, pointwise};
+use mpm_verify::subject::{Checkpoint, Samples, Start, Subject};
 use rstest::rstest;
 use std::f64::consts::PI;
 
@@ -109,7 +109,7 @@ fn varying_load_is_evaluated_at_the_time_of_the_displacements() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
 }
 
-/// A bar survives `c dt / h` slightly below the limit in the documentation of [`crate::fem`], and
+/// A bar survives `c dt / h` slightly below the limit in the documentation of [`mpm_verify::fem`], and
 /// fails slightly above the limit.
 #[rstest]
 #[case(Linear, Lumped, 1.0)]

@@ -1,13 +1,11 @@
 //! Tests of properties that theory guarantees for the finite element method.
 
 mod convergence;
-mod discretisation;
 mod equilibrium;
 
+use mpm_verify::fem::{Bar, BarSetup, Element, Mass, Sampling};
+use mpm_verify::subject::{Samples, Start, Subject};
 use std::f64::consts::PI;
-
-use super::{Bar, BarSetup, Element, Mass, Sampling};
-use crate::subject::{Samples, Start, Subject};
 
 /// Creates a bar at rest: fixed on the left, free on the right, `P = E (F - 1)`.
 fn bar_at_rest(length: f64, young: f64, density: f64) -> BarSetup {
