@@ -264,8 +264,9 @@ fn documents() -> Vec<markdown::Document> {
 
 #[test]
 fn documents_refer_only_to_existing_things() {
-    let manifest = &source::texts("", "Cargo.toml").remove(0).1;
-    let has = documents::Repository::new(&source::paths(""), &source::texts("", ".rs"), manifest);
+    let manifest: String =
+        source::texts("", "Cargo.toml").into_iter().map(|(_, text)| text).collect();
+    let has = documents::Repository::new(&source::paths(""), &source::texts("", ".rs"), &manifest);
     let documents = documents();
     let stale = documents.iter().flat_map(|document| documents::stale(document, &documents, &has));
     hold(

@@ -109,8 +109,8 @@ fn varying_load_is_evaluated_at_the_time_of_the_displacements() {
     assert!(observed.iter().all(|order| (order - 2.0).abs() < 1e-3), "{observed:?}");
 }
 
-/// A bar survives `c dt / h` slightly below the limit in the documentation of [`mpm_verify::fem`], and
-/// fails slightly above the limit.
+/// A bar survives `c dt / h` slightly below the limit in the documentation of
+/// [`mpm_verify::fem`], and fails slightly above the limit.
 #[rstest]
 #[case(Linear, Lumped, 1.0)]
 #[case(Linear, Consistent, 1.0 / libm::sqrt(3.0))]

@@ -131,8 +131,8 @@ fn wanted(
     Ok(FigureBounds { is, above, below })
 }
 
-/// Describes entry `spec` of `expect`. `expected` are its expectations for `rows`, which contain the
-/// value of the swept parameter.
+/// Describes entry `spec` of `expect`. `expected` are its expectations for `rows`, which contain
+/// the value of the swept parameter.
 pub(crate) fn summary(
     spec: &StabilityExpectSpec,
     expected: &[StabilityExpectation],
