@@ -4,10 +4,10 @@
 //! section 6.3). Derived from the energy `W = lambda/2 tr(E)^2 + mu E : E`. Softens under strong
 //! compression. Fewer than three dimensions mean plane or uniaxial strain.
 
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::contract::{Material, MaterialProperties};
-use crate::mpm::material::hyperelastic::{set_stress_along_axes, stored_energy};
+use crate::mpm::material::hyperelastic::{set_stress_by_batch, stored_energy};
 use crate::mpm::material::linear_elastic::LinearElastic;
 use crate::mpm::material::stress_update::StressUpdate;
 
@@ -25,11 +25,11 @@ impl StVenantKirchhoff {
         Self { lambda, mu }
     }
 
-    /// Principal stresses (Pa) from the squared stretches b: `sigma_i = b_i S_i/J`.
-    fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
-        let strain = squares.map(|square| 0.5 * (square - 1.0));
-        let pressure = self.lambda * strain.sum();
-        strain.zip_map(squares, |strain, square| (pressure + 2.0 * self.mu * strain) * square / j)
+    /// Cauchy stress (Pa), `F S F^T/J`.
+    fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
+        let strain = green_strain(f);
+        let pressure = Matrix::identity() * (self.lambda * strain.trace());
+        f * (pressure + strain * (2.0 * self.mu)) * f.transpose() / j
     }
 
     /// W (J/m^D).
@@ -70,7 +70,7 @@ impl<const D: usize> Material<D> for StVenantKirchhoff {
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
-        set_stress_along_axes(body, |squares| *squares, |squares, j| self.principal(squares, j));
+        set_stress_by_batch(body, |j| [*j], |f, [j]| self.cauchy(f, j));
     }
 }
 

@@ -14,11 +14,12 @@
 //! ratio, and of first order in the step otherwise.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
-use super::spectral::{MatrixBatch, assembled_batch, half_log_batch, spectral_batch};
+use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det, product};
+use super::stretch::turned_by_steps;
+use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
+use crate::mpm::foundation::simd::BATCH;
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
 
 /// Modified Cam-clay at finite strain.
@@ -104,10 +105,10 @@ impl CamClay {
         -self.start.tau[(0, 0)]
     }
 
-    /// Returns the state after a step with the rotation `turn` followed by the logarithmic
-    /// `strain`.
-    fn after(&self, before: &Clay, turn: &Matrix<3>, strain: &Matrix<3>) -> Clay {
-        let tau = product(&product(turn, &before.tau), &turn.transpose());
+    /// Returns the state after a logarithmic `strain`. The stress before the strain must already be
+    /// rotated.
+    fn after(&self, before: &Clay, strain: &Matrix<3>) -> Clay {
+        let tau = before.tau;
         let (pressure, compaction) = (-tau.trace() / 3.0, -strain.trace());
         let trial = ClayTrial {
             pressure,
@@ -132,9 +133,11 @@ impl CamClay {
     /// the result is the exact integral of the rate form.
     fn swollen(&self, trial: &ClayTrial, compaction: f64) -> (f64, Matrix<3>) {
         let t = compaction / self.swelling;
-        let pressure = trial.pressure * libm::exp(t);
-        let modulus = self.ratio / self.swelling * trial.pressure * mean_growth(t);
-        (pressure, trial.deviator + trial.shear * (2.0 * modulus))
+        let growth = mean_growth(t);
+        // The sum is faster than the exponential function, but would cancel below -1.
+        let factor = if t > -1.0 { 1.0 + t * growth } else { libm::exp(t) };
+        let modulus = self.ratio / self.swelling * trial.pressure * growth;
+        (trial.pressure * factor, trial.deviator + trial.shear * (2.0 * modulus))
     }
 
     /// Returns a trial state outside the yield surface to the surface: the mean stress, the
@@ -288,51 +291,24 @@ impl<const D: usize> Material<D> for CamClay {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((grad_v, states), ((vol, vol0), sigma)) in columns.zip(results) {
-                let (inverses, strains) = stretch(grad_v, dt);
+                let mut tau = MatrixBatch::<3>::ZERO;
+                for (lane, state) in states.iter().enumerate() {
+                    tau.set(lane, &state.tau);
+                }
+                let (turned, strains) = turned_by_steps(grad_v, dt, &tau);
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 let particles = grad_v.iter().zip(states).zip(results).enumerate();
                 for (lane, ((grad_v, state), ((vol, vol0), sigma))) in particles {
-                    let turn = product(&inverses.get(lane), &increment(grad_v, dt));
-                    *state = self.after(state, &turn, &strains.get(lane));
+                    let before = Clay { tau: turned.get(lane), ..*state };
+                    *state = self.after(&before, &strains.get(lane));
                     *vol *= det(&(Matrix::<D>::identity() + grad_v * dt));
-                    let j = *vol / vol0;
-                    *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] / j);
+                    let inverse_j = vol0 / *vol;
+                    *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] * inverse_j);
                 }
             }
         });
         self.states = states;
     }
-}
-
-#[inline(always)]
-fn increment<const D: usize>(grad_v: &Matrix<D>, dt: f64) -> Matrix<3> {
-    let mut step = Matrix::identity();
-    for j in 0..D {
-        for i in 0..D {
-            step[(i, j)] += grad_v[(i, j)] * dt;
-        }
-    }
-    step
-}
-
-/// Returns the inverse and the logarithm of the left stretch of `I + grad v dt`, for a batch of
-/// particles.
-fn stretch<const D: usize>(grad_v: &[Matrix<D>], dt: f64) -> (MatrixBatch<3>, MatrixBatch<3>) {
-    vectorized(
-        #[inline(always)]
-        || {
-            let mut squares = MatrixBatch::identity();
-            for (lane, grad_v) in grad_v.iter().enumerate() {
-                let step = increment(grad_v, dt);
-                squares.set(lane, &product(&step, &step.transpose()));
-            }
-            let (squares, axes) = spectral_batch(squares);
-            let inverses =
-                squares.map(|squares| F64Batch(squares.0.map(|square| 1.0 / square.sqrt())));
-            let strains = squares.map(half_log_batch);
-            (assembled_batch(&inverses, &axes), assembled_batch(&strains, &axes))
-        },
-    )
 }
 
 #[cfg(test)]
@@ -392,7 +368,7 @@ mod tests {
             let e = Vector::<3>::from(shear);
             let shear = e.add_scalar(-e.sum() / 3.0);
             let strain = Matrix::from_diagonal(&shear.add_scalar(-compaction / 3.0));
-            let after = law.after(&law.start, &Matrix::identity(), &strain);
+            let after = law.after(&law.start, &strain);
             let (p, pc) = (-after.tau.trace() / 3.0, after.consolidation);
             let deviator = after.tau + Matrix::from_diagonal_element(p);
             let q = equivalent(&deviator);

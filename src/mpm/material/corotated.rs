@@ -9,11 +9,12 @@
 //! strain in 1-D.
 
 use super::contract::{Material, MaterialProperties};
-use super::hyperelastic::{set_stress_along_axes, stored_energy};
+use super::hyperelastic::{linear, set_stress_of_stretch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::spectral::spectral;
 use super::stress_update::StressUpdate;
-use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use super::stretch::SquaredStretch;
+use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 
 /// Fixed corotated elasticity.
@@ -28,13 +29,6 @@ impl Corotated {
     pub fn new(young: f64, poisson: f64) -> Self {
         let LinearElastic { lambda, mu } = LinearElastic::new(young, poisson);
         Self { lambda, mu }
-    }
-
-    /// Returns the principal stresses (Pa) from the squared stretches: `(F - R) F^T = V^2 - V`.
-    #[inline(always)]
-    fn principal<const D: usize>(&self, squares: &Vector<D>, j: f64) -> Vector<D> {
-        let pressure = self.lambda * (j - 1.0);
-        squares.map(|square| pressure + 2.0 * self.mu * (square - square.sqrt()) / j)
     }
 
     /// Returns the energy density W (J/m^D).
@@ -68,12 +62,13 @@ impl<const D: usize> Material<D> for Corotated {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
+    /// Uses `(F - R) F^T = V^2 - V`.
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
-        set_stress_along_axes(
+        set_stress_of_stretch(
             body,
-            |squares| *squares,
+            SquaredStretch::minus_root,
             #[inline(always)]
-            |squares, j| self.principal(squares, j),
+            |excess, j| linear(self.lambda * (j - 1.0), 2.0 * self.mu / j, excess),
         );
     }
 }

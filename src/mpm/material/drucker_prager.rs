@@ -10,7 +10,8 @@
 
 use super::contract::Contradiction;
 use super::plastic_flow::{
-    ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface, modulus_of_invariants,
+    ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
+    modulus_of_invariants,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 
@@ -35,6 +36,17 @@ impl DruckerPrager {
     }
 }
 
+impl Cone {
+    /// Returns `sqrt(J2)` and the yield function (Pa), from the mean strain and the squared length
+    /// of the strain deviator.
+    #[inline(always)]
+    fn excess(&self, mean: f64, length_squared: f64) -> (f64, f64) {
+        let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, strength, .. } = *self;
+        let shear = 2.0_f64.sqrt() * mu * length_squared.sqrt();
+        (shear, shear + friction * 3.0 * bulk * mean - strength)
+    }
+}
+
 impl YieldSurface for Cone {
     fn elasticity(&self) -> &LogElasticity {
         &self.elasticity
@@ -51,8 +63,7 @@ impl YieldSurface for Cone {
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =
             *self;
-        let shear = 2.0_f64.sqrt() * mu * trial.deviator.norm();
-        let excess = shear + friction * 3.0 * bulk * trial.mean - strength;
+        let (shear, excess) = self.excess(trial.mean, trial.deviator.norm_squared());
         if !(excess > 0.0) {
             return None;
         }
@@ -70,6 +81,12 @@ impl YieldSurface for Cone {
             }
         };
         Some((after, trial.distance(&after)))
+    }
+
+    #[inline(always)]
+    fn encloses(&self, mean: f64, deviator: &Matrix<3>, _: f64) -> bool {
+        let (shear, excess) = self.excess(mean, length_squared(deviator));
+        excess <= -MARGIN * (shear + self.strength)
     }
 
     /// Returns the consistent tangent. A trial strain increment deps causes

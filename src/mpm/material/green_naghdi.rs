@@ -8,11 +8,13 @@
 //! the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
+use super::hyperelastic::linear;
 use super::linear_elastic::{LinearElastic, logarithm};
-use super::spectral::{MatrixBatch, VectorBatch, assembled, spectral_batch};
+use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
-use crate::mpm::foundation::simd::{BATCH, vectorized};
+use super::stretch::{HALF_LOG, PowerSeries, SquaredStretch};
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Isotropic linear elasticity with the Green-Naghdi rate.
@@ -57,48 +59,55 @@ impl GreenNaghdi {
         Self { elasticity: LinearElastic::new(young, poisson), states: Vec::new() }
     }
 
-    /// Returns the state after a step to F, and the Kirchhoff stress (Pa). `squares` are the
-    /// squared principal right stretches along `axes`.
-    fn after<const D: usize>(
+    /// Advances the states of a batch of particles by a step to F. Returns J and the
+    /// Cauchy stresses (Pa).
+    #[inline(always)]
+    fn advance<const D: usize>(
         &self,
-        before: &Unrotated,
-        f: &Matrix<D>,
-        squares: &Vector<D>,
-        axes: &Matrix<D>,
-    ) -> (Unrotated, Matrix<D>) {
-        let stretch = assembled(&squares.map(f64::sqrt), axes);
-        let inverse_stretch = assembled(&squares.map(|square| 1.0 / square.sqrt()), axes);
-        let log = logarithm(&product(&stretch, &in_plane(&before.inverse_stretch)));
-        let strain = (log + log.transpose()) * 0.5;
-        let stress = in_plane(&before.stress) + self.elasticity.increment(&strain);
-        let turn = product(f, &inverse_stretch);
-        let tau = product(&product(&turn, &stress), &turn.transpose());
-        let after =
-            Unrotated { stress: in_space(&stress), inverse_stretch: in_space(&inverse_stretch) };
-        (after, tau)
-    }
-}
-
-fn in_plane<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
-    Matrix::from_fn(|i, j| m[(i, j)])
-}
-
-fn in_space<const D: usize>(m: &Matrix<D>) -> Matrix<3> {
-    Matrix::from_fn(|i, j| if i < D && j < D { m[(i, j)] } else { 0.0 })
-}
-
-/// Returns the squared right stretches of a batch of particles, and their axes.
-fn stretch<const D: usize>(def_grad: &[Matrix<D>]) -> (VectorBatch<D>, MatrixBatch<D>) {
-    vectorized(
-        #[inline(always)]
-        || {
-            let mut squares = MatrixBatch::identity();
-            for (lane, f) in def_grad.iter().enumerate() {
-                squares.set(lane, &product(&f.transpose(), f));
+        def_grad: &[Matrix<D>],
+        states: &mut [Unrotated],
+    ) -> (F64Batch, MatrixBatch<D>) {
+        let mut volume_ratio = F64Batch([1.0; BATCH]);
+        let (mut f, mut stress) = (MatrixBatch::identity(), MatrixBatch::<D>::ZERO);
+        let mut inverse_before = MatrixBatch::identity();
+        for (lane, (own, state)) in def_grad.iter().zip(&*states).enumerate() {
+            f.set(lane, own);
+            volume_ratio.0[lane % BATCH] = det(own);
+            for j in 0..D {
+                for i in 0..D {
+                    stress.0[i][j].0[lane % BATCH] = state.stress[(i, j)];
+                    inverse_before.0[i][j].0[lane % BATCH] = state.inverse_stretch[(i, j)];
+                }
             }
-            spectral_batch(squares)
-        },
-    )
+        }
+        let right = f.transpose();
+        let inverse_stretch = SquaredStretch::new(&right, &right.minus_identity()).inverse_root();
+        let turn = f.times(&inverse_stretch);
+        let step = turn.transpose().times(&f).times(&inverse_before);
+        let small = PowerSeries::new(step.minus_identity());
+        let mut half_logs = small.sum(&HALF_LOG);
+        if !small.all_small() {
+            for lane in (0..BATCH).filter(|lane| !small.is_small(*lane)) {
+                half_logs.set(lane, &(logarithm(&step.get::<D>(lane)) * 0.5));
+            }
+        }
+        let strains = half_logs.plus(&half_logs.transpose());
+        let stress = stress.plus(&self.elasticity.increments(&strains));
+        for (lane, state) in states.iter_mut().enumerate() {
+            for j in 0..D {
+                for i in 0..D {
+                    state.stress[(i, j)] = stress.0[i][j].get(lane);
+                    state.inverse_stretch[(i, j)] = inverse_stretch.0[i][j].get(lane);
+                }
+            }
+        }
+        let mut sigma = turn.times(&stress).times(&turn.transpose());
+        for lane in 0..BATCH {
+            let inverse_j = 1.0 / volume_ratio.get(lane);
+            sigma.set(lane, &linear(0.0, inverse_j, &sigma.get::<D>(lane)));
+        }
+        (volume_ratio, sigma)
+    }
 }
 
 impl MaterialProperties for GreenNaghdi {
@@ -140,15 +149,14 @@ impl<const D: usize> Material<D> for GreenNaghdi {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((def_grad, states), ((vol, vol0), sigma)) in columns.zip(results) {
-                let (squares, axes) = stretch(def_grad);
-                let results = vol.iter_mut().zip(vol0).zip(sigma);
-                let particles = def_grad.iter().zip(states).zip(results).enumerate();
-                for (lane, ((f, state), ((vol, vol0), sigma))) in particles {
-                    let (after, tau) = self.after(state, f, &squares.get(lane), &axes.get(lane));
-                    let j = det(f);
-                    *state = after;
-                    *vol = j * vol0;
-                    *sigma = tau / j;
+                let (j, stresses) = vectorized(
+                    #[inline(always)]
+                    || self.advance(def_grad, states),
+                );
+                let results = vol.iter_mut().zip(vol0).zip(sigma).enumerate();
+                for (lane, ((vol, vol0), sigma)) in results {
+                    *vol = j.get(lane) * vol0;
+                    *sigma = stresses.get(lane);
                 }
             }
         });

@@ -6,13 +6,14 @@
 //! in 1-D.
 
 use super::contract::{Material, MaterialProperties};
-use super::hyperelastic::{set_stress_along_axes, stored_energy};
+use super::hyperelastic::{linear, set_stress_of_stretch, stored_energy};
 use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, lambda_of_plate, thinning};
-use super::spectral::{assembled, half_log, half_log_batch, spectral};
+use super::spectral::{assembled, half_log, spectral};
 use super::stress_update::StressUpdate;
+use super::stretch::SquaredStretch;
 use super::tangent::{StressResponse, isotropic_modulus};
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 
 /// Hencky elasticity.
@@ -31,14 +32,9 @@ impl Hencky {
 
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
         let (squares, axes) = spectral(&(f * f.transpose()));
-        assembled(&self.principal(&half_log(&squares), j), &axes)
-    }
-
-    /// Returns the principal stresses (Pa) from the logarithmic strains.
-    #[inline(always)]
-    fn principal<const D: usize>(&self, strain: &Vector<D>, j: f64) -> Vector<D> {
+        let strain = half_log(&squares);
         let pressure = self.lambda * strain.sum();
-        strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j)
+        assembled(&strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j), &axes)
     }
 
     /// Returns the energy density W (J/m^D).
@@ -108,11 +104,14 @@ impl<const D: usize> Material<D> for Hencky {
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
-        set_stress_along_axes(
+        set_stress_of_stretch(
             body,
-            half_log_batch,
+            SquaredStretch::half_log,
             #[inline(always)]
-            |strain, j| self.principal(strain, j),
+            |strain, j| {
+                let trace = (1..D).fold(strain[(0, 0)], |sum, i| sum + strain[(i, i)]);
+                linear(self.lambda * trace / j, 2.0 * self.mu / j, strain)
+            },
         );
     }
 }

@@ -1,8 +1,9 @@
 //! Stress and energy of all particles, for laws that depend only on the deformation gradient.
 
-use super::spectral::{MatrixBatch, assembled_batch, spectral_batch};
+use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, product};
+use super::stretch::SquaredStretch;
+use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 
@@ -38,33 +39,43 @@ pub(super) fn set_stress_by_batch<const D: usize, const N: usize>(
     );
 }
 
-/// Sets volumes and Cauchy stresses, for laws whose stress has the axes of `F F^T`. `of_squares` is
-/// applied to the squared principal stretches, for several particles at a time. `principal`
-/// computes the principal stresses (Pa) from the results of `of_squares` and from J.
-pub(super) fn set_stress_along_axes<const D: usize>(
+/// Sets volumes and Cauchy stresses, for laws whose stress is linear in an isotropic function of
+/// `F F^T`. `of_stretch` computes this function for several particles at a time, and `cauchy` the
+/// stress (Pa) from its value and from J.
+pub(super) fn set_stress_of_stretch<const D: usize>(
     body: &mut StressUpdate<'_, D>,
-    of_squares: impl Fn(&F64Batch) -> F64Batch + Sync,
-    principal: impl Fn(&Vector<D>, f64) -> Vector<D> + Sync,
+    of_stretch: impl Fn(&SquaredStretch<D>) -> MatrixBatch<D> + Sync,
+    cauchy: impl Fn(&Matrix<D>, f64) -> Matrix<D> + Sync,
 ) {
     by_batch(
         body,
         #[inline(always)]
         |def_grad, j, sigma| {
-            let mut squared = MatrixBatch::identity();
-            for (lane, f) in def_grad.iter().enumerate() {
-                squared.set(lane, &product(f, &f.transpose()));
+            let mut f = MatrixBatch::identity();
+            for (lane, def_grad) in def_grad.iter().enumerate() {
+                f.set(lane, def_grad);
             }
-            let (squares, axes) = spectral_batch(squared);
-            let mut stresses = squares.map(&of_squares);
+            let mut values = of_stretch(&SquaredStretch::new(&f, &f.minus_identity()));
             for lane in 0..BATCH {
-                stresses.set(lane, &principal(&stresses.get(lane), j.get(lane)));
+                values.set(lane, &cauchy(&values.get(lane), j.get(lane)));
             }
-            let assembled = assembled_batch(&stresses, &axes);
             for (lane, sigma) in sigma.iter_mut().enumerate() {
-                *sigma = assembled.get(lane);
+                *sigma = values.get(lane);
             }
         },
     );
+}
+
+/// Returns `pressure I + factor m`.
+#[inline(always)]
+pub(super) fn linear<const D: usize>(pressure: f64, factor: f64, m: &Matrix<D>) -> Matrix<D> {
+    let mut sum = Matrix::zeros();
+    for j in 0..D {
+        for i in 0..D {
+            sum[(i, j)] = if i == j { pressure } else { 0.0 } + factor * m[(i, j)];
+        }
+    }
+    sum
 }
 
 /// Sets volumes, and calls `set_stress` with F, J and the stresses of each batch.

@@ -5,7 +5,8 @@
 //! integration.
 
 use super::plastic_flow::{
-    ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface, modulus_of_invariants,
+    ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
+    modulus_of_invariants,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 
@@ -29,6 +30,14 @@ impl J2 {
     }
 }
 
+impl VonMises {
+    /// Returns the von Mises stress (Pa) from the squared length of the strain deviator.
+    #[inline(always)]
+    fn mises(&self, length_squared: f64) -> f64 {
+        2.0 * self.elasticity.mu * 1.5_f64.sqrt() * length_squared.sqrt()
+    }
+}
+
 impl YieldSurface for VonMises {
     fn elasticity(&self) -> &LogElasticity {
         &self.elasticity
@@ -36,7 +45,7 @@ impl YieldSurface for VonMises {
 
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)> {
         let mu = self.elasticity.mu;
-        let mises = 2.0 * mu * 1.5_f64.sqrt() * trial.deviator.norm();
+        let mises = self.mises(trial.deviator.norm_squared());
         let excess = mises - (self.yield_stress + self.hardening * flowed);
         if !(excess > 0.0) {
             return None;
@@ -44,6 +53,12 @@ impl YieldSurface for VonMises {
         let flow = excess / (3.0 * mu + self.hardening);
         let deviator = trial.deviator * (1.0 - 3.0 * mu * flow / mises);
         Some((PrincipalStrain { deviator, ..*trial }, flow))
+    }
+
+    #[inline(always)]
+    fn encloses(&self, _: f64, deviator: &Matrix<3>, flowed: f64) -> bool {
+        let mises = self.mises(length_squared(deviator));
+        mises <= (1.0 - MARGIN) * (self.yield_stress + self.hardening * flowed)
     }
 
     /// Returns the consistent tangent. On the yield surface, the stress deviator has the length

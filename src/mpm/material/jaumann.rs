@@ -7,11 +7,13 @@
 //! in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
+use super::hyperelastic::linear;
 use super::linear_elastic::LinearElastic;
-use super::spectral::{MatrixBatch, VectorBatch, assembled, half_log_batch, spectral_batch};
+use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det, product};
-use crate::mpm::foundation::simd::{BATCH, vectorized};
+use super::stretch::turned_by_steps;
+use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::simd::BATCH;
 
 /// Isotropic linear elasticity with the Jaumann rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,26 +24,6 @@ impl Jaumann {
     pub fn new(young: f64, poisson: f64) -> Self {
         Self(LinearElastic::new(young, poisson))
     }
-}
-
-/// Returns the squares and the logarithms of the left stretch of `I + grad v dt`, and their axes,
-/// for a batch of particles.
-fn stretch<const D: usize>(
-    grad_v: &[Matrix<D>],
-    dt: f64,
-) -> (VectorBatch<D>, VectorBatch<D>, MatrixBatch<D>) {
-    vectorized(
-        #[inline(always)]
-        || {
-            let mut squares = MatrixBatch::identity();
-            for (lane, grad_v) in grad_v.iter().enumerate() {
-                let step = Matrix::identity() + grad_v * dt;
-                squares.set(lane, &product(&step, &step.transpose()));
-            }
-            let (squares, axes) = spectral_batch(squares);
-            (squares, squares.map(half_log_batch), axes)
-        },
-    )
 }
 
 impl MaterialProperties for Jaumann {
@@ -73,19 +55,19 @@ impl<const D: usize> Material<D> for Jaumann {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for (grad_v, ((vol, vol0), sigma)) in grad_v.chunks(BATCH).zip(results) {
-                let (squares, strains, axes) = stretch(grad_v, dt);
+                let mut tau = MatrixBatch::<D>::ZERO;
+                for (lane, (sigma, (vol, vol0))) in
+                    sigma.iter().zip(vol.iter().zip(vol0)).enumerate()
+                {
+                    tau.set(lane, &linear(0.0, vol / vol0, sigma));
+                }
+                let (turned, strains) = turned_by_steps(grad_v, dt, &tau);
+                let tau = turned.plus(&self.0.increments(&strains));
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 for (lane, (grad_v, ((vol, vol0), sigma))) in grad_v.iter().zip(results).enumerate()
                 {
-                    let step = Matrix::<D>::identity() + grad_v * dt;
-                    let axes = axes.get(lane);
-                    let inverses = squares.get(lane).map(|square| 1.0 / square.sqrt());
-                    let turn = product(&assembled(&inverses, &axes), &step);
-                    let strain = assembled(&strains.get(lane), &axes);
-                    let turned = product(&product(&turn, sigma), &turn.transpose());
-                    let tau = turned * (*vol / vol0) + self.0.increment(&strain);
-                    *vol *= det(&step);
-                    *sigma = tau / (*vol / vol0);
+                    *vol *= det(&(Matrix::identity() + grad_v * dt));
+                    *sigma = linear(0.0, vol0 / *vol, &tau.get(lane));
                 }
             }
         });

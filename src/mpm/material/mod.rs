@@ -20,6 +20,7 @@ mod soil_paths;
 mod specimen;
 mod spectral;
 mod stress_update;
+mod stretch;
 mod tangent;
 
 use crate::members::{each_material, key};

@@ -10,8 +10,11 @@
 //! above the apex is then a tension cut-off that is not part of the flow rule.
 
 use super::contract::Contradiction;
-use super::plastic_flow::{ElastoPlastic, LogElasticity, PrincipalStrain, YieldSurface};
-use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use super::hyperelastic::linear;
+use super::plastic_flow::{
+    ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
+};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
 use std::ops::{Div, Mul, Sub};
 
 /// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
@@ -181,6 +184,41 @@ impl YieldSurface for Pyramid {
             deviator: stress.add_scalar(-pressure) / (2.0 * mu),
         };
         Some((after, trial.distance(&after)))
+    }
+
+    /// Uses a condition on the stress deviator S without its axes. With the mean stress p, the
+    /// principal values s1, s2 and s3 of S and `A = 2 c cos(phi) - 2 p sin(phi)`, the stress is
+    /// inside if `|si - sj| <= A + sk sin(phi)` for all permutations (i, j, k). The sum of the si
+    /// is zero, so `(si - sj)^2 = 4 J2 - 3 sk^2`. If no `A + sk sin(phi)` is negative, the
+    /// condition is that no eigenvalue of
+    ///
+    /// ```text
+    /// Q = (A I + sin(phi) S)^2 + 3 S^2 - 4 J2 I
+    /// ```
+    ///
+    /// is negative. By Sylvester's criterion, the leading minors of a positive definite Q are
+    /// positive. The largest magnitude of sk is `2 sqrt(J2/3)`.
+    #[inline(always)]
+    #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
+    fn encloses(&self, mean: f64, deviator: &Matrix<3>, _: f64) -> bool {
+        let (LogElasticity { bulk, mu, .. }, sine) = (&self.elasticity, self.sines[0]);
+        let pressure = 2.0 * sine * 3.0 * bulk * mean;
+        let (a, four_j2) = (self.strength - pressure, 8.0 * mu * mu * length_squared(deviator));
+        let square = product(deviator, deviator);
+        let [first, second] = [4.0 * mu * sine * a, 4.0 * mu * mu * (3.0 + sine * sine)];
+        let mut q = linear(a * a - four_j2, first, deviator);
+        for j in 0..3 {
+            for i in 0..3 {
+                q[(i, j)] += second * square[(i, j)];
+            }
+        }
+        let size = self.strength * self.strength + pressure * pressure + four_j2;
+        let minors = [q[(0, 0)], q[(0, 0)] * q[(1, 1)] - q[(0, 1)] * q[(1, 0)], det(&q)];
+        (a >= 0.0)
+            & (a * a >= sine * sine * four_j2 / 3.0)
+            & (minors[0] >= MARGIN * size)
+            & (minors[1] >= MARGIN * size * size)
+            & (minors[2] >= MARGIN * size * size * size)
     }
 
     /// Returns the consistent tangent. On each part of the pyramid, the return is linear in the

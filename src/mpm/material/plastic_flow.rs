@@ -12,15 +12,17 @@
 //! dimension.
 
 use super::contract::{Contradiction, Material, MaterialProperties};
+use super::hyperelastic::linear;
 use super::linear_elastic::LinearElastic;
 use super::spectral::{
     MatrixBatch, VectorBatch, assembled, half_log, half_log_batch, spectral, spectral_batch,
 };
 use super::stress_update::{StressBlock, StressUpdate};
+use super::stretch::{HALF_LOG, PowerSeries, excess};
 use super::tangent::{StressResponse, in_space, isotropic_modulus};
 use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::{BATCH, vectorized};
+use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
 /// Moduli (Pa) of isotropic elasticity in logarithmic strain.
@@ -109,6 +111,10 @@ pub trait YieldSurface: Send + Sync {
     /// `None` if the trial state is inside the surface.
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)>;
 
+    /// Whether a trial strain is certainly inside the surface, given its mean and its deviator.
+    /// False for NaN, and for a strain so close to the surface that rounding errors could matter.
+    fn encloses(&self, mean: f64, deviator: &Matrix<3>, flowed: f64) -> bool;
+
     /// Returns the derivatives of the principal Kirchhoff stresses after the return (rows) with
     /// respect to the principal trial strains (Pa): the consistent tangent of
     /// [`return_from`](Self::return_from). `None` if the trial state is inside the surface.
@@ -189,7 +195,67 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         let inverse_metric = back * assembled(&squares, axes) * back.transpose();
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
     }
+
+    /// Computes the stress of a batch of particles (Pa) as that of an elastic state, without the
+    /// axes of the trial strain. Returns J, and whether the state of a particle is certainly
+    /// elastic. The stress of any other particle is not valid.
+    ///
+    /// With `H = F - I` and `P = Cp^-1 - I`, `be - I = P + W + W^T + H W` with `W = H^T + P H^T`.
+    /// Before any plastic flow P is zero, so small strains suffer no cancellation.
+    fn elastic<const D: usize>(
+        &self,
+        def_grad: &[Matrix<D>],
+        flowed: &[Flowed],
+        sigma: &mut [Matrix<D>],
+    ) -> (F64Batch, [bool; BATCH]) {
+        let LogElasticity { bulk, mu, .. } = *self.surface.elasticity();
+        vectorized(
+            #[inline(always)]
+            || {
+                let (mut f, mut metric) = (MatrixBatch::<3>::identity(), MatrixBatch::identity());
+                let (mut j, mut strain_before) = (F64Batch([1.0; BATCH]), F64Batch::ZERO);
+                for (lane, (own, flowed)) in def_grad.iter().zip(flowed).enumerate() {
+                    f.set(lane, own);
+                    metric.set(lane, &flowed.inverse_metric);
+                    strain_before.0[lane % BATCH] = flowed.strain;
+                    j.0[lane % BATCH] = det(own);
+                }
+                let (h, p) = (f.minus_identity(), metric.minus_identity());
+                let w = h.transpose().plus(&p.times(&h.transpose()));
+                let small = PowerSeries::new(p.plus(&excess(&h, &w)));
+                let mut stresses = small.sum(&HALF_LOG);
+                let mut inside = [false; BATCH];
+                for lane in 0..BATCH {
+                    let mut strain = stresses.get::<3>(lane);
+                    let mean = (strain[(0, 0)] + strain[(1, 1)] + strain[(2, 2)]) / 3.0;
+                    for i in 0..3 {
+                        strain[(i, i)] -= mean;
+                    }
+                    let is_elastic = self.surface.encloses(mean, &strain, strain_before.get(lane));
+                    inside[lane] = small.is_small(lane) & is_elastic;
+                    let own = j.get(lane);
+                    stresses.set(lane, &linear(3.0 * bulk * mean / own, 2.0 * mu / own, &strain));
+                }
+                for (lane, sigma) in sigma.iter_mut().enumerate() {
+                    *sigma = stresses.get(lane);
+                }
+                (j, inside)
+            },
+        )
+    }
 }
+
+/// Returns the squared length of a symmetric matrix.
+#[inline(always)]
+pub(super) fn length_squared(m: &Matrix<3>) -> f64 {
+    let diagonal = m[(0, 0)] * m[(0, 0)] + m[(1, 1)] * m[(1, 1)] + m[(2, 2)] * m[(2, 2)];
+    let shear = m[(0, 1)] * m[(0, 1)] + m[(0, 2)] * m[(0, 2)] + m[(1, 2)] * m[(1, 2)];
+    diagonal + 2.0 * shear
+}
+
+/// Margin by which a state must be inside a yield surface to be certainly elastic, relative to the
+/// terms of the yield function. It is far above their rounding errors.
+pub(super) const MARGIN: f64 = 1e-12;
 
 impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
     fn wave_modulus(&self, _: f64) -> f64 {
@@ -268,16 +334,20 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((def_grad, flowed), ((vol, vol0), sigma)) in columns.zip(results) {
-                let (strains, axes) = trial(def_grad, flowed);
-                let results = vol.iter_mut().zip(vol0).zip(sigma);
-                let particles = def_grad.iter().zip(flowed).zip(results).enumerate();
-                for (lane, ((f, flowed), ((vol, vol0), sigma))) in particles {
-                    let (strain, axes) = (strains.get(lane), axes.get(lane));
-                    let (j, (stress, after)) =
-                        (det(f), self.kirchhoff(&in_space(f), *flowed, &strain, &axes));
-                    *flowed = after;
+                let (j, inside) = self.elastic(def_grad, flowed, sigma);
+                for ((vol, vol0), j) in vol.iter_mut().zip(vol0).zip(&j.0) {
                     *vol = j * vol0;
-                    *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j);
+                }
+                if inside[..def_grad.len()].iter().all(|inside| *inside) {
+                    continue;
+                }
+                let (strains, axes) = trial(def_grad, flowed);
+                let particles = def_grad.iter().zip(flowed).zip(sigma).enumerate();
+                for (lane, ((f, flowed), sigma)) in particles.filter(|(lane, _)| !inside[*lane]) {
+                    let (strain, axes) = (strains.get(lane), axes.get(lane));
+                    let (stress, after) = self.kirchhoff(&in_space(f), *flowed, &strain, &axes);
+                    *flowed = after;
+                    *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j.get(lane));
                 }
             }
         });
@@ -374,5 +444,88 @@ pub(super) mod path {
         for i in 0..D {
             assert_relative_eq!(tau[(i, i)], expected[i], max_relative = 1e-9, epsilon = 1e-9);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::drucker_prager::DruckerPrager;
+    use super::super::j2::J2;
+    use super::super::mohr_coulomb::MohrCoulomb;
+    use super::super::specimen::{SLOW, scattered};
+    use super::*;
+    use crate::mpm::foundation::particles::Block;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    fn encloses(surface: &impl YieldSurface, strain: &PrincipalStrain, axes: &Matrix<3>) -> bool {
+        surface.encloses(strain.mean, &assembled(&strain.deviator, axes), 0.1)
+    }
+
+    /// Asserts that no state that the surface encloses returns to the surface, and that all states
+    /// inside the surface are enclosed, except near the surface.
+    fn hold<S: YieldSurface>(
+        ElastoPlastic { surface, .. }: &ElastoPlastic<S>,
+        strain: [f64; 3],
+        axes: &Matrix<3>,
+    ) {
+        let at = |share: f64| PrincipalStrain::new(&(Vector::<3>::from(strain) * share));
+        // Shares far from the surface, and shares that bracket the surface.
+        let (mut low, mut high) = (0.0, 2.0);
+        for share in [0.01, 0.1, 0.3, 1.0] {
+            let is_inside = surface.return_from(&at(share), 0.1).is_none();
+            assert!(is_inside || !encloses(surface, &at(share), axes), "{share} of {strain:?}");
+            assert!(!encloses(surface, &at(f64::NAN * share), axes));
+        }
+        for _ in 0..60 {
+            let middle: f64 = 0.5 * (low + high);
+            let is_inside = surface.return_from(&at(middle), 0.1).is_none();
+            assert!(is_inside || !encloses(surface, &at(middle), axes), "{middle} of {strain:?}");
+            if is_inside { low = middle } else { high = middle }
+        }
+        assert!(encloses(surface, &at(0.9 * low), axes), "{low} of {strain:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn surface_encloses_the_states_without_return(
+            strain in proptest::array::uniform3(-0.05..0.05_f64),
+            equal in any::<bool>(),
+            turn in proptest::array::uniform9(-1.0..1.0_f64),
+            poisson in 0.0..0.49_f64,
+            friction in prop_oneof![Just(0.0), 0.0..60.0_f64],
+            strength in 1.0..50.0_f64,
+        ) {
+            let strain = if equal { [strain[0], strain[0], strain[2]] } else { strain };
+            let turn = Matrix::<3>::from_row_slice(&turn);
+            let (_, axes) = spectral(&(turn + turn.transpose()));
+            hold(&J2::new(1e4, poisson, strength, 20.0), strain, &axes);
+            hold(&DruckerPrager::new(1e4, poisson, friction / 60.0, 0.0, strength), strain, &axes);
+            hold(&MohrCoulomb::new(1e4, poisson, friction, 0.0, strength), strain, &axes);
+        }
+    }
+
+    /// Unloads a particle after plastic flow, and compares the stress with the stress from the axes
+    /// of the trial strain.
+    #[test]
+    fn elastic_stress_after_flow_agrees_with_the_stress_from_axes() {
+        fn of<const D: usize, S: YieldSurface>(mut law: ElastoPlastic<S>) {
+            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+            let mut body = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+            let first = Matrix::identity() + scattered::<D>(0.1, 0.3);
+            body.deform(|_| (Vector::zeros(), first));
+            law.update(&mut StressUpdate::new(SLOW, &mut body));
+            assert!(law.flowed[0].strain > 1e-3);
+            let f = Matrix::identity() * 1e-4 + first * (1.0 - 1e-3);
+            let mut sigma = [Matrix::zeros()];
+            let (j, inside) = law.elastic(&[f], &law.flowed, &mut sigma);
+            assert!(inside[0] && j.get(0) == det(&f));
+            let expected = law.response(0, &f).unwrap().kirchhoff;
+            assert_relative_eq!(sigma[0] * det(&f), expected, epsilon = 1e-12 * expected.norm());
+        }
+        of::<2, _>(J2::new(1e4, 0.3, 30.0, 20.0));
+        of::<3, _>(J2::new(1e4, 0.3, 30.0, 20.0));
+        of::<3, _>(DruckerPrager::new(1e4, 0.3, 0.2, 0.0, 30.0));
+        of::<3, _>(MohrCoulomb::new(1e4, 0.3, 20.0, 0.0, 30.0));
     }
 }

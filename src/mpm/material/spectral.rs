@@ -10,7 +10,7 @@
 //! without branches, so the compiler vectorises the loops. A test checks that both versions give
 //! identical bits.
 
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector, product};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// Maximum number of sweeps. Each sweep squares the off-diagonal entries, so a few sweeps suffice.
@@ -74,36 +74,85 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
 
 /// One matrix per particle of a batch.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::mpm::material) struct MatrixBatch<const D: usize>([[F64Batch; D]; D]);
+pub(in crate::mpm::material) struct MatrixBatch<const D: usize>(
+    pub(in crate::mpm::material) [[F64Batch; D]; D],
+);
 
 impl<const D: usize> MatrixBatch<D> {
+    pub(in crate::mpm::material) const ZERO: Self = Self([[F64Batch::ZERO; D]; D]);
+
     #[inline(always)]
     pub(in crate::mpm::material) fn identity() -> Self {
-        let mut all = Self([[F64Batch::ZERO; D]; D]);
+        let mut all = Self::ZERO;
         for i in 0..D {
             all.0[i][i] = F64Batch([1.0; BATCH]);
         }
         all
     }
 
+    /// Sets the leading block of the matrix of a lane.
     #[inline(always)]
-    pub(in crate::mpm::material) fn set(&mut self, lane: usize, m: &Matrix<D>) {
-        for j in 0..D {
-            for i in 0..D {
+    pub(in crate::mpm::material) fn set<const C: usize>(&mut self, lane: usize, m: &Matrix<C>) {
+        for j in 0..C {
+            for i in 0..C {
                 self.0[i][j].0[lane % BATCH] = m[(i, j)];
             }
         }
     }
 
+    /// Returns the leading block of the matrix of a lane.
     #[inline(always)]
-    pub(in crate::mpm::material) fn get(&self, lane: usize) -> Matrix<D> {
+    pub(in crate::mpm::material) fn get<const C: usize>(&self, lane: usize) -> Matrix<C> {
         let mut m = Matrix::zeros();
-        for j in 0..D {
-            for i in 0..D {
+        for j in 0..C {
+            for i in 0..C {
                 m[(i, j)] = self.0[i][j].get(lane);
             }
         }
         m
+    }
+
+    #[inline(always)]
+    pub(in crate::mpm::material) fn minus_identity(&self) -> Self {
+        let mut all = *self;
+        for i in 0..D {
+            for lane in 0..BATCH {
+                all.0[i][i].0[lane] -= 1.0;
+            }
+        }
+        all
+    }
+
+    #[inline(always)]
+    pub(in crate::mpm::material) fn transpose(&self) -> Self {
+        let mut all = *self;
+        for j in 0..D {
+            for i in 0..D {
+                all.0[i][j] = self.0[j][i];
+            }
+        }
+        all
+    }
+
+    #[inline(always)]
+    pub(in crate::mpm::material) fn plus(mut self, other: &Self) -> Self {
+        for j in 0..D {
+            for i in 0..D {
+                for lane in 0..BATCH {
+                    self.0[i][j].0[lane] += other.0[i][j].0[lane];
+                }
+            }
+        }
+        self
+    }
+
+    #[inline(always)]
+    pub(in crate::mpm::material) fn times(&self, other: &Self) -> Self {
+        let mut all = Self::ZERO;
+        for lane in 0..BATCH {
+            all.set(lane, &product(&self.get::<D>(lane), &other.get(lane)));
+        }
+        all
     }
 }
 
@@ -121,13 +170,6 @@ impl<const D: usize> VectorBatch<D> {
             vector[i] = self.0[i].get(lane);
         }
         vector
-    }
-
-    #[inline(always)]
-    pub(in crate::mpm::material) fn set(&mut self, lane: usize, vector: &Vector<D>) {
-        for i in 0..D {
-            self.0[i].0[lane % BATCH] = vector[i];
-        }
     }
 
     #[inline(always)]
@@ -312,7 +354,7 @@ mod tests {
 
     /// Asserts that the results of a batch are bit-identical to the results of single particles.
     fn hold_batch<const D: usize>(given: &[Matrix<D>; BATCH]) {
-        let mut m = MatrixBatch::identity();
+        let mut m = MatrixBatch::<D>::identity();
         for (lane, given) in given.iter().enumerate() {
             m.set(lane, given);
         }
@@ -322,7 +364,8 @@ mod tests {
             let (of_one, axes_of_one) = spectral(given);
             let together = assembled(&of_one, &axes_of_one);
             let alone = [of_one.as_slice(), axes_of_one.as_slice(), together.as_slice()].concat();
-            let (values, axes, again) = (values.get(lane), axes.get(lane), again.get(lane));
+            let (values, axes) = (values.get(lane), axes.get::<D>(lane));
+            let again = again.get::<D>(lane);
             let found = [values.as_slice(), axes.as_slice(), again.as_slice()].concat();
             let same = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
             assert!(alone.iter().zip(&found).all(same), "{given}: {alone:?}, {found:?}");

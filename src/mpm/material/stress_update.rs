@@ -229,13 +229,14 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// Creates squares at rest, each with its own velocity gradient (1/s).
+    /// Creates squares at rest, each with its own velocity gradient (1/s), so that a batch has small
+    /// and large strains.
     fn squares(total: usize) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
         let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
         squares.track_deformation();
         for (p, grad_v) in squares.grad_v.iter_mut().enumerate() {
-            *grad_v = scattered(0.2, p as f64);
+            *grad_v = scattered([0.2, 0.02, 1e-3][p % 3], p as f64);
         }
         squares
     }
