@@ -161,16 +161,29 @@ impl Convergence {
         })
     }
 
-    /// Describes the judged error, with its unit.
+    /// Describes the judged error, with the time of the comparison and its unit.
     pub fn judged(&self) -> String {
+        let is_over_instants = self.norm.is_over_instants() || self.of.is_sum();
+        // An equilibrium is compared only at the end.
+        let is_at_rest = self.levels.iter().any(|level| level.run.residual_speed.is_some());
+        let time =
+            if is_over_instants && !is_at_rest { " over all instants" } else { " at the end" };
+        self.judged_error(time)
+    }
+
+    /// Describes the judged error, with its unit, for the axis of a figure.
+    pub(crate) fn axis_label(&self) -> String {
+        self.judged_error("")
+    }
+
+    fn judged_error(&self, time: &str) -> String {
         let (norm, name, unit) =
             (self.norm.name().replace('_', " "), self.of.words(), self.of.unit());
+        let error = format!("{norm} error of {name}{time}");
         match self.scale.map(|scale| self.of.shown_scale(scale)) {
-            Some(scale) => {
-                format!("{norm} error of {name}, divided by {scale} {unit}").trim_end().to_owned()
-            }
-            None if unit.is_empty() => format!("{norm} error of {name}"),
-            None => format!("{norm} error of {name} ({unit})"),
+            Some(scale) => format!("{error}, divided by {scale} {unit}").trim_end().to_owned(),
+            None if unit.is_empty() => error,
+            None => format!("{error} ({unit})"),
         }
     }
 

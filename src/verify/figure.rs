@@ -198,7 +198,7 @@ run_figures! {
     /// Largest minus smallest mean normal stress at the end, divided by the largest magnitude.
     StressSpread = "stress_spread", "stress spread", |trial| trial.stress_spread;
     /// Largest stress at the end, divided by the modulus.
-    Stress = "stress", "stress/M", |trial| trial.stress;
+    Stress = "stress", "largest stress magnitude/M at the end", |trial| trial.stress;
     /// Largest displacement (m) at the end.
     Displacement = "displacement", "largest displacement (m)", |trial| trial.displacement;
     /// Number of steps.

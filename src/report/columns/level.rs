@@ -4,7 +4,7 @@ use super::{Cell, TableColumn, decimals, json_object, scientific};
 use crate::report::columns::number;
 use crate::verify::{
     Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, Quantity,
-    RunErrors, observed_order,
+    RunErrors, StepKind, observed_order,
 };
 use serde_json::Value;
 
@@ -87,13 +87,13 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
 /// error that equals the judged error is shown as a dash.
 pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
     let heading = format!("linf of {} at end ({})", of.words(), of.unit());
-    let about = "order of linf between the next coarser level and this one";
+    let about = "order of the largest error between the two finest levels";
     [
         LevelColumn::text(heading, "largest error at the end of the run", |row| {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("order of linf", about, |row| {
+        LevelColumn::text("linf order, two finest levels", about, |row| {
             let index = row.index.checked_sub(1)?;
             let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
             let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
@@ -114,7 +114,8 @@ pub(crate) fn spread<'a>() -> LevelColumn<'a> {
 }
 
 pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
-    let about = "error of the observed velocity, divided by its largest exact value";
+    let about = "rms error over time of the velocity at the observed point, divided by the largest \
+                 exact value";
     LevelColumn::text("velocity", about, |row| {
         let history = row.level.run.history.as_ref();
         history.and_then(History::relative_error).map(scientific)
@@ -157,7 +158,12 @@ pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
             "speed/c",
             "residual_speed",
             "for an equilibrium: largest speed in the last tenth of the run, divided by the wave speed",
-            |row| row.unless_failed(row.level.run.residual_speed),
+            |row| {
+                let cell = row.unless_failed(row.level.run.residual_speed);
+                // Load steps have no speed.
+                let is_load = row.study.steps == StepKind::Load;
+                if is_load { Cell { text: "-".to_owned(), ..cell } } else { cell }
+            },
         ),
         LevelColumn::new(
             "dt/stable",

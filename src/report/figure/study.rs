@@ -106,7 +106,7 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     if orders.is_empty() {
         orders.extend(studies.first().map(|(_, study)| study.formal_order));
     }
-    let judged = studies.first().map_or(String::new(), |(_, study)| study.judged());
+    let judged = studies.first().map_or(String::new(), |(_, study)| study.axis_label());
     LogLogPlot {
         title: outcome.title.clone(),
         x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),

@@ -26,7 +26,8 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
         .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking, study)?)))
         .collect();
     for (problem, methods) in &all {
-        let of_problem = if all.len() > 1 { format!("runs {problem}: ") } else { String::new() };
+        let of_problem =
+            if all.len() > 1 { format!("of the runs {problem}, ") } else { String::new() };
         row(lines, "cheapest", &format!("{of_problem}{methods}"));
     }
     if !all.is_empty() && cases.iter().any(|case| case.subject == "fem") {

@@ -125,7 +125,7 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let judged = first.judged();
     if first.levels.len() == 1 {
         // The table of verdicts contains the error.
-        return row(lines, "judged", &judged);
+        return row(lines, "error", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);
     let is_excluded = |study: &Convergence| {
@@ -148,8 +148,11 @@ fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let is_observed = |(_, study): &&NamedStudy<'_>| study.history().is_some();
     let observed: Vec<NamedStudy<'_>> = studies.iter().filter(is_observed).copied().collect();
-    let velocity = level::velocity();
-    by_level(lines, velocity.about, &observed, &[level::velocity()]);
+    let Some(place) = observed.iter().find_map(|(_, study)| study.place()) else { return };
+    let heading = format!(
+        "rms error over time of the velocity near X = {place} m, divided by its largest exact value"
+    );
+    by_level(lines, &heading, &observed, &[level::velocity()]);
 }
 
 /// Adds a table with `columns` for each level, below a heading.
@@ -237,19 +240,25 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let of = studies.first().map(|(_, study)| study.of).filter(|of| of.is_primary());
     let of = of.unwrap_or(Quantity::Displacement);
     let columns = level::largest_error(of).into_iter().chain(counters);
-    by_case(lines, "on the finest level", studies, columns);
+    let heading = if has_levels(studies) { "on the finest level" } else { "further results" };
+    by_case(lines, heading, studies, columns);
+}
+
+/// Whether a study has more than one level.
+fn has_levels(studies: &[NamedStudy<'_>]) -> bool {
+    studies.iter().any(|(_, study)| study.levels.len() > 1)
 }
 
 fn drifts(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let sums = distinct(studies.iter().flat_map(|(_, study)| study.drifts.iter().copied()));
     let asked: Vec<NamedStudy<'_>> =
         studies.iter().filter(|(_, study)| !study.drifts.is_empty()).copied().collect();
-    by_case(
-        lines,
-        "largest relative change of sums over the body since t = 0, on any level",
-        &asked,
-        sums.into_iter().map(level::largest_drift),
+    let levels = if has_levels(&asked) { ", all levels" } else { "" };
+    let heading = format!(
+        "conservation{levels}: largest change since t = 0, divided by the sum of magnitudes over \
+         the body"
     );
+    by_case(lines, &heading, &asked, sums.into_iter().map(level::largest_drift));
 }
 
 fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
@@ -278,8 +287,8 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let answered = rows.iter().filter(|row| row.result.is_ok()).count();
     lines.push(String::new());
     lines.push(format!(
-        "  u at X = {place} m, extrapolated from the four finest levels to zero spacing; {answered} \
-         of {} cases have an estimate",
+        "  u at X = {place} m at the end, extrapolated from the four finest levels to zero spacing; \
+         {answered} of {} cases have an estimate",
         rows.len()
     ));
     lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
@@ -331,7 +340,7 @@ fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
             "whether the interval contains the exact value",
             |row| row.is_covered.map(|covered| if covered { "yes" } else { "no" }),
         ),
-        LimitColumn::text("reason", "why there is no limit", |row| {
+        LimitColumn::text("reason for no estimate", "why there is no limit", |row| {
             row.result.err().map(EstimateRefusal::name)
         })
         .flush_left(),

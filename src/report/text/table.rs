@@ -186,6 +186,14 @@ pub(crate) fn together(names: &[&str]) -> String {
         let start = start.unwrap_or(0);
         let end = others.iter().map(|name| common(&mut first.iter().rev(), &mut name.iter().rev()));
         let end = end.min().unwrap_or(0).min(shortest - start);
+        // An empty alternative, as in `flip-{,95}`, would be hard to read.
+        let (start, end) = if start + end < shortest {
+            (start, end)
+        } else if start > 0 {
+            (start - 1, end)
+        } else {
+            (start, end.saturating_sub(1))
+        };
         let middle = names.iter().map(|name| name[start..name.len() - end].join("-"));
         let middle = format!("{{{}}}", middle.collect::<Vec<_>>().join(","));
         let (head, tail) = (&first[..start], &first[first.len() - end..]);
@@ -259,7 +267,9 @@ mod tests {
     #[case(&["a-x", "a-y", "b-x", "b-y"], "{a,b}-{x,y}")]
     #[case(&["a-x", "b-y"], "{a-x,b-y}")]
     #[case(&["mpm-linear-pic", "mpm-cubic-bspline-pic"], "mpm-{linear,cubic-bspline}-pic")]
-    #[case(&["mpm-flip", "mpm-flip-consistent"], "mpm-flip-{,consistent}")]
+    #[case(&["mpm-flip", "mpm-flip-consistent"], "mpm-{flip,flip-consistent}")]
+    #[case(&["flip-musl", "flip-95-musl"], "{flip,flip-95}-musl")]
+    #[case(&["musl", "flip-musl"], "{musl,flip-musl}")]
     fn names_together(#[case] names: &[&str], #[case] expected: &str) {
         assert_eq!(together(names), expected);
     }

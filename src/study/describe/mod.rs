@@ -81,7 +81,7 @@ fn body(scene: &Scene) -> String {
     let body = match (&scene.outline, &scene.mapped) {
         (None, _) => format!("{from} to {to} m"),
         (Some(outline), Some(_)) => outline.row(),
-        (Some(outline), None) => outline.row() + rims(scene),
+        (Some(outline), None) => outline.row() + rims(scene, outline.rims().len()),
     };
     let density = match scene.density.formula() {
         None => stated(scene.density.largest()),
@@ -90,10 +90,14 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// Returns the text `, free rims` if no load acts on a rim.
-fn rims(scene: &Scene) -> &'static str {
+/// Returns the text `, free rim` or `, free rims` if no load acts on one of the `count` rims.
+fn rims(scene: &Scene, count: usize) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
-    if is_loaded { "" } else { ", free rims" }
+    match count {
+        _ if is_loaded => "",
+        1 => ", free rim",
+        _ => ", free rims",
+    }
 }
 
 /// Adds the rows of each body, if there are several, and of their contact.
@@ -167,8 +171,12 @@ fn initial_stress(scene: &Scene) -> String {
 
 /// Describes name and parameters of the material, such as `linear elastic, E = 100 Pa, nu = 0`.
 fn material(plan: &MaterialPlan) -> String {
-    let written = |(MaterialParameter { symbol, unit, .. }, value): (MaterialParameter, f64)| {
-        format!(", {symbol} = {} {unit}", stated(value)).trim_end().to_owned()
+    let written = |(parameter, value): (MaterialParameter, f64)| {
+        let MaterialParameter { what, symbol, unit, .. } = parameter;
+        // The symbols of these coefficients are not generally known.
+        let name = what.strip_prefix("the coefficient of ");
+        let name = name.map_or(String::new(), |name| format!("({name})"));
+        format!(", {symbol} = {} {unit}{name}", stated(value)).trim_end().to_owned()
     };
     let parameters: String = plan.parameters().into_iter().map(written).collect();
     plan.name().replace('_', " ") + &parameters

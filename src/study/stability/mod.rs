@@ -4,11 +4,12 @@ mod handed;
 pub(crate) mod run;
 use self::run::CaseRun;
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::study::describe::{Rows, push, scene};
+use crate::study::describe::{Rows, push, scene, stated};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::time_series::SeriesError;
 use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::evaluator::shown;
+use crate::suite::model::Scene;
 use crate::suite::model::stability::StabilityPlan;
 use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy};
 use rayon::prelude::*;
@@ -132,6 +133,31 @@ pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     rows
 }
 
+/// Returns the time step (s), if it is constant and equal in all runs.
+fn common_step(plan: &StabilityPlan, setup: &RunSetup) -> Option<f64> {
+    let [dt] = setup.dt[..] else { return None };
+    let is_equal = |value: &f64| {
+        let other = plan.template.setup(&[(&plan.swept, *value)]);
+        other.is_ok_and(|other| other.dt == setup.dt)
+    };
+    let is_given = setup.rule.is_none() && plan.sought.is_none();
+    (is_given && plan.values.iter().all(is_equal)).then_some(dt)
+}
+
+/// Describes the energy by which the energies of a run are divided.
+fn reference_energy(setup: &RunSetup) -> &'static str {
+    let is_at_rest = |body: &Scene| {
+        body.initial_displacement.is_empty()
+            && body.initial_velocity.is_empty()
+            && body.initial_stress.is_none()
+    };
+    if setup.perturb == 0.0 && setup.scene.each().iter().all(is_at_rest) {
+        "the energy of a unit strain (the initial energy is zero)"
+    } else {
+        "the initial energy"
+    }
+}
+
 fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     let mut push = |key: &str, value: String| push(rows, key, &value);
     let values: Vec<String> = plan.values.iter().map(|value| shown(*value)).collect();
@@ -152,6 +178,12 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     };
     let plural = if setup.steps == 1 { "" } else { "s" };
     push("run", format!("{} step{plural}{full}", setup.steps));
+    if let Some(dt) = common_step(plan, setup) {
+        push("dt", format!("{} s", stated(dt)));
+        if setup.full_steps == setup.steps {
+            push("until", format!("t = {} s", stated(setup.steps as f64 * dt)));
+        }
+    }
     if let Some(share) = setup.rule {
         push("dt", format!("{} times the stable time step", shown(share)));
     }
@@ -176,8 +208,10 @@ fn of_setup(plan: &StabilityPlan, setup: &RunSetup, rows: &mut Rows) {
     push(
         "verdicts",
         format!(
-            "stable up to {:e} times the initial energy, unstable above {:e} times",
-            setup.scales.stable_below, setup.scales.unstable_above
+            "stable up to {:e} times {}, unstable above {:e} times",
+            setup.scales.stable_below,
+            reference_energy(setup),
+            setup.scales.unstable_above
         ),
     );
 }

@@ -149,7 +149,10 @@ impl Method {
             ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
-                ("temperature transfer", "increments and gradients are mapped"),
+                (
+                    "temperature transfer",
+                    "to nodes with its gradient, and to particles as increments",
+                ),
                 ("capacity matrix", "lumped (row sum)"),
                 ("time integration", "forward Euler"),
             ]),

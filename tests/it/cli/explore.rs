@@ -19,7 +19,8 @@ fn suite_without_expectations_reports_results_and_passes() {
             "explored  short-bar::mpm-linear-flip-musl",
             "  a   nothing: neither the suite nor a gate has an expectation for it",
             "result        2 cases without an expectation",
-            "largest relative change of sums over the body since t = 0, on any level\n",
+            "conservation, all levels: largest change since t = 0, divided by the sum of magnitudes \
+             over the body\n",
         ],
     );
     let note = "note: short-bar has no expectations, so it is not a gate";

@@ -66,7 +66,7 @@ fn a_latex_table_has_errors_and_orders() {
     % Written by mpm-verify 0.1.0. Needs \usepackage{booktabs}.
     \begin{table}
       \centering
-      \caption{Short bar: rms error of displacement (m).}
+      \caption{Short bar: rms error of displacement at the end (m).}
       \label{tab:short-bar}
       \begin{tabular}{rrrrr}
         \toprule

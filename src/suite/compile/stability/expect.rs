@@ -171,7 +171,9 @@ fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f6
     if let (Some(is), Some(within)) = (&spec.is, &spec.within) {
         let is = text(is, |bounds| Some(bounds.is?.0));
         let within = text(within, |bounds| Some(bounds.is?.1));
-        parts.push(format!("{is} within {within}"));
+        // The tolerance applies to each of several values.
+        let each = if is.contains(" for ") { ", each" } else { "" };
+        parts.push(format!("{is}{each} within {within}"));
     }
     let above = spec.above.as_ref().map(|least| text(least, |bounds| bounds.above));
     let below = spec.below.as_ref().map(|most| text(most, |bounds| bounds.below));
@@ -198,9 +200,9 @@ fn with_values(formula: &str, values: &[f64], rows: &[Vec<(&str, f64)>]) -> Stri
             let of_row = |(value, row): (&String, &Vec<(&str, f64)>)| {
                 let swept: Vec<String> =
                     row.iter().map(|(name, swept)| format!("{name} = {swept}")).collect();
-                format!("{value} for {}", swept.join(", "))
+                format!("{value} for {}", swept.join(" and "))
             };
-            shown.iter().zip(rows).map(of_row).collect::<Vec<_>>().join(" and ")
+            shown.iter().zip(rows).map(of_row).collect::<Vec<_>>().join(", ")
         }
         _ => formula.to_owned(),
     }
