@@ -51,7 +51,7 @@ fn hello() -> String {
         "type": "hello", "protocol": 2, "name": "asking", "version": "1",
         "capabilities": {
             "dimensions": [1, 2],
-            "laws": ["linear_elastic", "neo_hookean"],
+            "laws": ["linear_elastic", "neo_hookean", "drucker_prager"],
             "conditions": ["free", "fixed", "friction", "velocity"],
             "loads": [
                 "gravity", "body_force", "damping", "local_damping", "artificial_viscosity",
