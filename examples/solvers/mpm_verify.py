@@ -111,7 +111,7 @@ class Problem:
                body: int | None = None, displacement: Array | None = None) -> Array:
         """Values of a field, one after the other, as the harness gives them: `of` is `body_force`,
         `displacement`, `velocity`, `deformation_gradient`, `stress`, `initial_stress`,
-        `load:INDEX` or `face:NAME`. Raises `NoValues` if the problem does not define them."""
+        `initial_stress_across`, `load:INDEX` or `face:NAME`. Raises `NoValues` if the problem does not define them."""
         request: Message = {"type": "values", "of": of}
         if t is not None:
             request["t"] = float(t)

@@ -158,8 +158,8 @@ class Mpm:
     def setup(self, problem: Problem) -> None:
         self.problem, self.d = problem, problem.dimension
         law, parameters = problem.materials[0]["law"], problem.materials[0]["parameters"]
-        if law == "j2" and self.d > 1:
-            raise Cannot("plasticity in one dimension only")
+        if law == "j2" and (self.d > 1 or problem.reference_stress.any()):
+            raise Cannot("plasticity in one dimension and without initial stress only")
         self.parameters = parameters
         if law != "polytropic":
             self.set_moduli(parameters["young"], parameters["poisson"])

@@ -6,6 +6,9 @@
 //! Non-Linear Mech. 56). Small waves along S0 satisfy `rho0 c^2 = M + S0`. For a small-strain law,
 //! `P = C : eps + S0`, which neglects `grad u S0` compared with `C : eps`. S0 must therefore be
 //! much smaller than the moduli, just as strains must be much smaller than 1.
+//!
+//! For a law with a yield surface, S0 is the stress at F = I of the elastic strain at the start. It
+//! is not added to the stress of the law.
 
 use super::formula::{Formula, Number, Slope};
 use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
@@ -69,6 +72,15 @@ impl InitialStress {
         pushed_forward(&piola, grad)
     }
 
+    /// Returns S0 (Pa) at `label` with its derivatives.
+    pub(super) fn varying(&self, label: &[f64]) -> Tensor<Slope<3>> {
+        let along = |axis: usize| std::array::from_fn(|other| unit(axis, other));
+        let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
+            Slope::new(label.get(axis).copied().unwrap_or(0.0), along(axis))
+        });
+        self.over(&place[..label.len()])
+    }
+
     /// Computes the contribution of S0 to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.
     pub(super) fn divergence(
         &self,
@@ -77,11 +89,7 @@ impl InitialStress {
         second: &[Tensor<f64>; 3],
         is_finite: bool,
     ) -> [f64; 3] {
-        let along = |axis: usize| std::array::from_fn(|other| unit(axis, other));
-        let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
-            Slope::new(label.get(axis).copied().unwrap_or(0.0), along(axis))
-        });
-        let stress = self.over(&place[..label.len()]);
+        let stress = self.varying(label);
         let piola = if is_finite {
             let varying: Tensor<Slope<3>> = tensor(|i, j| Slope::new(grad[i][j], second[i][j]));
             pulled(&varying, &stress)

@@ -9,13 +9,13 @@ use super::condition::Face;
 use super::density::Density;
 use super::equation::complete_in_plane;
 use super::expansion::{Swelling, swollen_cauchy, swollen_divergence, swollen_piola};
-use super::formula::{Formula, Number};
+use super::formula::{Formula, Number, Slope};
 use super::heat::Conduction;
 use super::initial_stress::InitialStress;
 use super::law::Equation;
 use super::motion::{Derivatives, Motion, Places, write};
 use super::outline::Outline;
-use super::tensor::{Tensor, tensor};
+use super::tensor::{Tensor, pushed_forward, sum, tensor};
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
@@ -251,6 +251,9 @@ impl Problem {
 
     /// Computes P (Pa), where `now` contains the motion's derivatives.
     pub(super) fn piola(&self, label: &[f64], t: f64, now: &Derivatives) -> Tensor<f64> {
+        if self.starts_strained() {
+            return self.piola_from(&now.grad, &self.initial_stress.at(label));
+        }
         let piola = match self.swelling(label, t) {
             None => {
                 let (piola, factor) = (self.equation.piola(&now.grad), self.factor_at(label));
@@ -270,6 +273,9 @@ impl Problem {
     /// Computes the Cauchy stress (Pa) at the position `label` of this body, for the displacement
     /// gradient `grad`.
     pub(super) fn cauchy(&self, label: &[f64], grad: &Tensor<f64>) -> Tensor<f64> {
+        if self.starts_strained() {
+            return pushed_forward(&self.piola_from(grad, &self.initial_stress.at(label)), grad);
+        }
         let (sigma, factor) = (self.equation.cauchy(grad), self.factor_at(label));
         let sigma = tensor(|i, j| factor * sigma[i][j]);
         if self.initial_stress.is_none() {
@@ -282,6 +288,11 @@ impl Problem {
     /// Computes Div P (N/m3), where `now` contains the motion's derivatives.
     pub(super) fn divergence(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let Derivatives { grad, second, .. } = now;
+        if self.starts_strained() {
+            let varying: Tensor<Slope<3>> = tensor(|i, j| Slope::new(grad[i][j], second[i][j]));
+            let piola = self.piola_from(&varying, &self.initial_stress.varying(label));
+            return std::array::from_fn(|i| sum::<f64, 3>(|j| piola[i][j].d(j)));
+        }
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
             None => self.divergence_of_law(axes, label, grad, second),
@@ -295,6 +306,20 @@ impl Problem {
         let (is_finite, initial) = (self.equation.is_finite(), &self.initial_stress);
         let initial = initial.divergence(label, grad, second, is_finite);
         std::array::from_fn(|i| force[i] + initial[i])
+    }
+
+    /// Whether the initial stress is that of an elastic strain at the start, because the yield
+    /// condition of the law limits the total stress. For other laws it is added to the stress.
+    pub(super) fn starts_strained(&self) -> bool {
+        let zero: Tensor<f64> = [[0.0; 3]; 3];
+        !self.initial_stress.is_none() && self.equation.piola_from(&zero, &zero).is_some()
+    }
+
+    /// Computes P (Pa) of a body that [starts strained](Self::starts_strained). In more than one
+    /// dimension, such a body must be at rest, where P is the initial stress.
+    fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
+        let uniaxial = self.equation.piola_from(grad, initial);
+        uniaxial.filter(|_| self.dimension() == 1).unwrap_or(*initial)
     }
 
     /// Computes the contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is

@@ -58,6 +58,8 @@ pub enum FieldName {
     Stress,
     /// Stress of the reference configuration (Pa).
     InitialStress,
+    /// Out-of-plane normal components of this stress (Pa), 3 - D numbers.
+    InitialStressAcross,
     /// Quantity of the load with this index.
     Load(usize),
     /// Quantity of the condition on the face with this index.
@@ -66,13 +68,14 @@ pub enum FieldName {
 
 /// Names of the body fields in requests.
 #[cfg(feature = "external-programs")]
-pub(crate) const BODY_FIELDS: [(&str, FieldName); 6] = [
+pub(crate) const BODY_FIELDS: [(&str, FieldName); 7] = [
     ("body_force", FieldName::BodyForce),
     ("displacement", FieldName::Displacement),
     ("velocity", FieldName::Velocity),
     ("deformation_gradient", FieldName::DeformationGradient),
     ("stress", FieldName::Stress),
     ("initial_stress", FieldName::InitialStress),
+    ("initial_stress_across", FieldName::InitialStressAcross),
 ];
 
 impl FieldName {

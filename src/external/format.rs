@@ -70,6 +70,10 @@ fn is_tensor(column: &str) -> bool {
     ["deformation_gradient", "stress", "initial_stress"].contains(&column)
 }
 
+fn is_across(column: &str) -> bool {
+    column == "initial_stress_across"
+}
+
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Formats a table with one particle per line. The header contains the column names, such as
@@ -83,7 +87,7 @@ fn csv_table(problem: &LevelProblem) -> String {
             if is_tensor(name) {
                 format!("{name}_{}{}", AXES[k / d], AXES[k % d])
             } else {
-                format!("{name}_{}", AXES[k])
+                format!("{name}_{}", AXES[if is_across(name) { d + k } else { k }])
             }
         };
         if is_scalar(name) {

@@ -85,10 +85,14 @@ pub struct ProblemParticles {
     pub hoop_stress: Vec<f64>,
     /// Initial stresses (Pa), n D^2 numbers, row after row; empty if there are none.
     pub initial_stress: Vec<f64>,
+    /// Out-of-plane normal components of the initial stresses (Pa), n (3 - D) numbers, for laws
+    /// with a yield surface; empty otherwise.
+    pub initial_stress_across: Vec<f64>,
 }
 
 impl ProblemParticles {
-    pub(super) const OPTIONAL: [&str; 2] = ["hoop_stress", "initial_stress"];
+    pub(super) const OPTIONAL: [&str; 3] =
+        ["hoop_stress", "initial_stress", "initial_stress_across"];
 
     /// Returns the number of particles.
     pub fn len(&self) -> usize {
@@ -114,7 +118,7 @@ impl ProblemParticles {
             ("stress", &self.stress),
             ("body", &self.body),
         ];
-        let optional = [&self.hoop_stress, &self.initial_stress];
+        let optional = [&self.hoop_stress, &self.initial_stress, &self.initial_stress_across];
         for (name, column) in Self::OPTIONAL.into_iter().zip(optional) {
             if !column.is_empty() {
                 columns.push((name, column));

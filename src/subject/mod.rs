@@ -242,6 +242,14 @@ pub enum Failure {
     /// A body starts deformed, but its law does not define the stress of the initial deformation.
     #[error("the law has no stress for a body that starts deformed")]
     NotOfDeformation,
+    /// The initial stress violates the yield condition of the law.
+    #[error("the initial stress of {site} is outside the yield surface, f = {value:.3e} Pa")]
+    OutsideYieldSurface {
+        /// The particle.
+        site: Site,
+        /// Value of the yield function (Pa).
+        value: f64,
+    },
     /// A particle is outside all cells of the grid.
     #[error("{site} left the domain at x = {position:?}")]
     LeftDomain {

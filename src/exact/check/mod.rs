@@ -37,6 +37,7 @@ impl Problem {
         boundary::driven(self, survey)?;
         pointwise::tractions_on_rims(self, survey)?;
         pointwise::monotone_loading(self, survey)?;
+        pointwise::start_of_yielding(self, survey)?;
         differences::differentiation(self, survey)?;
         pointwise::equation(self, survey)?;
         weak::momentum(self, survey)

@@ -156,7 +156,8 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
         return Ok(());
     }
     for SurveyPoint { event, now, .. } in &survey.points {
-        if !problem.equation.flows(now.grad[0][0]) {
+        let initial = problem.initial_stress.at(&event.label);
+        if !problem.equation.flows(now.grad[0][0], &initial) {
             continue;
         }
         let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
@@ -165,6 +166,27 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
         let name = "loading reverses where the body flows plastically: the rate of du_X/dX changes its sign"
             .to_owned();
         event.judge(allowed, name, (0.0, back), "1/s")?;
+    }
+    Ok(())
+}
+
+/// Checks the motions for which the stress of a law with a yield surface is known if the body has
+/// an initial stress: in one dimension uniaxial strain with equal lateral stresses, and in more
+/// dimensions a body at rest.
+pub(crate) fn start_of_yielding(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    if !problem.starts_strained() {
+        return Ok(());
+    }
+    for SurveyPoint { event, now, .. } in &survey.points {
+        if problem.dimension() == 1 {
+            let stress = problem.initial_stress.at(&event.label);
+            let allowed = problem.tolerance * survey.largest.stress;
+            let name = "the lateral initial stresses yy and zz differ".to_owned();
+            event.judge(allowed, name, (stress[1][1], stress[2][2]), "Pa")?;
+        } else if let Some(u) = now.u.iter().find(|u| !(u.abs() <= 0.0)) {
+            let name = "a body that yields has an initial stress, and is not at rest".to_owned();
+            return Err(event.violation(name, None, *u, None, "m"));
+        }
     }
     Ok(())
 }

@@ -50,9 +50,18 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
-    /// Whether a body in uniaxial strain yields at the displacement gradient `grad`.
-    fn flows(&self, grad: f64) -> bool {
-        let _ = grad;
+    /// Computes P (Pa) of a body in uniaxial strain with the initial stress `initial` (Pa), for a
+    /// law whose yield condition limits the total stress. `None` for other laws, for which the
+    /// initial stress is added to the stress of the law.
+    fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Option<Tensor<T>> {
+        let _ = (grad, initial);
+        None
+    }
+
+    /// Whether a body in uniaxial strain with the initial stress `initial` (Pa) yields at the
+    /// displacement gradient `grad`.
+    fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
+        let _ = (grad, initial);
         false
     }
 

@@ -1,17 +1,18 @@
 //! Drucker-Prager plasticity in uniaxial strain under monotonic loading.
 //!
-//! With `A = 2 mu/sqrt(3)`, `D = mu + K eta etab` and `s = -1` in compression, `1` in extension,
-//! the body yields at the strain `k/(A + s eta K)`. After yield, with `M = lambda + 2 mu`,
+//! With the axial and the lateral stress a and l, and `s = -1` where a is the smallest stress, `s =
+//! 1` where it is the largest, the yield condition is
 //!
 //! ```text
-//! d tau11/de = M - (K eta + s A)(K etab + s A)/D
+//! s (a - l)/sqrt(3) + eta (a + 2 l)/3 <= k
 //! ```
 //!
-//! Both invariants are then linear in the strain. Per unit strain, `sqrt(J2)` changes by `A - mu g`
-//! and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
+//! With `A = 2 mu/sqrt(3)`, a unit of flow reduces a by `K etab + s A` and l by `K etab - s A/2`.
+//! The left side decreases by `D = mu + K eta etab`, so after yield, with `M = lambda + 2 mu`, `d
+//! a/de = M - (K eta + s A)(K etab + s A)/D`.
 
 use super::contract::Lame;
-use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
+use super::uniaxial_flow::{UniaxialLaw, UniaxialPlasticity, UniaxialYield};
 
 /// Drucker-Prager plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,23 +25,16 @@ impl DruckerPragerLaw {
         let lame = Lame::new(young, poisson);
         let bulk = lame.lambda + 2.0 / 3.0 * lame.mu;
         let shear = 2.0 / libm::sqrt(3.0) * lame.mu;
-        let stiffness = lame.mu + bulk * friction * dilation;
-        let flow = |sign: f64| {
-            let towards = shear + sign * friction * bulk;
-            if !(towards > 0.0) {
-                return UniaxialFlow::NONE;
-            }
-            let strain = strength / towards;
-            let loss = lame.mu * towards / stiffness - shear;
-            UniaxialFlow {
-                strain,
-                modulus: lame.modulus()
-                    - (bulk * friction + sign * shear) * (bulk * dilation + sign * shear)
-                        / stiffness,
-                to_apex: if loss > 0.0 { shear * strain / loss } else { f64::INFINITY },
-            }
+        let limit = |sign: f64| UniaxialYield {
+            weights: [
+                sign / libm::sqrt(3.0) + friction / 3.0,
+                2.0 / 3.0 * friction - sign / libm::sqrt(3.0),
+            ],
+            relief: [bulk * dilation + sign * shear, bulk * dilation - 0.5 * sign * shear],
+            strength,
+            hardening: 0.0,
         };
-        Self(UniaxialLaw { lame, compression: flow(-1.0), extension: flow(1.0) })
+        Self(UniaxialLaw { lame, limits: [limit(-1.0), limit(1.0)] })
     }
 }
 
@@ -78,12 +72,13 @@ mod tests {
         let law = DruckerPragerLaw::new(15e3, 0.25, 0.3, 0.1, 10.0);
         let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
         assert_relative_eq!(piola * libm::exp(strain), tau, max_relative = 1e-10);
-        assert_eq!(law.flows(libm::expm1(strain)), strain != -0.002);
+        assert_eq!(law.flows(libm::expm1(strain), &[[0.0; 3]; 3]), strain != -0.002);
     }
 
     #[test]
     fn a_steep_cone_is_elastic_in_compression() {
         let law = DruckerPragerLaw::new(15e3, 0.25, 0.7, 0.1, 10.0);
-        assert!(!law.flows(-0.5) && law.flows(0.5));
+        let flows = |grad| law.flows(grad, &[[0.0; 3]; 3]);
+        assert!(!flows(-0.5) && flows(0.5));
     }
 }

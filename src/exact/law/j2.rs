@@ -7,6 +7,7 @@
 //! used in uniaxial strain; `monotone_loading` checks that the loading never reverses.
 
 use super::contract::{ConstitutiveLaw, Lame};
+use super::uniaxial_flow::{UniaxialLaw, UniaxialYield};
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, cofactor, det, log_strain, product, sum, tensor, unit};
 
@@ -23,6 +24,19 @@ impl J2Law {
     /// and the hardening modulus (Pa).
     pub fn new(young: f64, poisson: f64, yield_stress: f64, hardening: f64) -> Self {
         Self { lame: Lame::new(young, poisson), yield_stress, hardening }
+    }
+
+    /// Returns the law in uniaxial strain, where `q = |axial - lateral|`. A unit of flow reduces
+    /// the axial stress by 2 mu and the lateral stress by -mu if the axial stress is the largest.
+    fn uniaxial(&self) -> UniaxialLaw {
+        let Self { lame, yield_stress: strength, hardening } = *self;
+        let limit = |sign: f64| UniaxialYield {
+            weights: [sign, -sign],
+            relief: [2.0 * sign * lame.mu, -sign * lame.mu],
+            strength,
+            hardening,
+        };
+        UniaxialLaw { lame, limits: [limit(-1.0), limit(1.0)] }
     }
 }
 
@@ -45,8 +59,12 @@ impl ConstitutiveLaw for J2Law {
         self.lame.modulus()
     }
 
-    fn flows(&self, grad: f64) -> bool {
-        2.0 * self.lame.mu * libm::log(1.0 + grad).abs() > self.yield_stress
+    fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Option<Tensor<T>> {
+        Some(self.uniaxial().piola_from(grad, initial))
+    }
+
+    fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
+        self.uniaxial().flows(grad, initial)
     }
 
     fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
@@ -105,7 +123,7 @@ mod tests {
         let elastic = 2.0 * mu * strain.abs();
         let alpha = ((elastic - 1.0) / (3.0 * mu + 30.0)).max(0.0);
         let q = if alpha > 0.0 { 1.0 + 30.0 * alpha } else { elastic };
-        assert_eq!(alpha > 0.0, law.flows(libm::expm1(strain)));
+        assert_eq!(alpha > 0.0, law.flows(libm::expm1(strain), &[[0.0; 3]; 3]));
         let tau = (lambda + 2.0 / 3.0 * mu) * strain + 2.0 / 3.0 * q * strain.signum();
         let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
         assert_relative_eq!(piola, tau / libm::exp(strain), max_relative = 1e-12);

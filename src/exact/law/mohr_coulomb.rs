@@ -8,7 +8,7 @@
 //! change by half of the shear part, with opposite sign.
 
 use super::contract::Lame;
-use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};
+use super::uniaxial_flow::{UniaxialLaw, UniaxialPlasticity, UniaxialYield};
 
 /// Mohr-Coulomb plasticity with Hencky elasticity in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,38 +27,25 @@ impl MohrCoulombLaw {
         let lame = Lame::new(young, poisson);
         let (phi, psi) = (friction_angle.to_radians(), dilation_angle.to_radians());
         let (s, t) = (libm::sin(phi), libm::sin(psi));
-        let (Lame { lambda, mu }, elastic) = (lame, lame.modulus());
-        let strength = 2.0 * cohesion * libm::cos(phi);
-        // Weights of the axial and lateral stress in the yield function, and the decrease of these
-        // stresses per unit of the multiplier g.
-        let in_compression = [-(1.0 - s), 1.0 + s];
-        let relief_in_compression =
-            [4.0 * lambda * t - 4.0 * mu * (1.0 - t), 4.0 * lambda * t + 2.0 * mu * (1.0 + t)];
-        let in_extension = [1.0 + s, -(1.0 - s)];
-        let relief_in_extension =
-            [4.0 * lambda * t + 4.0 * mu * (1.0 + t), 4.0 * lambda * t - 2.0 * mu * (1.0 - t)];
-        let flow = |sign: f64, weights: [f64; 2], relief: [f64; 2]| {
-            let dot = |[axial, lateral]: [f64; 2]| weights[0] * axial + weights[1] * lateral;
-            let rates = [sign * elastic, sign * lambda];
-            let towards = dot(rates);
-            if !(towards > 0.0) {
-                return UniaxialFlow::NONE;
-            }
-            let (strain, flow) = (strength / towards, towards / dot(relief));
-            let [axial, lateral] = [rates[0] - flow * relief[0], rates[1] - flow * relief[1]];
-            // The difference between the stresses at yield, and its decrease per unit strain.
-            let (gap, closing) = (2.0 * mu * strain, sign * (lateral - axial));
-            UniaxialFlow {
-                strain,
-                modulus: sign * axial,
-                to_apex: if closing > 0.0 { gap / closing } else { f64::INFINITY },
-            }
+        let Lame { lambda, mu } = lame;
+        let compression = UniaxialYield {
+            weights: [-(1.0 - s), 1.0 + s],
+            relief: [
+                4.0 * lambda * t - 4.0 * mu * (1.0 - t),
+                4.0 * lambda * t + 2.0 * mu * (1.0 + t),
+            ],
+            strength: 2.0 * cohesion * libm::cos(phi),
+            hardening: 0.0,
         };
-        Self(UniaxialLaw {
-            lame,
-            compression: flow(-1.0, in_compression, relief_in_compression),
-            extension: flow(1.0, in_extension, relief_in_extension),
-        })
+        let extension = UniaxialYield {
+            weights: [1.0 + s, -(1.0 - s)],
+            relief: [
+                4.0 * lambda * t + 4.0 * mu * (1.0 + t),
+                4.0 * lambda * t - 2.0 * mu * (1.0 - t),
+            ],
+            ..compression
+        };
+        Self(UniaxialLaw { lame, limits: [compression, extension] })
     }
 }
 
@@ -99,7 +86,7 @@ mod tests {
         let law = MohrCoulombLaw::new(18e3, 0.2, angles[0], angles[1], 10.0);
         let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
         assert_relative_eq!(piola * libm::exp(strain), tau, max_relative = 1e-10);
-        assert!(law.flows(libm::expm1(strain)));
+        assert!(law.flows(libm::expm1(strain), &[[0.0; 3]; 3]));
     }
 
     #[test]
@@ -107,6 +94,7 @@ mod tests {
         // The body never yields in compression: the elastic ratio of lateral to axial stress, nu/(1
         // - nu) = 1/4, is above the ratio at yield, (1 - s)/(1 + s) = 0.17.
         let law = MohrCoulombLaw::new(18e3, 0.2, 45.0, 0.0, 10.0);
-        assert!(!law.flows(-0.5) && law.flows(0.5));
+        let flows = |grad| law.flows(grad, &[[0.0; 3]; 3]);
+        assert!(!flows(-0.5) && flows(0.5));
     }
 }

@@ -115,9 +115,19 @@ macro_rules! laws {
                 }
             }
 
-            pub(super) fn flows(&self, grad: f64) -> bool {
+            pub(super) fn piola_from<T: Number>(
+                &self,
+                grad: &Tensor<T>,
+                initial: &Tensor<T>,
+            ) -> Option<Tensor<T>> {
                 match self {
-                    $($(Self::$law(law) => law.flows(grad),)?)+
+                    $($(Self::$law(law) => law.piola_from(grad, initial),)?)+
+                }
+            }
+
+            pub(super) fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
+                match self {
+                    $($(Self::$law(law) => law.flows(grad, initial),)?)+
                 }
             }
 

@@ -1,9 +1,13 @@
 //! Plastic flow in uniaxial strain under monotonic loading.
 //!
-//! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and no
-//! hardening. For a yield surface of planes or a cone, the axial Kirchhoff stress is then piecewise
-//! linear in `e`: elastic up to yield, then with the elastic-plastic modulus, and constant at an
-//! apex, where all principal stresses are equal.
+//! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and linear
+//! hardening. The lateral stresses are equal, so for a yield surface of planes or a cone, the state
+//! is a point in the plane of axial and lateral Kirchhoff stress, and the yield surface consists of
+//! two straight lines in this plane. The stresses are then piecewise linear in `e`: elastic up to
+//! the first line that the path reaches, then along this line, and constant at an apex, where all
+//! principal stresses are equal.
+//!
+//! A body with an initial stress starts at this stress instead of zero.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -17,7 +21,7 @@ pub(super) trait UniaxialPlasticity {
     /// See [`ConstitutiveLaw::EQUATION`].
     const TEXT: &'static str;
 
-    /// Returns the axial stress as a function of the strain.
+    /// Returns the stresses as functions of the strain.
     fn response(&self) -> &UniaxialLaw;
 }
 
@@ -27,15 +31,20 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        self.response().piola(grad)
+        let along = self.response().piola(grad[0][0], [T::from(0.0); 2]);
+        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
     fn modulus(&self) -> f64 {
         self.response().lame.modulus()
     }
 
-    fn flows(&self, grad: f64) -> bool {
-        self.response().flows(grad)
+    fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Option<Tensor<T>> {
+        Some(self.response().piola_from(grad, initial))
+    }
+
+    fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
+        self.response().flows(grad, initial)
     }
 
     fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
@@ -49,58 +58,173 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     }
 }
 
-/// Plastic flow in compression or in extension.
+/// A yield condition `weights . (axial, lateral) <= strength` on the Kirchhoff stresses.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct UniaxialFlow {
-    /// Magnitude of the strain at yield; infinite if the body never yields.
-    pub(super) strain: f64,
-    /// `d tau11/de` after yield (Pa).
-    pub(super) modulus: f64,
-    /// Strain from yield to the apex; infinite if the apex is never reached.
-    pub(super) to_apex: f64,
+pub(super) struct UniaxialYield {
+    pub(super) weights: [f64; 2],
+    /// Decrease of the axial and the lateral stress per unit of flow (Pa).
+    pub(super) relief: [f64; 2],
+    /// Strength without flow (Pa).
+    pub(super) strength: f64,
+    /// Increase of the strength per unit of flow (Pa).
+    pub(super) hardening: f64,
 }
 
-impl UniaxialFlow {
-    pub(super) const NONE: Self =
-        Self { strain: f64::INFINITY, modulus: 0.0, to_apex: f64::INFINITY };
+impl UniaxialYield {
+    fn dot<T: Number>(&self, [axial, lateral]: [T; 2]) -> T {
+        T::from(self.weights[0]) * axial + T::from(self.weights[1]) * lateral
+    }
 }
 
-/// The axial stress of a law in uniaxial strain.
+/// The stresses of a law in uniaxial strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct UniaxialLaw {
     pub(super) lame: Lame,
-    pub(super) compression: UniaxialFlow,
-    pub(super) extension: UniaxialFlow,
+    pub(super) limits: [UniaxialYield; 2],
 }
 
 impl UniaxialLaw {
-    fn sense(&self, strain: f64) -> (f64, &UniaxialFlow) {
-        if strain < 0.0 { (-1.0, &self.compression) } else { (1.0, &self.extension) }
+    /// Returns the derivatives of the axial and the lateral stress (Pa) with respect to the
+    /// magnitude of the strain; `sign` is -1 in compression and 1 in extension.
+    fn rates(&self, sign: f64) -> [f64; 2] {
+        [sign * self.lame.modulus(), sign * self.lame.lambda]
     }
 
-    fn kirchhoff<T: Number>(&self, strain: T) -> T {
-        let (sign, flow) = self.sense(strain.value());
-        let elastic = self.lame.modulus();
-        let beyond = sign * strain.value() - flow.strain;
-        if !(beyond > 0.0) {
-            return T::from(elastic) * strain;
-        }
-        let at_yield = T::from(sign * elastic * flow.strain);
-        if beyond > flow.to_apex {
-            return at_yield + T::from(sign * flow.modulus * flow.to_apex);
-        }
-        at_yield + T::from(flow.modulus) * (strain - T::from(sign * flow.strain))
+    /// Returns the yield condition that a path reaches first from the stresses `start` (Pa), and
+    /// the magnitude of the strain at yield. `None` if the path never reaches one.
+    fn first_yield<T: Number>(&self, sign: f64, start: [T; 2]) -> Option<(&UniaxialYield, T)> {
+        let reached = self.limits.iter().filter_map(|limit| {
+            let towards = limit.dot(self.rates(sign));
+            let distance = (T::from(limit.strength) - limit.dot(start)) / T::from(towards);
+            (towards > 0.0).then_some((limit, distance))
+        });
+        reached.min_by(|(_, a), (_, b)| a.value().total_cmp(&b.value()))
     }
 
-    /// Computes P (Pa) for the displacement gradient of uniaxial strain along the first axis.
-    fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let stretch = T::from(1.0) + grad[0][0];
-        let along = self.kirchhoff(Number::ln(stretch)) / stretch;
+    /// Computes the axial Kirchhoff stress (Pa) at the `strain`, from the stresses `start` (Pa).
+    fn kirchhoff<T: Number>(&self, strain: T, start: [T; 2]) -> T {
+        let sign = if strain.value() < 0.0 { -1.0 } else { 1.0 };
+        let (size, rates) = (T::from(sign) * strain, self.rates(sign));
+        let elastic = start[0] + T::from(self.lame.modulus()) * strain;
+        let Some((limit, at_yield)) = self.first_yield(sign, start) else { return elastic };
+        let beyond = size - at_yield;
+        if !(beyond.value() > 0.0) {
+            return elastic;
+        }
+        let flow = limit.dot(rates) / (limit.dot(limit.relief) + limit.hardening);
+        let [axial, lateral]: [f64; 2] = std::array::from_fn(|i| rates[i] - flow * limit.relief[i]);
+        let stress: [T; 2] = std::array::from_fn(|i| start[i] + T::from(rates[i]) * at_yield);
+        let (gap, closing) = (stress[0] - stress[1], lateral - axial);
+        let to_apex = gap / T::from(closing);
+        let closes = limit.hardening == 0.0 && to_apex.value() > 0.0;
+        if !(closes && beyond.value() > to_apex.value()) {
+            return stress[0] + T::from(axial) * beyond;
+        }
+        // A path that reaches the apex with the axial stress on the other side could leave it
+        // again. This is not implemented, and NaN makes the check of the solution fail.
+        let stays = sign * gap.value() > 0.0;
+        if stays { stress[0] + T::from(axial) * to_apex } else { T::from(f64::NAN) }
+    }
+
+    /// Computes the axial component of P (Pa) for uniaxial strain along the first axis.
+    fn piola<T: Number>(&self, grad: T, start: [T; 2]) -> T {
+        let stretch = T::from(1.0) + grad;
+        self.kirchhoff(Number::ln(stretch), start) / stretch
+    }
+
+    /// See [`ConstitutiveLaw::piola_from`].
+    pub(super) fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
+        let along = self.piola(grad[0][0], [initial[0][0], initial[1][1]]);
         tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
     }
 
-    fn flows(&self, grad: f64) -> bool {
+    /// See [`ConstitutiveLaw::flows`].
+    pub(super) fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         let strain = libm::log1p(grad);
-        strain.abs() > self.sense(strain).1.strain
+        let reached = self.first_yield(strain.signum(), [initial[0][0], initial[1][1]]);
+        reached.is_some_and(|(_, at_yield)| strain.abs() > at_yield)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::law::{DruckerPragerLaw, J2Law, MohrCoulombLaw};
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    fn drucker_prager() -> DruckerPragerLaw {
+        DruckerPragerLaw::new(15e3, 0.25, 0.3, 0.1, 10.0)
+    }
+
+    fn mohr_coulomb() -> MohrCoulombLaw {
+        MohrCoulombLaw::new(18e3, 0.2, 30.0, 10.0, 10.0)
+    }
+
+    /// Returns the axial Kirchhoff stress (Pa) at the `strain` from the axial and lateral stress
+    /// `start` (Pa), and whether the body yields.
+    fn stress(law: &impl ConstitutiveLaw, strain: f64, [axial, lateral]: [f64; 2]) -> (f64, bool) {
+        let (mut grad, mut initial) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        grad[0][0] = libm::expm1(strain);
+        (initial[0][0], initial[1][1], initial[2][2]) = (axial, lateral, lateral);
+        let piola = law.piola_from(&grad, &initial).expect("a law with a yield surface");
+        (piola[0][0] * libm::exp(strain), law.flows(grad[0][0], &initial))
+    }
+
+    /// A start at the stress of an elastic strain continues the path from zero stress.
+    #[rstest]
+    fn elastic_start_continues_the_path(
+        #[values(-0.03, -0.01, 1e-4, 0.0012, 0.003)] strain: f64,
+        #[values(0.0, 0.25, 0.9)] share: f64,
+    ) {
+        fn hold(law: &impl ConstitutiveLaw, lame: Lame, strain: f64, first: f64) {
+            let start = [lame.modulus() * first, lame.lambda * first];
+            let (tau, _) = stress(law, strain - first, start);
+            let [[piola]] = law.piola(&[[libm::expm1(strain)]]);
+            assert_relative_eq!(tau, piola * libm::exp(strain), max_relative = 1e-10);
+        }
+        // All laws are elastic up to this strain.
+        let first = share * strain.clamp(-1.3e-3, 6e-4);
+        hold(&drucker_prager(), Lame::new(15e3, 0.25), strain, first);
+        hold(&mohr_coulomb(), Lame::new(18e3, 0.2), strain, first);
+        hold(&J2Law::new(18e3, 0.2, 20.0, 500.0), Lame::new(18e3, 0.2), strain, first);
+    }
+
+    /// Compression from K0 states with the closed forms of the strain at yield, and of the slope
+    /// after yield. For Mohr-Coulomb `(1 + s) l - (1 - s) a = 2 c cos(phi)`.
+    #[test]
+    fn compression_from_a_lateral_stress_yields_at_the_closed_form() {
+        let (start, s) = ([-40.0, -20.0], 0.5);
+        // K = 1e4, mu = 7.5e3, lambda = 5000, M = 20000; angles 30 and 10 degrees.
+        let at_yield = (20.0 * libm::cos(core::f64::consts::PI / 6.0) - (1.0 - s) * 40.0
+            + (1.0 + s) * 20.0)
+            / ((1.0 - s) * 20e3 - (1.0 + s) * 5e3);
+        let law = mohr_coulomb();
+        let (tau, flows) = stress(&law, -0.999 * at_yield, start);
+        assert_relative_eq!(tau, -40.0 - 20e3 * 0.999 * at_yield, max_relative = 1e-10);
+        assert!(!flows);
+        let (tau, flows) = stress(&law, -at_yield - 0.01, start);
+        let expected = -40.0 - 20e3 * at_yield - 18_739.359_711 * 0.01;
+        assert_relative_eq!(tau, expected, max_relative = 1e-10);
+        assert!(flows);
+        // K = 1e4, mu = 6e3: (l - a)/sqrt(3) + eta (a + 2 l)/3 = k.
+        let towards = 2.0 * 6e3 / 3.0_f64.sqrt() - 0.3 * 1e4;
+        let at_yield = (10.0 - 20.0 / 3.0_f64.sqrt() + 0.3 * 80.0 / 3.0) / towards;
+        let (tau, flows) = stress(&drucker_prager(), -at_yield - 0.01, start);
+        let expected = -40.0 - 18e3 * at_yield - 14_303.621_098_588 * 0.01;
+        assert_relative_eq!(tau, expected, max_relative = 1e-10);
+        assert!(flows);
+    }
+
+    /// From 40 Pa in compression, extension first removes the stress difference.
+    #[test]
+    fn extension_yields_on_the_other_side() {
+        let law = J2Law::new(18e3, 0.2, 20.0, 0.0);
+        let (lateral, at_yield) = (-25.0, (20.0 + 15.0) / 15e3);
+        assert!(!stress(&law, 0.999 * at_yield, [-40.0, lateral]).1);
+        // After yield, d tau/de = K.
+        let (tau, flows) = stress(&law, at_yield + 0.01, [-40.0, lateral]);
+        assert_relative_eq!(tau, -40.0 + 20e3 * at_yield + 1e4 * 0.01, max_relative = 1e-10);
+        assert!(flows);
     }
 }

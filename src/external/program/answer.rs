@@ -59,7 +59,7 @@ pub(super) enum Answer {
     /// A request for values of a field.
     Values {
         /// The field: `body_force`, `displacement`, `velocity`, `deformation_gradient`, `stress`,
-        /// `initial_stress`, `load:INDEX` or `face:NAME`.
+        /// `initial_stress`, `initial_stress_across`, `load:INDEX` or `face:NAME`.
         of: String,
         /// Time (s); fields of the initial state need none.
         #[serde(default)]

@@ -49,6 +49,13 @@ pub trait MaterialProperties {
         self.depends_on_deformation_alone()
     }
 
+    /// Returns the yield function at the Kirchhoff stress `tau` (Pa) of a body without plastic
+    /// flow. `None` if the law does not limit an initial stress.
+    fn yield_function(&self, tau: &Matrix<3>) -> Option<YieldFunction> {
+        let _ = tau;
+        None
+    }
+
     /// Checks that the stress may be computed at the averaged volume ratio of F-bar. This requires
     /// that the law reads F, or stores only J.
     ///
@@ -101,6 +108,23 @@ pub struct Contradiction {
     pub reason: &'static str,
     /// Reason why both parameters are incompatible.
     pub explanation: &'static str,
+}
+
+/// Value of a yield function, which must not be positive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldFunction {
+    /// Value (Pa).
+    pub value: f64,
+    /// Sum of the magnitudes of all terms (Pa).
+    pub size: f64,
+}
+
+impl YieldFunction {
+    /// Whether the stress is outside the yield surface by more than rounding errors.
+    pub fn is_exceeded(&self) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        !(self.value <= ROUNDING * self.size)
+    }
 }
 
 /// Closed forms of stress and energy, for tests of all materials. The values apply to one
@@ -187,6 +211,16 @@ pub trait Material<const D: usize>: Send {
         }
         self.update(&mut StressUpdate::new(0.0, particles));
         Ok(())
+    }
+
+    /// Stores the initial `stress` (Pa) of each particle in the state of the law. Returns false if
+    /// the law stores no such state: the initial stress is then added to the stress of the law.
+    ///
+    /// # Errors
+    /// [`Failure::OutsideYieldSurface`] for a stress that violates the yield condition.
+    fn start_stressed(&mut self, stress: &[Matrix<3>]) -> Result<bool, Failure> {
+        let _ = stress;
+        Ok(false)
     }
 
     /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation

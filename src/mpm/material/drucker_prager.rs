@@ -8,7 +8,7 @@
 //! Without dilation, plastic flow does not change the mean stress. A return from a mean stress
 //! above the apex is then a tension cut-off that is not part of the flow rule.
 
-use super::contract::Contradiction;
+use super::contract::{Contradiction, YieldFunction};
 use super::plastic_flow::{
     ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
     modulus_of_invariants,
@@ -58,6 +58,16 @@ impl YieldSurface for Cone {
             reason: "the coefficient of dilation is above that of friction",
             explanation: "a flow that dilates more than friction allows does negative work",
         })
+    }
+
+    fn yield_function(&self, stress: &Vector<3>) -> YieldFunction {
+        let mean = stress.sum() / 3.0;
+        let shear = stress.add_scalar(-mean).norm() / 2.0_f64.sqrt();
+        let friction = self.friction * mean;
+        YieldFunction {
+            value: shear + friction - self.strength,
+            size: shear + friction.abs() + self.strength,
+        }
     }
 
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {

@@ -4,6 +4,7 @@
 //! Peric & Owen 2008, chapters 7 and 14). [`plastic_flow`](super::plastic_flow) describes the
 //! integration.
 
+use super::contract::YieldFunction;
 use super::plastic_flow::{
     ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
     modulus_of_invariants,
@@ -41,6 +42,11 @@ impl VonMises {
 impl YieldSurface for VonMises {
     fn elasticity(&self) -> &LogElasticity {
         &self.elasticity
+    }
+
+    fn yield_function(&self, stress: &Vector<3>) -> YieldFunction {
+        let mises = 1.5_f64.sqrt() * stress.add_scalar(-stress.sum() / 3.0).norm();
+        YieldFunction { value: mises - self.yield_stress, size: mises + self.yield_stress }
     }
 
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)> {

@@ -28,7 +28,7 @@ use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
 #[cfg(test)]
 use contract::ClosedForms;
-pub use contract::{Contradiction, Material, MaterialProperties};
+pub use contract::{Contradiction, Material, MaterialProperties, YieldFunction};
 pub use plastic_flow::ElastoPlastic;
 pub use prestressed::Prestressed;
 use registry::materials;

@@ -9,7 +9,7 @@
 //! Without dilation, plastic flow does not change the mean stress. A return from a mean stress
 //! above the apex is then a tension cut-off that is not part of the flow rule.
 
-use super::contract::Contradiction;
+use super::contract::{Contradiction, YieldFunction};
 use super::hyperelastic::linear;
 use super::plastic_flow::{
     ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
@@ -172,6 +172,15 @@ impl YieldSurface for Pyramid {
             reason: "the dilation angle is above the friction angle",
             explanation: "a flow that dilates more than friction allows does negative work",
         })
+    }
+
+    fn yield_function(&self, stress: &Vector<3>) -> YieldFunction {
+        let (high, low, sine) = (stress.max(), stress.min(), self.sines[0]);
+        let terms = [(1.0 + sine) * high, -(1.0 - sine) * low, -self.strength];
+        YieldFunction {
+            value: terms[0] + terms[1] + terms[2],
+            size: terms.map(f64::abs).iter().sum(),
+        }
     }
 
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {

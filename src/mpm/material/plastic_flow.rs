@@ -8,10 +8,14 @@
 //! The plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is computed from
 //! the total F and not from increments, so rounding errors of an elastic state do not accumulate.
 //!
+//! A body with the initial stress S0 starts with the elastic strain `eps0`, `S0 = K tr(eps0) I + 2
+//! mu dev(eps0)`, that is `Cp^-1 = exp(2 eps0)` at F = I. The yield condition therefore limits the
+//! total stress, and S0 must satisfy this condition.
+//!
 //! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.
 
-use super::contract::{Contradiction, Material, MaterialProperties};
+use super::contract::{Contradiction, Material, MaterialProperties, YieldFunction};
 use super::hyperelastic::linear;
 use super::linear_elastic::LinearElastic;
 use super::spectral::{
@@ -23,7 +27,7 @@ use super::tangent::{StressResponse, in_space, isotropic_modulus};
 use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
-use crate::subject::{Checkpoint, Column, Entry, Memory};
+use crate::subject::{Checkpoint, Column, Entry, Failure, Memory, Site};
 
 /// Moduli (Pa) of isotropic elasticity in logarithmic strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,6 +46,13 @@ impl LogElasticity {
     /// Returns the principal Kirchhoff stresses (Pa).
     pub(super) fn stress(&self, strain: &PrincipalStrain) -> Vector<3> {
         strain.deviator.map(|eps| 3.0 * self.bulk * strain.mean + 2.0 * self.mu * eps)
+    }
+
+    /// Returns the principal strains at the principal Kirchhoff stresses `stress` (Pa), the inverse
+    /// of [`Self::stress`].
+    fn strain(&self, stress: &Vector<3>) -> Vector<3> {
+        let mean = stress.sum() / 3.0;
+        stress.map(|stress| mean / (3.0 * self.bulk) + (stress - mean) / (2.0 * self.mu))
     }
 
     /// Returns the derivatives of the principal Kirchhoff stresses with respect to the principal
@@ -105,6 +116,10 @@ pub trait YieldSurface: Send + Sync {
     fn contradiction(&self) -> Option<Contradiction> {
         None
     }
+
+    /// Returns the yield function at the principal Kirchhoff stresses `stress` (Pa), without
+    /// plastic flow.
+    fn yield_function(&self, stress: &Vector<3>) -> YieldFunction;
 
     /// Computes the return of a trial strain to the surface: the elastic strain after the return,
     /// and the plastic strain that the return adds to the accumulated plastic strain `flowed`.
@@ -282,10 +297,11 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
     }
 
     fn starts_stressed(&self) -> Result<(), &'static str> {
-        Err(
-            "the yield stress limits the total stress, but the law computes only the part from the \
-             deformation",
-        )
+        Ok(())
+    }
+
+    fn yield_function(&self, tau: &Matrix<3>) -> Option<YieldFunction> {
+        Some(self.surface.yield_function(&spectral(tau).0))
     }
 }
 
@@ -311,6 +327,22 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         };
         let all = particles.def_grad.iter().zip(&particles.vol0).enumerate();
         Some(all.map(|(p, (f, vol0))| vol0 * density(p, f)).sum())
+    }
+
+    fn start_stressed(&mut self, stress: &[Matrix<3>]) -> Result<bool, Failure> {
+        let start = |(p, tau): (usize, &Matrix<3>)| {
+            let (stress, axes) = spectral(tau);
+            let limit = self.surface.yield_function(&stress);
+            if limit.is_exceeded() {
+                let (site, value) = (Site::Particle(p), limit.value);
+                return Err(Failure::OutsideYieldSurface { site, value });
+            }
+            let strain = self.surface.elasticity().strain(&stress);
+            let squares = strain.map(|eps| libm::exp(2.0 * eps));
+            Ok(Flowed { inverse_metric: assembled(&squares, &axes), strain: 0.0 })
+        };
+        self.flowed = stress.iter().enumerate().map(start).collect::<Result<_, _>>()?;
+        Ok(true)
     }
 
     fn response(&self, p: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {

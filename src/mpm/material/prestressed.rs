@@ -3,10 +3,12 @@
 //! If the law is a function of F, the initial stress S0 is an additional second Piola-Kirchhoff
 //! stress, `sigma = sigma_law(F) + F S0 F^T/J`. This stress rotates with the body, and derives from
 //! the energy `W_law + S0 : E`, `E = (F^T F - I)/2` (Merodio, Ogden & Rodriguez 2013, Int. J.
-//! Non-Linear Mech. 56). A law in rate form starts from the Cauchy stress S0.
+//! Non-Linear Mech. 56). A law in rate form starts from the Cauchy stress S0. A law with a yield
+//! surface starts from the elastic strain of S0 ([`Material::start_stressed`]).
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
+use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
@@ -14,21 +16,25 @@ use crate::subject::{Checkpoint, Column, Failure};
 /// A law with an initial stress.
 pub struct Prestressed<const D: usize> {
     law: Box<dyn Material<D>>,
-    /// Initial stress S0 of each particle (Pa); empty for a law in rate form.
+    /// Initial stress S0 of each particle (Pa); empty if the law stores it or is in rate form.
     stress: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> Prestressed<D> {
     /// Adds the initial `stress` (Pa), one entry per particle, to `law` and to `particles`, which
     /// must be in their reference configuration.
+    ///
+    /// # Errors
+    /// [`Failure::OutsideYieldSurface`] for a stress that violates the yield condition of the law.
     pub fn new(
-        law: Box<dyn Material<D>>,
-        stress: Vec<Matrix<D>>,
+        mut law: Box<dyn Material<D>>,
+        stress: &[Matrix<3>],
         particles: &mut Particles<D>,
-    ) -> Self {
-        particles.sigma.copy_from_slice(&stress);
-        let keeps = law.reads_deformation();
-        Self { law, stress: if keeps { stress } else { Vec::new() } }
+    ) -> Result<Self, Failure> {
+        let keeps = !law.start_stressed(stress)? && law.reads_deformation();
+        let in_body = stress.iter().map(|s0| Matrix::from_fn(|i, j| s0[(i, j)])).collect();
+        particles.sigma.clone_from(&in_body);
+        Ok(Self { law, stress: if keeps { in_body } else { Vec::new() } })
     }
 
     fn add(&self, particles: &mut Particles<D>) {
@@ -82,6 +88,14 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         Ok(())
     }
 
+    fn response(&self, p: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+        let response = self.law.response(p, f)?;
+        Some(match self.stress.get(p) {
+            Some(s0) => response.with_initial(f * s0 * f.transpose()),
+            None => response,
+        })
+    }
+
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
         self.law.update(body);
         self.add(body.particles());
@@ -104,15 +118,20 @@ mod tests {
         all + all.transpose()
     }
 
-    /// Returns one particle of each material that may start with a stress, and of the corresponding
-    /// plates.
+    /// Returns one particle of each material that may start with any stress, and of the
+    /// corresponding plates.
     fn bodies<const D: usize>() -> Vec<(MaterialPlan, Prestressed<D>, Particles<D>)> {
-        let admitted =
-            every().into_iter().filter(|plan| plan.properties().starts_stressed().is_ok());
+        let admitted = every().into_iter().filter(|plan| {
+            let properties = plan.properties();
+            properties.starts_stressed().is_ok()
+                && properties.yield_function(&Matrix::zeros()).is_none()
+        });
         let body = |plan: MaterialPlan, law: Box<dyn Material<D>>| {
             let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
             let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
-            let law = Prestressed::new(law, vec![initial()], &mut body);
+            let mut stress = Matrix::<3>::zeros();
+            stress.fixed_view_mut::<D, D>(0, 0).copy_from(&initial::<D>());
+            let law = Prestressed::new(law, &[stress], &mut body).unwrap();
             if law.keeps_stretch_across() {
                 body.across = vec![1.0];
             }
@@ -200,6 +219,28 @@ mod tests {
         }
     }
 
+    /// Load steps use this stress and this tangent.
+    #[test]
+    fn response_agrees_with_the_update_and_its_derivative() {
+        let f = Matrix::<3>::identity() + scattered(0.25, 1.7);
+        let mut laws = 0;
+        for ((plan, law, _), (_, piola, _)) in bodies::<3>().into_iter().zip(at(&f)) {
+            let Some(response) = law.response(0, &f) else { continue };
+            let expected = piola * f.transpose();
+            assert_relative_eq!(response.kirchhoff, expected, max_relative = 1e-12);
+            let (dh, step) = (scattered::<3>(1.0, 0.3), 1e-6);
+            let stress = |step: f64| {
+                law.response(0, &((Matrix::identity() + dh * step) * f)).unwrap().kirchhoff
+            };
+            let difference = (stress(step) - stress(-step)) / (2.0 * step);
+            let size = difference.amax();
+            let name = plan.name();
+            assert!((response.tangent(&dh) - difference).amax() <= 1e-7 * size, "{name}");
+            laws += 1;
+        }
+        assert_eq!(laws, 2, "neo-Hookean and Hencky laws have a tangent");
+    }
+
     /// The energy of a law in rate form would require the stress without S0.
     #[test]
     fn a_law_in_rate_form_has_no_energy() {
@@ -208,5 +249,87 @@ mod tests {
             .into_iter()
             .filter(|(plan, ..)| plan.properties().depends_on_deformation_alone().is_err());
         assert!(of_rate.map(|(_, _, energy)| energy).eq([None]));
+    }
+
+    /// Returns a body of each law with a yield surface in the initial stress `s0` (Pa), with its
+    /// law.
+    fn yielding<const D: usize>(
+        s0: &Matrix<3>,
+    ) -> Vec<(MaterialPlan, Result<Prestressed<D>, Failure>, Particles<D>)> {
+        let (young, poisson) = (1e4, 0.25);
+        let plans = [
+            MaterialPlan::J2 { young, poisson, r#yield: 30.0, hardening: 0.0 },
+            MaterialPlan::DruckerPrager {
+                young,
+                poisson,
+                friction: 0.3,
+                dilation: 0.1,
+                strength: 10.0,
+            },
+            MaterialPlan::MohrCoulomb {
+                young,
+                poisson,
+                friction_angle: 30.0,
+                dilation_angle: 10.0,
+                cohesion: 8.0,
+            },
+        ];
+        let start = |plan: MaterialPlan| {
+            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+            let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+            let law = Prestressed::new(plan.build(), &[*s0], &mut body);
+            (plan, law, body)
+        };
+        plans.map(start).into()
+    }
+
+    /// A stress inside all yield surfaces, with shear.
+    fn inside() -> Matrix<3> {
+        Matrix::<3>::new(-30.0, 4.0, 0.0, 4.0, -20.0, 0.0, 0.0, 0.0, -15.0)
+    }
+
+    /// A small rotation turns the stress. A small stretch within the yield surface adds the stress
+    /// of linear elasticity, up to terms of the order of stress times strain.
+    #[test]
+    fn law_that_yields_starts_from_the_elastic_strain_of_its_stress() {
+        let (lambda, mu) = (4e3, 4e3);
+        for (plan, law, mut body) in yielding::<2>(&inside()) {
+            let (mut law, s0) = (law.unwrap(), body.sigma[0]);
+            assert_eq!(s0, Matrix::<2>::new(-30.0, 4.0, 4.0, -20.0));
+            body.track_deformation();
+            law.update(&mut StressUpdate::new(0.0, &mut body));
+            assert_abs_diff_eq!(body.sigma[0], s0, epsilon = 1e-10);
+            let (c, s) = (libm::cos(0.7), libm::sin(0.7));
+            let turn = Matrix::<2>::new(c, -s, s, c);
+            body.def_grad[0] = turn;
+            law.update(&mut StressUpdate::new(0.0, &mut body));
+            assert_abs_diff_eq!(body.sigma[0], turn * s0 * turn.transpose(), epsilon = 1e-10);
+            let eps = Matrix::<2>::new(1e-5, 2e-5, 2e-5, -3e-5);
+            body.def_grad[0] = Matrix::identity() + eps;
+            law.update(&mut StressUpdate::new(0.0, &mut body));
+            let added = Matrix::<2>::identity() * (lambda * eps.trace()) + eps * (2.0 * mu);
+            assert_abs_diff_eq!(body.sigma[0] - s0, added, epsilon = 3e-3);
+            assert!(added.amax() > 0.1, "{plan:?}");
+        }
+    }
+
+    /// Each law yields when the largest compression reaches its strength. In the initial stress, f
+    /// is zero on the surface.
+    #[test]
+    fn initial_stress_outside_the_yield_surface_is_refused() {
+        let zero = Matrix::<3>::zeros();
+        for (k, (plan, _, _)) in yielding::<3>(&zero).into_iter().enumerate() {
+            // Axial compression without lateral stress: q = 30, q/sqrt(3) - 0.3 q/3 = 10, and
+            // q = 2 c cos(phi)/(1 - sin(phi)).
+            let strength =
+                [30.0, 10.0 / (1.0 / 3.0_f64.sqrt() - 0.1), 2.0 * 8.0 * (0.75_f64).sqrt() / 0.5][k];
+            for (share, admitted) in [(0.999, true), (1.0, true), (1.001, false)] {
+                let mut s0 = zero;
+                s0[(1, 1)] = -share * strength;
+                let (_, law, _) = yielding::<3>(&s0).remove(k);
+                let refused = matches!(law, Err(Failure::OutsideYieldSurface { .. }));
+                assert_eq!(refused, !admitted, "{plan:?}, {share}");
+            }
+        }
     }
 }

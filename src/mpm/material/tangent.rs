@@ -28,6 +28,8 @@ const EQUAL: f64 = 1e-5;
 pub struct StressResponse<const D: usize> {
     /// Kirchhoff stress `tau = J sigma` (Pa).
     pub kirchhoff: Matrix<D>,
+    /// Part of this stress from an initial stress (Pa), `F S0 F^T`.
+    initial: Matrix<D>,
     /// Principal values of the tensor `b`.
     squares: Vector<3>,
     /// Axes of the tensor `b`, as columns.
@@ -51,7 +53,13 @@ impl<const D: usize> StressResponse<D> {
         let (squares, axes) = spectral(&(f * metric * f.transpose()));
         let (stresses, modulus) = principal(&half_log(&squares));
         let kirchhoff = in_body(&assembled(&stresses, &axes));
-        Self { kirchhoff, squares, axes, stresses, modulus }
+        Self { kirchhoff, initial: Matrix::zeros(), squares, axes, stresses, modulus }
+    }
+
+    /// Adds the stress `initial = F S0 F^T` (Pa). A change `dF = dh F` changes this stress by
+    /// `dh initial + initial dh^T`.
+    pub(super) fn with_initial(self, initial: Matrix<D>) -> Self {
+        Self { kirchhoff: self.kirchhoff + initial, initial, ..self }
     }
 
     /// Returns the change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the
@@ -59,6 +67,7 @@ impl<const D: usize> StressResponse<D> {
     pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
         let mut space = Matrix::<3>::zeros();
         space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
+        let turning = dh;
         let dh = self.axes.transpose() * space * self.axes;
         let along = self.modulus * dh.diagonal();
         let change = Matrix::<3>::from_fn(|a, b| {
@@ -67,7 +76,8 @@ impl<const D: usize> StressResponse<D> {
             }
             self.slope(a, b) * (dh[(a, b)] * self.squares[b] + self.squares[a] * dh[(b, a)])
         });
-        in_body(&(self.axes * change * self.axes.transpose()))
+        let turned = turning * self.initial;
+        in_body(&(self.axes * change * self.axes.transpose())) + turned + turned.transpose()
     }
 
     /// Returns `(tau_a - tau_b)/(b_a - b_b)` (Pa), or its limit for nearly equal values.

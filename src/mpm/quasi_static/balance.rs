@@ -159,6 +159,24 @@ impl<const D: usize> StepEquations<D> {
         values
     }
 
+    /// Adds to `load` the fraction `share` of the nodal forces (N) that hold the initial `stress`
+    /// (Pa) in the undeformed body.
+    pub(super) fn add_holding_forces(
+        &self,
+        stress: &[Matrix<D>],
+        particles: &Particles<D>,
+        share: f64,
+        load: &mut [Vector<D>],
+    ) {
+        let states = particles.def_grad.iter().zip(&particles.vol0);
+        for (p, (s0, (f, vol0))) in stress.iter().zip(states).enumerate() {
+            let flux = s0 * f.transpose() * (share * vol0);
+            for function in self.functions_of(p) {
+                load[function.node] += flux * function.gradient;
+            }
+        }
+    }
+
     /// Computes stresses and residual for the increments `increment` (m) and external forces `load`
     /// (N). The error names the first particle without a stress.
     pub(super) fn iterate(

@@ -10,6 +10,11 @@
 //! 3. move the particles, `x += sum_i u_i N_i`, update F, the state of the law and the domains, and
 //!    reset the grid.
 //!
+//! A body with the initial stress S0 is held at the start by the forces `f_0 = sum_p V0 S0 F^T
+//! grad N_i`, which do not depend on the deformation. These forces are removed while the load
+//! grows, so the right side of step 2 is `(k/N) f_ext_i + (1 - k/N) f_0_i`. If S0 balances the full
+//! load, the body remains at rest.
+//!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
 //! transfer. If Newton's method does not converge, the run fails; the load step is not divided.
 
@@ -39,7 +44,7 @@ use balance::{NO_TANGENT, StepEquations};
 pub struct QuasiStaticSetup<const D: usize> {
     /// The background grid.
     pub grid: Grid<D>,
-    /// The stress-free body.
+    /// The undeformed body.
     pub particles: Particles<D>,
     /// Basis functions, compiled for the loops over particles and nodes.
     pub kernel: Box<dyn Kernel<D>>,
@@ -64,6 +69,8 @@ pub struct QuasiStatic<const D: usize> {
     cell_tracker: CellTracker<D>,
     /// Residuals of the iterates of the last load step, divided by the load of this step.
     residuals: Vec<f64>,
+    /// Initial stress of each particle (Pa); empty if there is none.
+    initial_stress: Vec<Matrix<D>>,
 }
 
 impl<const D: usize> QuasiStatic<D> {
@@ -81,7 +88,9 @@ impl<const D: usize> QuasiStatic<D> {
         }
         let cell_tracker = CellTracker::new(grid, particles)?;
         let (advanced, transfers, residuals) = (0.0, 0, Vec::new());
-        Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals })
+        let is_stressed = particles.sigma.iter().any(|stress| *stress != Matrix::<D>::zeros());
+        let initial_stress = if is_stressed { particles.sigma.clone() } else { Vec::new() };
+        Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals, initial_stress })
     }
 
     /// Returns the residuals of the iterates in the last load step: norms over all nodes with
@@ -167,8 +176,9 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         self.load();
         let share = self.advanced / self.setup.load_steps as f64;
         let QuasiStaticSetup { grid, particles, kernel, material, boundary, .. } = &mut self.setup;
-        let load: Vec<Vector<D>> = grid.force.iter().map(|force| force * share).collect();
+        let mut load: Vec<Vector<D>> = grid.force.iter().map(|force| force * share).collect();
         let balance = StepEquations::new(grid, particles, kernel.as_ref(), boundary)?;
+        balance.add_holding_forces(&self.initial_stress, particles, 1.0 - share, &mut load);
         let solution = newton::solve(&balance, particles, material.as_ref(), &load);
         self.residuals = solution.residuals;
         // For each iterate, the stress and the tangent each visit the nodes of all particles.
@@ -216,7 +226,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
     }
 
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { setup, advanced, transfers, min_j, cell_tracker, residuals: _ } = self;
+        let Self { setup, advanced, transfers, min_j, cell_tracker, .. } = self;
         let QuasiStaticSetup { particles, material, effects, boundary, .. } = setup;
         checkpoint.visit(particles);
         material.checkpoint(checkpoint);

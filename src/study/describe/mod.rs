@@ -3,7 +3,7 @@
 pub mod sketch;
 
 use crate::exact::formula::Formula;
-use crate::mpm::{MaterialParameter, MaterialPlan};
+use crate::mpm::{MaterialParameter, MaterialPlan, Matrix};
 use crate::study::setup::dispatch;
 use crate::subject::{PlaneState, Profile};
 use crate::suite::EffectName;
@@ -151,7 +151,8 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Describes the initial stress, and its term in the first Piola-Kirchhoff stress.
+/// Describes the initial stress, and its term in the first Piola-Kirchhoff stress or its elastic
+/// strain.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {
@@ -164,6 +165,10 @@ fn initial_stress(scene: &Scene) -> String {
     let components = given.iter().map(written).collect::<Vec<_>>().join(", ");
     let formulas: Vec<&str> = given.iter().map(|(.., formula)| formula.source()).collect();
     let unit = unit_after(&formulas.join(", "), "Pa");
+    if scene.material.properties().yield_function(&Matrix::zeros()).is_some() {
+        let meaning = "the stress of the elastic strain at the start";
+        return format!("S0 with {components}{unit}, {meaning}");
+    }
     let is_finite = scene.material.properties().depends_on_deformation_alone().is_ok();
     let term = if is_finite { "F S0" } else { "S0" };
     format!("S0 with {components}{unit}, and P includes the term {term}")

@@ -61,6 +61,10 @@ impl SceneFields {
                     let stress = scene.initial_stress.at(label);
                     tensor(&|i, j| stress[i][j]);
                 }
+                FieldName::InitialStressAcross => {
+                    let stress = scene.initial_stress.at(label);
+                    values.extend((d..3).map(|i| stress[i][i]));
+                }
                 _ => values.extend(&now.u[..d]),
             }
         }
@@ -116,7 +120,8 @@ impl SceneFields {
         initial.put(&mut particles);
         let law = scene.material.in_plane(self.scene.plane);
         let law = law.ok_or_else(|| undefined("a law not supported in its plane".to_owned()))?;
-        let mut law = initial.stressed(law, &mut particles);
+        let stressed = initial.stressed(law, &mut particles);
+        let mut law = stressed.map_err(|failure| undefined(failure.to_string()))?;
         complete_start(&mut particles, law.as_mut())
             .map_err(|failure| undefined(failure.to_string()))?;
         // The matrix library stores columns; the protocol uses rows.

@@ -56,6 +56,9 @@ fn started<const D: usize>(
         precision: Precision::Double,
     };
     let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
+    let is_stressed_across = bodies
+        .iter()
+        .any(|body| body.own.initial_stress.components().iter().any(|(i, ..)| *i >= D));
     let mut all = ProblemParticles::default();
     for (number, body) in bodies.iter().enumerate() {
         let mut solver = Solver::<D>::new(setup(body, method, level)?)?;
@@ -86,6 +89,13 @@ fn started<const D: usize>(
                 (0..D * D).map(move |k| stress[k / D][k % D])
             };
             all.initial_stress.extend(particles.x0.iter().flat_map(rows));
+            if is_stressed_across {
+                let normals = |x0| {
+                    let stress = stress(x0);
+                    (D..3).map(move |i| stress[i][i])
+                };
+                all.initial_stress_across.extend(particles.x0.iter().flat_map(normals));
+            }
         }
     }
     Ok(all)

@@ -78,7 +78,7 @@ pub(crate) fn setup<const D: usize>(
         mass: crate::mpm::mass_matrix(mass),
         frame,
         volume,
-        material: body.initial.stressed(law, &mut particles),
+        material: body.initial.stressed(law, &mut particles)?,
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,
@@ -113,7 +113,7 @@ pub(crate) fn quasi_static<const D: usize>(
     let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
     let effects = effects_of(&body, &grid, basis, &mut particles)?;
     let boundary = boundary(&plan.scene, &grid, basis);
-    let material = plan.scene.material.build();
+    let material = body.initial.stressed(plan.scene.material.build(), &mut particles)?;
     Ok(QuasiStatic::new(QuasiStaticSetup {
         grid,
         particles,

@@ -8,6 +8,7 @@
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
 use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
+use crate::subject::Failure;
 use crate::suite::model::{ConvergencePlan, Scene};
 
 pub(crate) struct Initial {
@@ -57,20 +58,23 @@ impl Initial {
     }
 
     /// Adds the initial stress of `particles`, if any, to `law`.
+    ///
+    /// # Errors
+    /// [`Failure::OutsideYieldSurface`] for a stress that violates the yield condition of `law`.
     pub(crate) fn stressed<const D: usize>(
         &self,
         law: Box<dyn Material<D>>,
         particles: &mut Particles<D>,
-    ) -> Box<dyn Material<D>> {
+    ) -> Result<Box<dyn Material<D>>, Failure> {
         if self.stress.is_none() {
-            return law;
+            return Ok(law);
         }
         let stress = particles.x0.iter().map(|x0| {
             let stress = self.stress.at(x0.as_slice());
             Matrix::from_fn(|i, j| stress[i][j])
         });
-        let stress = stress.collect();
-        Box::new(Prestressed::new(law, stress, particles))
+        let stress: Vec<Matrix<3>> = stress.collect();
+        Ok(Box::new(Prestressed::new(law, &stress, particles)?))
     }
 
     /// Sets `particles` to this state.
@@ -126,7 +130,7 @@ mod tests {
             let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
             let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
             let initial = Initial { motion: None, displacement: None, velocity: None, stress };
-            let mut law = initial.stressed(plan.build(), &mut body);
+            let mut law = initial.stressed(plan.build(), &mut body).unwrap();
             body.deform(|_| (Vector::zeros(), f));
             law.start_deformed(&mut body).unwrap();
             body

@@ -11,11 +11,14 @@ const RATE: &str = include_str!("../../../verification/equilibrium/released-bar.
 const LONG: &str = include_str!("../../../verification/conservation/vibrating-bar-long.yaml");
 const HEATED: &str = include_str!("../../../verification/heat/thermal-expansion-clamped.yaml");
 const RIGID: &str = include_str!("../../../verification/heat/heat-2d.yaml");
+const SOIL: &str = include_str!("../../../verification/soils/geostatic-mohr-coulomb.yaml");
+const PATH: &str = include_str!("../../../verification/soils/path-mohr-coulomb-stressed.yaml");
+const CLAY: &str = include_str!("../../../verification/soils/clay-at-rest.yaml");
 const FROZEN: &str = include_str!("../../../verification/stability/courant-limit.yaml");
 
 #[test]
 fn sound() {
-    for text in [BAR, SLOPE, COLUMN, RATE, LONG, HEATED, RIGID, FROZEN] {
+    for text in [BAR, SLOPE, COLUMN, RATE, LONG, HEATED, RIGID, SOIL, PATH, CLAY, FROZEN] {
         if let Err(diagnostic) = load(text) {
             panic!("{diagnostic}");
         }
@@ -24,13 +27,30 @@ fn sound() {
 
 /// Some laws, scenes and studies do not allow an initial stress.
 #[rstest]
-#[case::of_a_law_that_flows(
+#[case::outside_the_yield_surface(
+    SOIL,
+    &[("cohesion: coh", "cohesion: 0.5*coh"), ("  initial_stress", "  ▸initial_stress")],
+    &["violates the yield condition of `mohr_coulomb`: f = ", "at (0, 0) m", "f must not be positive"]
+)]
+#[case::without_the_stress_across(
+    SOIL,
+    &[(", zz: \"-K0*G*(H - Y)\"}", "}"), ("  initial_stress", "  ▸initial_stress")],
+    &["`initial_stress` does not state `zz`", "all three normal stresses"]
+)]
+#[case::a_shear_across(
+    SOIL,
+    &[("zz: \"-K0", "▸yz: 1, zz: \"-K0")],
+    &["`yz` is not a stress component in 2-D", "components: `xx`, `yy`, `zz`, `xy`"]
+)]
+#[case::across_for_an_elastic_law(
     BAR,
-    &[
-        ("hencky: {young: E, poisson: 0", "j2: {young: E, poisson: 0, yield: 1"),
-        ("  initial_stress", "  ▸initial_stress"),
-    ],
-    &["a `j2` body does not support an initial stress", "the yield stress limits the total stress"]
+    &[("{xx: S0}", "{xx: S0, ▸zz: 1}")],
+    &["`zz` is not a stress component in 1-D", "components: `xx`"]
+)]
+#[case::of_clay(
+    CLAY,
+    &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")],
+    &["a `cam_clay` body does not support an initial stress", "starts under its `initial_pressure`"]
 )]
 #[case::of_a_fluid(
     BAR,
@@ -103,6 +123,16 @@ fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]
 /// The solutions use the wave speed of the law alone, a weight without support, a surface that is
 /// not free, and an interface with different tractions.
 #[rstest]
+#[case::soil_with_different_lateral_stresses(
+    PATH,
+    &[("zz: \"-l0\"", "zz: \"-0.9*l0\""), ("[\"rate*t*X", "[▸\"rate*t*X")],
+    &["the lateral initial stresses yy and zz differ"]
+)]
+#[case::soil_that_moves_in_two_dimensions(
+    SOIL,
+    &[("displacement: [0, 0]", "displacement: [▸0, \"1e-3*Y*t^2\"]")],
+    &["a body that yields has an initial stress, and is not at rest"]
+)]
 #[case::the_speed_of_the_law_alone(
     BAR,
     &[("c: \"sqrt((E + S0)/rho)\"", "c: \"sqrt(E/rho) + 0*S0\""), ("[\"A*sin", "[▸\"A*sin")],

@@ -99,9 +99,6 @@ fn a_method_has_the_keys_of_its_scheme(#[case] edits: Edits<'_>, #[case] words: 
 #[case::a_start_elsewhere(
     &[("  loads:", "  ▸initial_displacement: [1]\n  loads:")], &["they start from the reference configuration"]
 )]
-#[case::an_initial_stress(
-    &[("  loads:", "  ▸initial_stress: {xx: 1}\n  loads:")], &["they start without stress"]
-)]
 #[case::a_law_without_tangent(
     &[
         ("hencky: {young: E, poisson: 0, density: rho0}", "linear_elastic: {young: E, poisson: 0, density: rho0}"),

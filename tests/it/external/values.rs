@@ -51,7 +51,7 @@ fn hello() -> String {
         "type": "hello", "protocol": 2, "name": "asking", "version": "1",
         "capabilities": {
             "dimensions": [1, 2],
-            "laws": ["linear_elastic", "neo_hookean"],
+            "laws": ["linear_elastic", "neo_hookean", "drucker_prager"],
             "conditions": ["free", "fixed", "friction", "velocity"],
             "loads": [
                 "gravity", "body_force", "damping", "local_damping", "artificial_viscosity",
@@ -248,6 +248,7 @@ fn load_steps_are_passed_to_solvers_that_list_them() {
 #[case::several_bodies_with_stress("sliding-layers")]
 #[case::three_dimensions("geostatic-slope-3d")]
 #[case::revolution("mms-axisymmetric")]
+#[case::soil_under_stress("geostatic-mohr-coulomb")]
 #[case::plane_stress("mms-plane-stress")]
 #[case::quadrilateral("mms-polygon")]
 fn fields_agree_with_the_particles(#[case] name: &str) {
@@ -266,9 +267,26 @@ fn fields_agree_with_the_particles(#[case] name: &str) {
     if !particles.initial_stress.is_empty() {
         assert_eq!(of(FieldName::InitialStress), particles.initial_stress);
     }
+    if !particles.initial_stress_across.is_empty() {
+        assert_eq!(of(FieldName::InitialStressAcross), particles.initial_stress_across);
+    }
     if bodies.iter().all(|body| *body == 0) {
         assert_eq!(fields.bodies(&particles.reference_position), Ok(bodies));
     }
+}
+
+/// A law with a yield surface needs the normal stresses out of the plane.
+#[test]
+fn normal_stress_out_of_the_plane_is_known_for_a_law_that_yields() {
+    let soil = STRETCHED
+        .replace("neo_hookean: {", "drucker_prager: {friction: 0.3, dilation: 0, strength: 9, ")
+        .replace("  initial_displacement: [\"0.1*X\", \"0\"]\n", "")
+        .replace("{yy: \"4*X\"}", "{yy: \"-4*X\", zz: \"-2*X\"}");
+    let places = [0.25, 0.125, 0.5, 0.1];
+    let request = |of: &str| json!({"type": "values", "of": of, "reference_position": places});
+    let found = answers(&soil, &["initial_stress_across", "stress"].map(request));
+    assert_eq!(found[1]["values"], json!([-0.5, -1.0]));
+    assert_eq!(found[2]["values"], json!([0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -2.0]));
 }
 
 /// Nodes on the rim of a disk belong to the disk, and the stress on the axis of a body of

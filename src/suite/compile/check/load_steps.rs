@@ -97,11 +97,6 @@ pub(crate) fn refuse_unfit(
             "load steps are supported in plane strain and 3-D only",
         ),
         (
-            !scene.initial_stress.is_none(),
-            "initial_stress",
-            "`initial_stress` is not supported with load steps: they start without stress",
-        ),
-        (
             !scene.initial_displacement.is_empty(),
             "initial_displacement",
             "`initial_displacement` is not supported with load steps: they start from the \

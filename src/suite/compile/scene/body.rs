@@ -78,6 +78,7 @@ pub(crate) fn body(
         scene.density = density::varying(evaluator, own, &scene)?;
     }
     revolves(evaluator, &path, &scene)?;
+    material::refuse_outside_yield_surface(evaluator, own, &scene)?;
     if scene.is_at_rest() {
         settle(evaluator, &own.at, spec, &mut scene.faces)?;
     }

@@ -3,8 +3,9 @@
 use super::bodies::Listed;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
-use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Range};
+use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Matrix, Range};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
+use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 pub(crate) fn material(
@@ -101,29 +102,84 @@ pub(crate) fn stress(
     let Some(spec) = own.initial_stress else { return Ok(InitialStress::default()) };
     let admitted = material.properties().starts_stressed();
     admit(evaluator, &path, material, admitted, "does not support an initial stress")?;
+    let yields = material.properties().yield_function(&Matrix::zeros()).is_some();
     let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
     let mut components = Vec::new();
     for ((name, i, j), text) in COMPONENTS.into_iter().zip(texts) {
-        let Some(text) = text else { continue };
         let at = path.then(name);
-        if i.max(j) >= dimension {
+        let is_across = i == j && i >= dimension;
+        let Some(text) = text else {
+            if yields && is_across {
+                let message = format!("`initial_stress` does not state `{name}`");
+                let help = "the yield condition depends on all three normal stresses, also on \
+                            those out of the plane";
+                return Err(evaluator.diagnostic_at_key(&path, &message).with_help(help));
+            }
+            continue;
+        };
+        if i.max(j) >= dimension && !(yields && is_across) {
             let message = format!("`{name}` is not a stress component in {dimension}-D");
-            return Err(evaluator.diagnostic_at_key(&at, &message).with_help(&known(dimension)));
+            let help = known(dimension, yields);
+            return Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help));
         }
         components.push((i, j, evaluator.formula(&at, text, &COORDINATES[..dimension])?));
     }
     if components.is_empty() {
         let diagnostic = evaluator.diagnostic(&path, "`initial_stress` states no component");
-        return Err(diagnostic.with_help(&known(dimension)));
+        return Err(diagnostic.with_help(&known(dimension, yields)));
     }
     Ok(InitialStress::new(components))
 }
 
-/// Lists the names of the stress components in this number of dimensions.
-fn known(dimension: usize) -> String {
-    let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension);
+/// Lists the names of the stress components in this number of dimensions. For a law that `yields`,
+/// these include the out-of-plane normal stresses.
+fn known(dimension: usize, yields: bool) -> String {
+    let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension || (yields && i == j));
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();
     format!("components: {}", names.join(", "))
+}
+
+/// Number of positions along each axis at which the yield condition is checked, in 1-D, 2-D and
+/// 3-D.
+const YIELD_POSITIONS: [usize; 3] = [1025, 65, 17];
+
+/// Refuses an initial stress outside the yield surface. The positions are a regular grid that
+/// contains the corners of the bounding box. The solver checks each particle.
+pub(crate) fn refuse_outside_yield_surface(
+    evaluator: &Evaluator<'_>,
+    own: &Listed<'_>,
+    scene: &Scene,
+) -> Result<(), Diagnostic> {
+    if scene.initial_stress.is_none() {
+        return Ok(());
+    }
+    let (d, law) = (scene.dimension(), scene.material.properties());
+    let count = YIELD_POSITIONS[d - 1];
+    let mut worst: Option<(f64, Vec<f64>)> = None;
+    for k in 0..count.pow(d as u32) {
+        let place = |axis: usize| {
+            let share = (k / count.pow(axis as u32) % count) as f64 / (count - 1) as f64;
+            scene.from[axis] * (1.0 - share) + scene.to[axis] * share
+        };
+        let label: Vec<f64> = (0..d).map(place).collect();
+        let stress = scene.initial_stress.at(&label);
+        let Some(limit) = law.yield_function(&Matrix::from_fn(|i, j| stress[i][j])) else {
+            return Ok(());
+        };
+        let is_worse = |(value, _): &(f64, Vec<f64>)| !(limit.value <= *value);
+        if limit.is_exceeded() && scene.holds(&label) && worst.as_ref().is_none_or(is_worse) {
+            worst = Some((limit.value, label));
+        }
+    }
+    let Some((value, label)) = worst else { return Ok(()) };
+    let place: Vec<String> = label.iter().map(|x| shown(*x)).collect();
+    let message = format!(
+        "the initial stress violates the yield condition of `{}`: f = {value:.3e} Pa at ({}) m",
+        scene.material.name(),
+        place.join(", ")
+    );
+    let path = own.at.then("initial_stress");
+    Err(evaluator.diagnostic_at_key(&path, &message).with_help("f must not be positive"))
 }
 
 /// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows

@@ -10,7 +10,7 @@ pub(crate) mod tolerance;
 
 use crate::exact::{Equation, Face, Motion, Problem, Survey, Truth};
 use crate::fem::BarLaw;
-use crate::mpm::MaterialPlan;
+use crate::mpm::{MaterialPlan, Matrix};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, SameMethod, Scene, SceneFace};
@@ -119,7 +119,13 @@ fn equation(
     at_rest: bool,
 ) -> Result<Equation, Diagnostic> {
     if let Some(equation) = equation_of(&scene.material).filter(|law| law.name() == name.name()) {
-        let admitted = equation.admits(scene.dimension(), at_rest);
+        // A law that is known in uniaxial strain only is also known for a body at rest under an
+        // initial stress.
+        let zero = Matrix::zeros();
+        let rests = !scene.initial_stress.is_none()
+            && scene.material.properties().yield_function(&zero).is_some();
+        let dimension = if rests { 1 } else { scene.dimension() };
+        let admitted = equation.admits(dimension, at_rest);
         return admitted
             .map(|()| equation)
             .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
