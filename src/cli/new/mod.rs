@@ -124,8 +124,8 @@ fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
-/// Loads the suite. The diagnostic for an error caused by an option points to the option, because
-/// the suite file does not exist yet.
+/// Loads the suite. If an option causes an error, the diagnostic points to the option, because the
+/// suite file does not exist yet.
 fn load(choices: &Choices, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     let name = format!("{} (not written)", path.display());
     let loaded = Source::from_text(name, text).and_then(|source| Suite::load(&source));

@@ -13,7 +13,7 @@ pub struct Scope {
     constants: BTreeMap<String, f64>,
     functions: BTreeMap<String, Function>,
     tables: BTreeMap<String, Tabulated>,
-    /// Names defined as expressions of constants and the free variable.
+    /// Names, each defined as an expression of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
     /// The free variable, which functions and definitions may also use.
     free: Option<String>,

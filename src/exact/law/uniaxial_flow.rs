@@ -1,9 +1,9 @@
 //! Plastic flow in uniaxial strain under monotonic loading.
 //!
 //! Let `e` be the logarithmic strain of the driven axis, with elasticity linear in `e` and no
-//! hardening. For a yield surface of planes or a cone, the axial Kirchhoff stress is then piecewise
-//! linear in `e`: elastic up to yield, then with the elastic-plastic modulus, and constant at an
-//! apex, where all principal stresses are equal.
+//! hardening. If the yield surface is a cone or consists of planes, the axial Kirchhoff stress is
+//! piecewise linear in `e`. It is elastic up to yield, and then has the elastic-plastic modulus. At
+//! an apex, where all principal stresses are equal, it is constant.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;

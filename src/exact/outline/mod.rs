@@ -1,7 +1,7 @@
 //! Bodies that are not boxes: round bodies and polygons.
 //!
-//! Rims are the parts of the boundary. They are free, except that a pressure may act on a rim of a
-//! round body, and sides of a quadrilateral may lie on a face.
+//! The parts of the boundary are called rims. Rims are free, except that a pressure may act on a
+//! rim of a round body, and sides of a quadrilateral may lie on a face.
 
 mod piece;
 mod polygon;
@@ -16,7 +16,7 @@ pub use round::{Circle, Round};
 use super::random::Random;
 use std::fmt::Debug;
 
-/// Share of a length or an area that is treated as rounding error.
+/// Fraction of a length or an area that is treated as rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// Shape of a body that is not a box, in the reference configuration.

@@ -262,7 +262,8 @@ impl SolverProgram {
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
         let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // The answer contains invalid JSON such as NaN, so the index of the number is unknown.
+            // The answer is invalid JSON, because it contains a word such as NaN. The index of the
+            // number is unknown.
             ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
             error => error,
         });

@@ -1,8 +1,8 @@
 //! Bodies of revolution: a three-dimensional law whose third axis is the hoop direction, with the
 //! stretch `F_33 = r/R`.
 //!
-//! Any law can be used in a body of revolution. The law is evaluated in three dimensions, where the
-//! shears between the meridian plane and the hoop direction are zero.
+//! The law is evaluated in three dimensions, where the shears between the meridian plane and the
+//! hoop direction are zero. Any law can therefore be used.
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;

@@ -87,8 +87,8 @@ pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     nothing
 }
 
-/// Sums the series of [`logarithm`] for small Z by Horner's scheme. This form takes half the time,
-/// because it needs no norm after each term.
+/// Sums the series of [`logarithm`] for small Z by Horner's scheme. No norm is needed after each
+/// term, so this takes half the time.
 fn small_logarithm<const D: usize>(z: &Matrix<D>, square: &Matrix<D>, size: f64) -> Matrix<D> {
     // Term k is at most size^k times the first term.
     let (mut terms, mut power) = (0_u32, 1.0);
@@ -250,7 +250,8 @@ mod tests {
         assert!(started(law, half_a_turn).sigma[0].iter().all(|sigma| sigma.is_nan()));
     }
 
-    /// Covers both forms of the series; they meet at a strain of about 0.3.
+    /// Covers both forms of the series; the change from one to the other is at a strain of about
+    /// 0.3.
     #[test]
     fn logarithm_of_a_stretch_is_its_strain() {
         let (c, s) = (0.6, 0.8);
@@ -306,7 +307,7 @@ mod tests {
         }
     }
 
-    /// An objective law would rotate the stress; this law does not.
+    /// An objective law would rotate the stress.
     #[test]
     fn spin_does_not_rotate_the_stress() {
         let mut solid = one_particle::<2>();

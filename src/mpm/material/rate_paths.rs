@@ -53,8 +53,8 @@ fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     (rows[0], order)
 }
 
-/// Tests components 11 and 12 of the stress in simple shear. The integration of the rates has order
-/// 2.
+/// Tests components 11 and 12 of the stress in simple shear. The error of the integration is of
+/// order 2 in the step.
 #[rstest]
 #[case::jaumann(JAUMANN, 1.0, [0.459_697_694_1, 0.841_470_984_8])]
 #[case::jaumann_far(JAUMANN, 3.0, [1.989_992_496_6, 0.141_120_008_1])]

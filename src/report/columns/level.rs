@@ -250,8 +250,8 @@ impl LevelRow<'_> {
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Returns the largest error at the end: of the judged quantity if it is a primary unknown,
-    /// otherwise of the displacement.
+    /// Returns the largest error at the end: the error of the judged quantity if this is a primary
+    /// unknown, otherwise the error of the displacement.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =

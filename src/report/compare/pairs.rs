@@ -198,7 +198,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// Returns the kind and size of a change that affects only errors, work or stability limits.
+/// Returns the kind and size of a change of errors, work or stability limits.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);
@@ -216,8 +216,8 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
 }
 
 /// Names of statement rows about levels and outputs. Differences in these rows are not changes of
-/// the problem. `--full adds` is the former name of `further levels`, and names that are read from
-/// snapshots have one word.
+/// the problem. Older documents have `--full adds` instead of `further levels`. Names read from
+/// snapshots have only one word.
 const OF_LEVELS: [&str; 11] = [
     "cells",
     "dt",

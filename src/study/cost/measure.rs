@@ -236,7 +236,7 @@ const ROUNDS: u32 = 250_000;
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
-/// Runs `work` on one thread. Large scenes would otherwise use several.
+/// Runs `work` on one thread, even if the scene is so large that it would use several.
 pub(crate) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match &*ALONE {
         Some(pool) => pool.install(work),

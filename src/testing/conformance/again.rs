@@ -32,7 +32,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     };
     let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
     let far = largest(&whole);
-    // In a stable step, at least a quarter of the distance `dt * fastest` remains despite forces.
+    // In a stable step, forces reduce the distance `dt * fastest` at most to a quarter.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
         return Some(Breach::new("step", wanted, format!("at most {far:e} m")));

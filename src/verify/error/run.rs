@@ -1,4 +1,4 @@
-//! Runs one subject on one level and compares it with the exact solution.
+//! Runs a solver on one level and compares the result with the exact solution.
 
 use super::clock::Clock;
 use super::clock::StepKind;

@@ -16,8 +16,8 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. Another processor or setting may add in
-/// a different order, with different rounding errors.
+/// Minimum ratio of a proposed bound to the measured drift. On another processor or with other
+/// settings, sums may be computed in a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.

@@ -36,7 +36,8 @@ pub struct StabilityRow {
 /// Predicted and observed stability limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
-    /// Prediction from the amplification matrix of a frozen configuration.
+    /// Prediction from the matrix that describes one step for small perturbations, with particles
+    /// that keep their position on the grid.
     pub predicted: Option<Prediction>,
     /// Runs below and above the prediction, each with its parameter value divided by the
     /// prediction.
@@ -50,7 +51,8 @@ pub struct Critical {
 pub struct Prediction {
     /// Parameter value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves the unit circle.
+    /// Eigenvalue that leaves the unit circle at the limit: the real part, and the magnitude of the
+    /// imaginary part.
     pub leaves: Option<(f64, f64)>,
 }
 

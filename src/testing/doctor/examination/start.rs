@@ -1,8 +1,9 @@
 //! Examination of a body that starts deformed and stressed, and is released.
 //!
-//! The displacement of the body is a simple shear, so F and the stress are uniform. Until waves
-//! arrive from the free faces, the initial first Piola-Kirchhoff stress changes the momentum of one
-//! half by `dP_j/dt = -P_ji A` through the reference plane with normal i.
+//! The displacement of the body is a simple shear, so F and the stress are uniform. A reference
+//! plane of area A with normal i divides the body into two halves. Until waves arrive from the free
+//! faces, component j of the momentum of the upper half changes at the rate `-P_ji A`, where P is
+//! the initial first Piola-Kirchhoff stress.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
@@ -26,7 +27,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// functions.
 const SHEAR: f64 = 1.0;
 
-/// Initial stretch in one dimension.
+/// Initial displacement gradient of a one-dimensional body.
 const STRETCH: f64 = 0.05;
 
 /// Maximum relative error of the force. The value allows for approaching waves and small changes of
