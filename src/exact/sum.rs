@@ -83,8 +83,8 @@ pub enum SumRegion {
 /// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change due to the last refinement, relative to the size of the sum, between rounding
-/// errors and discretisation errors.
+/// Maximum change due to the last refinement, relative to the size of the sum. The value is larger
+/// than rounding errors and smaller than discretisation errors.
 const TOLERANCE: f64 = 1e-10;
 
 /// Number of intervals between the times at which sizes and quadrature errors are computed.

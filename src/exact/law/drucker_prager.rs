@@ -7,8 +7,9 @@
 //! d tau11/de = M - (K eta + s A)(K etab + s A)/D
 //! ```
 //!
-//! Both invariants are then linear in the strain. Per unit strain, `sqrt(J2)` changes by `A - mu g`
-//! and the multiplier by `g = (A + s eta K)/D`. Extension therefore ends at the apex.
+//! Mean stress and `sqrt(J2)` are then linear in the strain. Per unit strain, `sqrt(J2)` changes by
+//! `A - mu g`, and the plastic multiplier by `g = (A + s eta K)/D`. In extension, `sqrt(J2)`
+//! decreases to zero, so the stress path ends at the apex.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialFlow, UniaxialLaw, UniaxialPlasticity};

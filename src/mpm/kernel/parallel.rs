@@ -88,7 +88,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if any. Then unpacks the layers `done`.
+    /// Adds a block, if any, and then copies the layers `done` to the arrays of the grid.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
             (self.add)(block, target.field.reborrow());

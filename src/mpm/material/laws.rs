@@ -122,7 +122,8 @@ fn rotation_in_a_step_only_rotates_the_stress<const D: usize>(plan: MaterialPlan
 }
 
 /// Tests isotropy and frame indifference, `sigma(Q L Q^T + W) = Q sigma(L) Q^T`, for the velocity
-/// gradient L and any spin W. A law that reads F must pass the stronger test above.
+/// gradient L and any spin W. For a law that reads F, the test
+/// [`rotation_in_a_step_only_rotates_the_stress`] is stronger.
 fn spin_only_rotates_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
@@ -162,7 +163,7 @@ fn deformed_start_has_the_stress_of_one_step<const D: usize>(plan: MaterialPlan)
     }
 }
 
-/// The resumed run is bit-identical: plastic flow and hardening are in the checkpoint.
+/// The resumed run is bit-identical, because plastic flow and hardening are in the checkpoint.
 fn resumed_run_is_bit_identical<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {

@@ -42,7 +42,7 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            // A word that all cases have does not distinguish the worse ones.
+            // A word in the names of all cases does not distinguish the worse ones.
             shared.all < cases.len()
                 && shared.worse >= FEWEST
                 && shared.worse as f64 > MOST * shared.all as f64

@@ -33,7 +33,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
 
 /// Adds the statement of the problem: parameters and functions in rows, the rest in one paragraph.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The judged quantity is left out, because the heading of the error table contains it.
+    // The judged quantity is omitted, because the heading of the error table contains it.
     let is_told = |(key, value): &&(String, String)| {
         key == "judged" || (key == "crossing levels" && value == "counted")
     };

@@ -124,7 +124,8 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some((_, first)) = studies.first() else { return };
     let judged = first.judged();
     if first.levels.len() == 1 {
-        // The table of verdicts contains the error.
+        // With a single level there is no error table, because the table of verdicts contains the
+        // error.
         return row(lines, "judged", &judged);
     }
     by_level(lines, &judged, studies, &[level::judged(), level::order()]);

@@ -83,7 +83,8 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
 }
 
 /// Warns of a time step in which a wave or a particle crosses more than one cell, or for which heat
-/// conduction is unstable. A constant step on all levels of a study in space is a note.
+/// conduction is unstable. If a study in space has the same step on all levels, the finding is a
+/// note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     found.extend(too_long(preflight));

@@ -138,7 +138,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // Drawn next to the body, because the body can separate from the wall.
+            // The wall is drawn next to the body, because the body can separate from it.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }

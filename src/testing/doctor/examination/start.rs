@@ -22,8 +22,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Otherwise
-/// cells would have unequal numbers of particles, which reduces the force by a tenth with linear
+/// Initial shear. A shear of one maps the square lattice of particles to a square lattice, so all
+/// cells have equally many particles. Unequal numbers would reduce the force by a tenth with linear
 /// functions.
 const SHEAR: f64 = 1.0;
 
@@ -107,7 +107,8 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // P = J sigma F^-T: its first column is sigma times the first column of F's cofactors.
+        // With P = J sigma F^-T, the first column of P is sigma times the first column of the
+        // cofactors of F.
         let cofactor: Vec<f64> = (0..d)
             .map(|k| {
                 let mut replaced = f.to_vec();
@@ -145,7 +146,8 @@ impl Forces {
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
-    // The motion in the first step is much smaller than the initial displacement.
+    // A wrong start is detected after the first step, because the motion in this step is much
+    // smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let before: Vec<[f64; 3]> = course.points(displacement, 0).map(|(_, u)| u).collect();
     let pairs = course.points(displacement, 1).zip(before);
