@@ -15,7 +15,7 @@ const INSTANTS: u64 = 20;
 pub(crate) struct ShownRun<'a> {
     /// Name of the run in its case, such as `64 cells`.
     pub(crate) name: String,
-    /// Subject at t = 0.
+    /// Solver at t = 0.
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,

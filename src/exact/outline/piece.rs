@@ -1,4 +1,5 @@
-//! Parts of a body that become particles, and merging of small parts.
+//! Parts of a body that become particles, and merging of small parts. A regular lattice divides
+//! space into boxes, called lattice cells here, each with one particle.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;

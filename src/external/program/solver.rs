@@ -1,4 +1,4 @@
-//! Creates subjects that run in a solver program.
+//! Starts solver programs and sets up levels that run in these programs.
 
 use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};

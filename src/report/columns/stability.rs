@@ -49,7 +49,7 @@ pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     std::iter::once(swept(study)).chain(columns).collect()
 }
 
-/// Returns the columns of limits; `sought` is the parameter whose limit is searched.
+/// Returns the columns of stability limits. `sought` is the name of the parameter that is limited.
 pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let mut columns = vec![
         swept(study),

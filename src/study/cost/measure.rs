@@ -65,7 +65,7 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Measures the time (s) of the steps of a subject on a level. The time of an external solver
+/// Measures the time (s) of the steps of a solver on a level. The time of an external solver
 /// includes its response time.
 fn seconds_of(
     plan: &ConvergencePlan,

@@ -126,8 +126,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// Searches for the limit of the sought parameter. If the particles do not move, the limit is
-    /// predicted and then checked by runs. Otherwise the limit is observed in runs.
+    /// Searches for the stability limit of the parameter `sought`. If the particles do not move,
+    /// the limit is predicted and then checked by runs. Otherwise the limit is observed in runs.
     fn critical(
         &self,
         value: f64,

@@ -45,7 +45,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Reports a breach if a second subject of the same problem gives a different run. Rounding
+/// Reports a breach if the same problem, set up a second time, gives a different run. Rounding
 /// differences are allowed.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
@@ -62,7 +62,7 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
 }
 
 /// Reports a breach if saving a checkpoint changes the run, or if a run resumed from the checkpoint
-/// differs from the uninterrupted run. Not applicable to a subject without checkpoints.
+/// differs from the uninterrupted run. Not applicable to a solver without checkpoints.
 pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
     let (first, rest) = states.split_at(states.len().div_ceil(2));
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];

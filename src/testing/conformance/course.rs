@@ -211,7 +211,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// Returns the smallest det F of all points; infinite if the subject does not report F.
+/// Returns the smallest det F of all points; infinite if the solver does not report F.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

@@ -56,8 +56,8 @@ impl JudgedSum {
         }
     }
 
-    /// Returns the difference from the exact sum at time `t` (s); NaN if the subject does not
-    /// report the sum.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver does not report
+    /// the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

@@ -51,7 +51,7 @@ impl NormName {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
     }
 
-    /// Whether the norm is weighted by masses. Only some subjects report masses.
+    /// Whether the norm is weighted by masses. Only some solvers report masses.
     pub(crate) fn is_by_mass(self) -> bool {
         matches!(self, Self::MassL2 | Self::MaxMassL2)
     }

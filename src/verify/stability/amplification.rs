@@ -26,7 +26,7 @@ pub enum AmplificationError {
     /// The unperturbed state changes in a step.
     #[error("the body does not stay at rest by itself")]
     NotAtRest,
-    /// A step of the subject failed.
+    /// A step of the solver failed.
     #[error("{0}")]
     Failed(Failure),
 }
@@ -38,7 +38,7 @@ pub enum AmplificationError {
 /// row; its eigenvalue is one.
 ///
 /// # Errors
-/// If the subject is not at rest or a step fails.
+/// If the body is not at rest, or if a step fails.
 pub fn amplification(
     subject: &mut dyn Perturbable,
     dt: &[f64],

@@ -12,7 +12,7 @@ use crate::verify::study_results::StudyResults;
 pub struct StabilityStudy {
     /// Name of the swept parameter.
     pub swept: String,
-    /// Name of the parameter whose limit is sought, if any.
+    /// Name of the parameter whose stability limit the study searches for, if any.
     pub sought: Option<String>,
     /// Measured values that tables show.
     pub figures: Vec<RunFigure>,
@@ -72,7 +72,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// Summarises the verdicts of the rows, or the limit that is sought.
+    /// Summarises the verdicts of the rows, or the stability limits.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");
