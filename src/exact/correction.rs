@@ -254,8 +254,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 impl Problem {
     /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
-    /// unless the motion varies along exactly one axis of one box in plane strain, 1D or 3D,
-    /// without heat. Also returns `None` if the computation is too expensive.
+    /// unless the motion varies along exactly one axis of a single box, in 1-D, plane strain or
+    /// 3-D, without heat. Also returns `None` if the computation is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

@@ -293,8 +293,8 @@ mod tests {
         }
     }
 
-    /// A line with density 2 + X is stretched by 1 + t from the origin. Then `sum m x^2` is (1 +
-    /// t)^2 times `int (2 + X) X^2 dX` = 11/12.
+    /// A line with density 2 + X is stretched by 1 + t from the origin, so `sum m x^2` is (1 + t)^2
+    /// times `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_use_the_local_density() {
         let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();

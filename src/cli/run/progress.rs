@@ -111,7 +111,7 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
-/// Describes how to resume the interrupted run. `kept`
+/// Describes how to resume the interrupted run. `kept` is true if finished levels are stored.
 pub(super) fn interrupt_note(kept: bool) -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
     note_of(&words, kept)

@@ -32,9 +32,9 @@ impl Condition for Interface {
 /// Distance of the expansion point from the face, relative to the length of the body.
 const INSIDE: f64 = 1e-9;
 
-/// Checks the high face of `one` against the opposite low face of `other` along `axis`. With a
-/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. `largest`
-/// contains the scales of the residuals over all bodies.
+/// Checks the high face of the body `one` against the opposite low face of the body `other` along
+/// `axis`. With a coefficient of `friction` the bodies are in contact, otherwise they are bonded.
+/// `largest` contains the scales of the residuals over all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.

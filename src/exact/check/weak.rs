@@ -165,9 +165,9 @@ impl Sums {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from that of a `coarse`
-    /// raster with half as many points per axis. `share` is the number of coarse points divided by
-    /// that of fine points.
+    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from the imbalance of a
+    /// `coarse` raster with half as many points per axis. `share` is the number of coarse points
+    /// divided by the number of fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -209,8 +209,8 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // The square root of a constant zero has NaN derivatives in the type for first derivatives
-        // only, and zero derivatives in the type with second derivatives.
+        // If only first derivatives are computed, the square root of a constant zero has NaN
+        // derivatives. With second derivatives, it has zero derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })

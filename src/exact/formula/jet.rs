@@ -10,7 +10,7 @@ use super::unary::Unary;
 ///
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
-/// undefined derivatives, such as that of `sqrt` at 0, are infinite or NaN.
+/// undefined derivatives, such as the derivative of `sqrt` at 0, are infinite or NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet<const N: usize> {
     value: f64,

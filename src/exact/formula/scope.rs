@@ -113,9 +113,9 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a table: `name` is a piecewise linear function of `by`, which is a constant or a
-    /// variable. Each of `rows` contains a value of `by` and the function value, in ascending order
-    /// of `by`. The function is constant before the first and after the last row.
+    /// Declares a table: `name` is a piecewise linear function of the argument `by`, which is a
+    /// constant or a variable. Each of `rows` contains a value of `by` and the function value, in
+    /// ascending order of `by`. The function is constant before the first and after the last row.
     ///
     /// # Errors
     /// When `name` or `by` is invalid, or when `name` is taken.

@@ -178,7 +178,7 @@ fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
 }
 
 /// Returns the simplest scheme and transfer whose stable time step is bit-identical to that of the
-/// given pair. Methods with the same result need only one computation.
+/// given scheme and transfer. Methods with the same result need only one computation.
 ///
 /// All transfers except [`TransferKind::Fit`] compute forces and velocity gradients from the basis.
 /// All except [`TransferKind::Series`] and [`TransferKind::Cells`] compute accelerations from the

@@ -14,8 +14,8 @@
 //! ```
 //!
 //! In 2-D these are the formulas of the paper. In 1-D the formulas are `(S_i(x + l) + S_i(x -
-//! l))/2` and `(S_i(x + l) - S_i(x - l))/(2l)`. This gradient equals that of contiguous-particle
-//! GIMP; the weight differs. `grad N_i` is the average of a gradient, not the gradient of the
+//! l))/2` and `(S_i(x + l) - S_i(x - l))/(2l)`. The gradient is the same as in contiguous-particle
+//! GIMP, but the weight differs. `grad N_i` is the average of a gradient, not the gradient of the
 //! average `N_i`. `N_i` and `grad N_i` reproduce linear fields: `sum_i x_i N_i = x`, `sum_i x_i (x)
 //! grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!

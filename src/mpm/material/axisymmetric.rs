@@ -131,8 +131,8 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// For every law, compares stress (with the hoop stress), volume and energy with those of the
-    /// 3-D law over several steps.
+    /// For every law, compares stress (with the hoop stress), volume and energy over several steps
+    /// with the results of the 3-D law.
     #[test]
     fn body_of_revolution_agrees_with_the_3d_law() {
         for plan in every() {

@@ -12,7 +12,7 @@ const JAUMANN: MaterialPlan = MaterialPlan::Jaumann { young: 2.5, poisson: 0.25 
 const GREEN_NAGHDI: MaterialPlan = MaterialPlan::GreenNaghdi { young: 2.5, poisson: 0.25 };
 const LOGARITHMIC: MaterialPlan = MaterialPlan::Hencky { young: 2.5, poisson: 0.25 };
 
-/// Returns a plane F with a shear `a` and a stretch `b` of the second axis.
+/// Returns a plane F with the shear `a`, and the stretch `b` of the second axis.
 fn sheared([a, b]: [f64; 2]) -> Matrix<2> {
     Matrix::<2>::new(1.0, a, 0.0, b)
 }
@@ -74,8 +74,8 @@ fn simple_shear_matches_closed_forms_of_the_rates(
     assert!(plan == LOGARITHMIC || (1.98..2.02).contains(&order), "order {order}");
 }
 
-/// After a closed cycle of shear and stretch, stress and work remain, except with the logarithmic
-/// rate. The reversed cycle leaves a different stress, but the same work.
+/// After a closed cycle of shear and stretch, stress and work are not zero, except with the
+/// logarithmic rate. The reversed cycle leaves a different stress, but the same work.
 #[rstest]
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]

@@ -83,8 +83,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns the columns of the largest error of `of` at the end and of the order of this error. An
-/// error that equals the judged error is shown as a dash.
+/// Returns two columns: the largest error of the quantity `of` at the end, and the order of this
+/// error. An error that equals the judged error is shown as a dash.
 pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
     let heading = format!("linf of {} at end ({})", of.words(), of.unit());
     let about = "order of linf between the next coarser level and this one";

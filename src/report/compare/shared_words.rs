@@ -18,8 +18,8 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Finds words common to the names of several worse cases. `cases` are pairs of `SUITE::CASE` and
-/// whether the case became worse.
+/// Finds words common to the names of several worse cases. Each of `cases` consists of the name
+/// `SUITE::CASE`, and of a flag that is true if the case became worse.
 ///
 /// Words in more worse cases come first, then words in fewer cases overall. A case counts only for
 /// the first of its words. The result is empty if at most half of the worse cases have a shared

@@ -367,7 +367,7 @@ fn duplicate_cases_are_refused() {
     assert_eq!(error.message, "the case `bar::a` is there twice");
 }
 
-/// Names and verdicts come from a file. They must not add markup, end a table or mention a user.
+/// Names and verdicts are text from a file, and must not add markup, end a table or mention a user.
 #[test]
 fn markdown_is_escaped() {
     let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";

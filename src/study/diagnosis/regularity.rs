@@ -229,7 +229,7 @@ impl LocalLine {
         places.filter(|(_, place)| problem.holds(place))
     }
 
-    /// Finds the position where a component of `at` jumps by at least `least`.
+    /// Finds the position where a component of the function `at` jumps by at least `least`.
     fn jump(
         &self,
         problem: &Problem,

@@ -12,7 +12,7 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 /// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// If no stable step is predicted, longer steps than this fraction of the time in which a wave
+/// If no stable step is predicted, steps longer than this fraction of the time in which a wave
 /// crosses a cell are doubtful.
 const IN_QUESTION: f64 = 0.5;
 
@@ -33,8 +33,8 @@ struct Mended<'a> {
     limit: f64,
 }
 
-/// Checks whether steps are longer than the stable step, on levels whose error is small or finite
-/// only with stable steps.
+/// Returns the cause that steps are longer than the stable step, if the error on some levels
+/// becomes small or finite with stable steps.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;

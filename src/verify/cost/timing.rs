@@ -62,7 +62,7 @@ pub struct TimedSuite {
     /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
     /// Workload and time of each level of each case. The time is `None` if the set-up of the level
-    /// failed.
+    /// failed. The time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,

@@ -278,7 +278,7 @@ mod tests {
         assert_relative_eq!(tiny.l2, 1e-200, max_relative = 1e-15);
     }
 
-    /// A rod that is stretched and heated over time. It has no exact stress.
+    /// A rod that is stretched and heated over time. The exact stress is not defined.
     struct Rod;
 
     impl Truth for Rod {

@@ -30,7 +30,7 @@ pub enum Gating {
     Excepted(String),
 }
 
-/// A required order or bound on errors. It is enough to meet one of them.
+/// A required order, a bound on errors, or both. It is sufficient to meet one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
     /// Required order, from which [`OrderHypothesis::TOLERANCE`] is subtracted.

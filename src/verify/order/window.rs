@@ -119,8 +119,8 @@ fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether departures, listed from the window outwards, are all material and to one side, and the
-/// last one is the largest.
+/// Whether all departures, listed from the window outwards, are larger than [`MATERIAL`] and to one
+/// side, with the last one as the largest.
 fn is_departing(outward: &[f64]) -> bool {
     let Some(last) = outward.last() else {
         return true;

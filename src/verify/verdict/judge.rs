@@ -239,7 +239,8 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// Computes the change of the order along the window; `None` unless it is significant and material.
+/// Computes the change of the order along the window; `None` unless the change is statistically
+/// significant and larger than [`DRIFT`].
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

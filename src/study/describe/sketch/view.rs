@@ -15,7 +15,7 @@ const HIGHEST: f64 = 260.0;
 /// Minimum height of the grid on the canvas (px); a bar has this height.
 const LOWEST: f64 = 34.0;
 
-/// The grid of the coarsest level in the plane of the first two axes, and its scene.
+/// The scene, and the grid of the coarsest level in the plane of the first two axes.
 pub(super) struct View {
     pub(super) scene: Scene,
     pub(super) from: [f64; 2],
