@@ -1,4 +1,4 @@
-//! Records the state of a subject during a run as bytes, and restores it bit for bit.
+//! Records the state of a solver during a run as bytes, and restores it bit for bit.
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
 //! Numbers are stored without names, as eight bytes in little-endian order on any machine. The

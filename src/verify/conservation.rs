@@ -1,7 +1,7 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. The
-//! scale is the largest value of a mass or an energy during the run. For a momentum, which may be
+//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
+//! a mass or an energy, the scale is the largest value during the run. For a momentum, which may be
 //! zero, the scale is the largest sum of the magnitudes of the particle momenta. The energy is NaN
 //! for a law without stored energy.
 

@@ -57,7 +57,7 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
 
 fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
-    // This check precedes all questions; `save` checks again.
+    // The file is checked before any question is asked, and again in `save`.
     if path.exists() {
         return Err(in_the_way(&path));
     }

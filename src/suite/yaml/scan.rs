@@ -174,7 +174,7 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    /// Handles `- ` and `? `, which open a block list or map at their own column.
+    /// Handles `- ` and `? `, which open a block list or map in their column.
     fn block_indicator(&mut self) -> Result<Next, Diagnostic> {
         if self.in_flow() {
             self.pass(false);

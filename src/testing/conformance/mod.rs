@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! course   columns, labels, weights and motion at the start; counters and sums over a few steps
-//! again    repeated sampling, half-length step, new subject, resumed run
+//! again    repeated sampling, step of half the length, repeated run, resumed run
 //! record   recorded runs, and the type of a breach
 //! ```
 

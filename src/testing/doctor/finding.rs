@@ -9,7 +9,7 @@ named! {
     pub enum FindingWeight {
         /// A defect that should be repaired.
         Defect = "defect",
-        /// A property of a correct scheme, for the information of its author.
+        /// A property that is not a defect, reported for information.
         Remark = "remark",
     }
 }

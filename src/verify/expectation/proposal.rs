@@ -1,8 +1,8 @@
 //! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! If the observed order agrees with the formal one, the formal order is proposed. Other values are
-//! taken from the run and are marked accordingly. A range is proposed only if the run meets it with
-//! a margin: twice the uncertainty must fit between the observed order and either bound.
+//! taken from the run and are marked accordingly. A range is proposed only if the observed
+//! order lies inside the range, at a distance of at least twice its uncertainty from either bound.
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
