@@ -94,9 +94,9 @@ pub(crate) struct RunContext<'a> {
 
 impl RunContext<'_> {
     /// Returns the cached result of `key`. If there is none, caches and returns the result of
-    /// `run`. `name` is the name of the result in messages. A result of an external solver is not
-    /// cached if it is `broken`, because a solver that fails or times out may succeed the next
-    /// time.
+    /// `run`. `name` is the name of the result in messages. A result of an external solver for
+    /// which `broken` returns true is not cached, because a solver that fails or times out may
+    /// succeed the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,

@@ -215,8 +215,8 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the heat balance on random patches. Terms of the balance that are far below the `largest`
-/// are ignored.
+/// Checks the heat balance on random patches. Terms that are far below the `largest` magnitudes are
+/// ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,

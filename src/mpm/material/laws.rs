@@ -1,5 +1,4 @@
-//! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D. Differences
-//! between materials are declared in their properties and closed forms.
+//! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D.
 
 use super::specimen::{DENSITY, FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{

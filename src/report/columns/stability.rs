@@ -41,7 +41,7 @@ fn steps<'a>() -> TrialColumn<'a> {
 
 /// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
-    // The ledger table prints the other ledger quantities in joules.
+    // A separate table lists the other energies of the ledger, in joules.
     let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;
     let figures = study.figures.iter().filter(is_here).map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);

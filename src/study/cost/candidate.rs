@@ -55,7 +55,7 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 }
 
 impl Candidate {
-    /// Returns the finest level of the converging part.
+    /// Returns the finest of the levels over which the error converges.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }

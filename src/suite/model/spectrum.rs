@@ -1,4 +1,4 @@
-//! A spectrum study after all checks of its suite.
+//! A spectrum study whose suite has passed all checks.
 
 use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};

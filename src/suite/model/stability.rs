@@ -1,4 +1,4 @@
-//! A stability study after all checks of its suite.
+//! A stability study whose suite has passed all checks.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{StudyPlan, kept};

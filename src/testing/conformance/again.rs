@@ -1,4 +1,4 @@
-//! Repeatability checks: repeated sampling, a step of half the length, a repeated run, a resumed run.
+//! Repeatability checks: repeated sampling, a half-length step, a repeated run, a resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! course   columns, labels, weights and motion at the start; counters and sums over a few steps
-//! again    repeated sampling, step of half the length, repeated run, resumed run
+//! again    repeated sampling, half-length step, repeated run, resumed run
 //! record   recorded runs, and the type of a breach
 //! ```
 

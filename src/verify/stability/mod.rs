@@ -6,7 +6,7 @@
 //! | [`trial`](trial()) | one run: energy relative to its initial value, J, largest speed |
 //! | [`amplification`](amplification()) | matrix of one step, from runs of perturbed states |
 //! | [`radius`](spectral_radius) | the largest eigenvalue of the amplification matrix |
-//! | [`limit`](stability_limit()) | smallest value of a parameter that is not stable |
+//! | [`limit`](stability_limit()) | smallest unstable value of a parameter |
 //! | [`expectation`](StabilityExpectation) | expectations of suites |
 //! | [`outcome`](StabilityStudy) | the rows of a report |
 
