@@ -71,12 +71,12 @@ macro_rules! each_effect {
             /// A damping force against the motion, proportional to the unbalanced force.
             LocalDamping = "local_damping" => local_damping::LocalDampingSpec,
                 effect local_damping::LocalDamping;
-            /// A viscous pressure against compression. It smooths shocks.
+            /// A viscous pressure against compression, which smooths shocks.
             ArtificialViscosity = "artificial_viscosity" => artificial_viscosity::ViscositySpec,
                 effect artificial_viscosity::ArtificialViscosity;
             /// A traction on a face of the body, carried by the layer of particles at that face.
             Traction = "traction" => traction::TractionSpec, effect traction::Traction;
-            /// A pressure on a face of the body. It follows the moving face.
+            /// A pressure on a face of the body, which follows the moving face.
             Pressure = "pressure" => pressure::PressureSpec, effect pressure::Pressure;
             /// A total force on a set of particles.
             SetForce = "force" => set_force::SetForceSpec, effect set_force::SetForce;

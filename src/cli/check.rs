@@ -103,7 +103,7 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
 pub(super) struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
-    /// False if notes are only counted, true if they are printed.
+    /// Whether notes are printed instead of only counted.
     has_notes: bool,
     suites: Vec<Value>,
     /// Summary of the suites that the external solver can run; `None` without an external solver.

@@ -1,4 +1,4 @@
-//! `mpm-verify estimate`: order and limit of a series of values without an exact solution.
+//! `mpm-verify estimate`: estimates the order and the limit of a series of values.
 
 use super::arguments::FormatArgs;
 use super::output;

@@ -59,11 +59,11 @@ enum Command {
     /// Validate suites without running them: grammar, formulas, exact solution, and whether the
     /// runs can support the expectations; exit status 2 on bad input
     Check(check::CheckArgs),
-    /// Print the problem and the source of a suite, the cost of a step of each case (effects,
-    /// passes, memory), and the expectations
+    /// Print the problem, the source and the expectations of a suite, and the passes over particles
+    /// and the memory that a step of each case needs
     Explain(explain::ExplainArgs),
     /// Run suites and propose `expect` entries that theory predicts and the runs support, each with
-    /// its origin; changes no file
+    /// a reason; changes no file
     Propose(propose::ProposeArgs),
     /// Find out why a case misses the theoretical order: run its finest levels again with one
     /// change at a time
@@ -71,7 +71,8 @@ enum Command {
     /// Run a solver on small problems that each expose one kind of defect, and describe the
     /// defects; exit status 1 if there is a defect, 2 if the solver does not respond
     Doctor(doctor::DoctorArgs),
-    /// Print a JSON Schema, for editors and for authors of solvers
+    /// Print the JSON Schema of suite files, of JSON reports, or of the messages between the
+    /// program and a solver
     Schema(generate::SchemaArgs),
     /// Print the requested and the actual time step of every level; exit status 1 if they differ by
     /// more than 1 %
@@ -82,7 +83,7 @@ enum Command {
     /// Measure the cost of accuracy: error against work and run time, the cheapest method for an
     /// error, and the most accurate setting within a budget
     Cost(cost::CostArgs),
-    /// Estimate the order and the limit of a series of values that has no exact solution, with
+    /// Estimate the order and the limit of a series of values whose exact limit is unknown, with
     /// intervals; exit status 1 if the series shows no limit, 2 on bad input
     Estimate(estimate::EstimateArgs),
     /// Compare two runs or two sets of snapshots, and list the changes, most important first; exit

@@ -23,8 +23,9 @@ impl SuiteRuns {
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// Prepares a run of each suite in `of_each` with its solver. If `with_methods` is true, the
-    /// methods of `suites` run first. Suites without any run are skipped.
+    /// Combines the runs of each suite. Entry k of `of_each` has the suites that run with solver k.
+    /// If `with_methods` is true, the suites in `suites` first run with their own methods. Suites
+    /// without any run are skipped.
     pub(super) fn of_solvers(
         suites: &[Suite],
         of_each: Vec<Vec<Suite>>,
@@ -92,7 +93,7 @@ impl SuiteRuns {
     }
 }
 
-/// Checks that case names are unique within each suite. Cases of an external solver have the name
+/// Checks that case names are unique within each suite. The case of an external solver has the name
 /// of the solver.
 ///
 /// # Errors

@@ -1,11 +1,11 @@
 //! First-order correction of a linearised motion: the linear response to the residual of the law.
 //!
 //! A linearised motion u leaves the residual force `r = Div P(u) + rho0 b - rho0 u_tt`, and
-//! residual tractions on faces. The true motion is u + d, where to first order
-//! `rho0 d_tt = M d_XX + r`, with d = 0 on held faces and the residual traction on other faces. The
-//! motion must vary along one axis only, and d is computed along this axis: for a moving body with
-//! linear elements, a lumped mass matrix and central differences in time, for a body at rest by
-//! integration.
+//! residual tractions on faces. The true motion is u + d, where to first order `rho0 d_tt = M d_XX
+//! + r` with the wave modulus M, d = 0 on held faces, and the residual traction on other faces. The
+//! motion must vary along one axis only, and d is computed along this axis. For a body at rest, d
+//! follows by integration. For a moving body, d is computed with linear elements, a lumped mass
+//! matrix and central differences in time.
 
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
@@ -36,7 +36,7 @@ enum Demand {
     Other,
 }
 
-/// A point of a face that records what its condition requires along the normal.
+/// A point of a face that records the requirement of its condition along the normal.
 struct DemandPoint<'a> {
     problem: &'a Problem,
     face: &'a Face,
@@ -180,8 +180,8 @@ impl<'a> Line<'a> {
     /// Computes the correction (m) of a state of rest, from equilibrium of the nodal forces.
     fn at_rest(&mut self, t: f64) -> Option<Vec<f64>> {
         let (forces, held) = self.forces(t)?;
-        // Without the reaction at the low end, the force in an element is minus the sum of all
-        // nodal forces below it.
+        // Except for the reaction at the low end, the force in an element is minus the sum of all
+        // nodal forces below the element.
         let mut below = 0.0;
         let mut sums = Vec::with_capacity(self.elements);
         for force in &forces[..self.elements] {
@@ -224,7 +224,7 @@ impl<'a> Line<'a> {
             }
             let rates = problem.terms.iter().map(|term| term.resistance(t, 1.0, &|| 0.0));
             let damping = -rates.sum::<f64>();
-            // Leapfrog: the first step advances velocities by half a step.
+            // In the leapfrog scheme, the first step advances velocities by half a step only.
             let share = if step == 0 { 0.5 } else { 1.0 };
             for node in 0..=last {
                 let is_held = (node == 0 && held[0]) || (node == last && held[1]);
@@ -254,8 +254,8 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 impl Problem {
     /// Computes the first correction of a linearised motion in a run until `t` (s). Returns `None`
-    /// unless the motion varies along exactly one axis of one box in plane strain, 1D or 3D,
-    /// without heat. Also returns `None` if the computation is too expensive.
+    /// unless the motion varies along exactly one axis of a single box, in 1-D, plane strain or
+    /// 3-D, without heat. Also returns `None` if the computation is too expensive.
     pub fn first_correction(&self, t: f64) -> Option<FirstCorrection> {
         let d = self.dimension();
         let varying: Vec<usize> = (0..d).filter(|axis| self.motion.varies_along(*axis)).collect();

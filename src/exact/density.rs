@@ -20,8 +20,8 @@ const NODES: usize = 33;
 /// Number of quadrature panels along each axis. The density must be positive at their points.
 const PANELS: usize = 4;
 
-/// Densities below this share of the largest density count as zero. Rounding makes 1 - X^2 - Y^2
-/// slightly negative or positive on the rim of a disk.
+/// Densities below this fraction of the largest density count as zero, because rounding makes a
+/// density such as 1 - X^2 - Y^2 slightly negative or positive on the rim of a disk.
 const ROUNDING: f64 = 1e-12;
 
 /// A position in the body where the density is not positive.
@@ -196,7 +196,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The motion is exact for a = sqrt(1 + 0.75 t^2).
+    /// The motion solves the equation if a = sqrt(1 + 0.75 t^2).
     #[test]
     fn gas_cloud_solves_its_equation() {
         let sound = cloud("sqrt(1 + 0.75*t^2)", "sqrt(1 - X^2)");

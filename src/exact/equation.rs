@@ -91,7 +91,7 @@ pub(super) fn complete_in_plane(
         PlaneState::Axisymmetric => {
             let (radius, [along_r, along_z, _]) = (label[0], now.grad[0]);
             (now.grad[2][2], now.second[2][2]) = if radius == 0.0 {
-                // Limits on the axis of revolution, where u_r = 0.
+                // On the axis of revolution, where u_r = 0, the values are limits for r -> 0.
                 let [along_rr, along_rz, _] = now.second[0][0];
                 (along_r, [0.5 * along_rr, along_rz, 0.0])
             } else {

@@ -154,8 +154,8 @@ mod tests {
         }
     }
 
-    /// A freely expanding body, grad u = theta - 1, has neither stress nor force, even for varying
-    /// theta.
+    /// A freely expanding body has the displacement gradient (theta - 1) I, without stress or force
+    /// even for varying theta.
     #[rstest]
     #[case(SmallStrainLaw::new(50.0, 0.3).into())]
     #[case(NeoHookeanLaw::new(50.0, 0.3).into())]

@@ -44,8 +44,9 @@ pub(crate) fn points(axes: &[(f64, f64)], panels: usize) -> Vec<(Vec<f64>, f64)>
     all
 }
 
-/// Points and weights for integrals over lattice cells: 8 points per axis in one and two
-/// dimensions, and 4 in three dimensions, where a cell has 64 points instead of 512.
+/// Points and weights for integrals over lattice cells, the boxes that single particles of a
+/// regular lattice represent. There are 8 points per axis in one and two dimensions, but only 4 in
+/// three dimensions, to limit a cell to 64 points.
 #[derive(Debug, Clone)]
 pub struct CellQuadrature {
     /// Points of the cube from -1 to 1, with weights whose sum is 1; unused coordinates are zero.

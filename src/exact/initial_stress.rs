@@ -147,7 +147,7 @@ mod tests {
     fn cauchy_stress_agrees_with_first_piola_kirchhoff_stress() {
         let (s0, det) = (plane(), 1.1 * 1.05 + 0.3 * 0.2);
         let found = s0.cauchy(&[2.0, 5.0], &GRAD, true);
-        // F S0 F^T by hand, row X, with F = ((1.1, 0.2), (-0.3, 1.05)).
+        // Row X of F S0 F^T, computed by hand with F = ((1.1, 0.2), (-0.3, 1.05)).
         let row = [1.1 * 4.0 + 0.2 * 10.0, 1.1 * 10.0 + 0.2 * 8.0];
         assert_relative_eq!(found[0][0], (row[0] * 1.1 + row[1] * 0.2) / det, max_relative = 1e-14);
         assert_relative_eq!(

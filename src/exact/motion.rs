@@ -177,7 +177,7 @@ impl Truth for Motion {
         for (labels, into) in
             labels.chunks(d * NumberBatch::LEN).zip(into.chunks_mut(d * NumberBatch::LEN))
         {
-            // Batch lanes without a point use the last point.
+            // Lanes of a batch that have no point use the last point.
             let last = labels.len() / d - 1;
             let mut all = [NumberBatch::from(t); 4];
             for axis in 0..d {

@@ -2,8 +2,8 @@
 //!
 //! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Runs share manufactured forces, because most cases of a study have the same particle positions
-//! and time steps.
+//! Manufactured forces are computed once for all runs of a study that have the same particle
+//! positions and time steps.
 
 use super::condition::Face;
 use super::density::Density;
@@ -22,7 +22,7 @@ use crate::subject::PlaneState;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// An initial-boundary-value problem on a box or another outline, and its exact solution.
+/// An initial-boundary-value problem on a box or a body of another shape, and its exact solution.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Lowest corner of the body or its bounding box (m).
@@ -51,8 +51,8 @@ pub struct Problem {
     pub heat: Option<Conduction>,
     /// All faces of the body.
     pub faces: Vec<Face>,
-    /// Whether the motion gives the initial conditions that are not prescribed. If false, these are
-    /// zero.
+    /// Whether initial conditions that are not prescribed are taken from the motion. If false, they
+    /// are zero.
     pub follows_motion: bool,
     /// Initial stress of the reference configuration.
     pub initial_stress: InitialStress,
@@ -349,7 +349,7 @@ impl Problem {
         self.equation.density_factor(self.density.at(label))
     }
 
-    /// Computes the terms of Div P (N/m3) without derivatives in a body of revolution:
+    /// Computes the terms of Div P (N/m3) that contain no derivatives, in a body of revolution:
     /// `((P_rR - P_tT)/R, P_zR/R)` at the radius R (Malvern 1969, appendix II). Zero for other
     /// bodies.
     pub(super) fn hoop_force(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
@@ -419,7 +419,7 @@ impl SharedForces {
         }
     }
 
-    /// Removes all forces; runs recompute the forces they need.
+    /// Removes all forces. Later runs compute the forces that they need again.
     pub fn clear(&self) {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         // The sets of positions remain, because running studies still use their indices.

@@ -83,8 +83,8 @@ pub enum SumRegion {
 /// Maximum number of quadrature points after the last refinement.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Maximum change due to the last refinement, relative to the size of the sum, between rounding
-/// errors and discretisation errors.
+/// Maximum change due to the last refinement, relative to the size of the sum. The value is larger
+/// than rounding errors and smaller than discretisation errors.
 const TOLERANCE: f64 = 1e-10;
 
 /// Number of intervals between the times at which sizes and quadrature errors are computed.
@@ -293,8 +293,8 @@ mod tests {
         }
     }
 
-    /// A line with density 2 + X is stretched by 1 + t from the origin. Then `sum m x^2` is (1 +
-    /// t)^2 times `int (2 + X) X^2 dX` = 11/12.
+    /// A line with density 2 + X is stretched by 1 + t from the origin, so `sum m x^2` is (1 + t)^2
+    /// times `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_use_the_local_density() {
         let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();

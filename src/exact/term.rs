@@ -63,7 +63,7 @@ pub trait Term: Debug + Send + Sync {
     }
 }
 
-/// The material points in a box.
+/// A part of the body: the material points in a box.
 #[derive(Debug, Clone)]
 pub struct Region {
     /// Name in the suite.

@@ -315,7 +315,8 @@ fn a_traction_may_depend_on_the_place() {
 }
 
 /// A cube under uniform pressure shrinks equally on all sides, `P N = -p J F^-T N`. With a stretch
-/// s, the area of a face is s^2 times the reference area. A dead load ignores this.
+/// s, the area of a face is s^2 times the reference area. A dead load does not change with this
+/// area.
 #[test]
 fn pressure_acts_on_the_current_area() {
     let names = ["X", "Y", "Z", "t"];

@@ -22,8 +22,9 @@ pub struct Violation {
     pub unit: &'static str,
 }
 
-/// Collects violations and stores the one that is largest relative to its tolerance. A violation
-/// replaces the stored one if it is 1 % larger, or ten times larger for another condition.
+/// Collects violations and stores the one that is largest relative to its tolerance. A violation of
+/// the same condition replaces the stored one if it is 1 % larger. A violation of another condition
+/// must be ten times larger.
 #[derive(Debug, Default)]
 pub(super) struct LargestViolation(Option<Violation>);
 

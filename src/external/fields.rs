@@ -143,8 +143,8 @@ impl ProblemFields {
         self.0.bodies(labels)
     }
 
-    /// Returns the index of a body that contains the reference position `label` (m), or of the
-    /// first body if no body contains it.
+    /// Returns the index of the body that contains the reference position `label` (m); 0, the index
+    /// of the first body, if no body contains it.
     pub fn nearest_body(&self, label: &[f64]) -> usize {
         self.0.nearest_body(label)
     }

@@ -102,8 +102,8 @@ impl LevelProblem {
 
 impl Functional {
     /// Computes the functional for `samples` of particles with the masses `mass` (kg), and its
-    /// rounding error, which grows with the positions. The value is NaN if the particle or axis
-    /// does not exist.
+    /// rounding error, which grows with the coordinates of the particles. The value is NaN if the
+    /// particle or axis does not exist.
     pub fn value(self, mass: &[f64], samples: &Samples) -> FunctionalValue {
         let d = samples.dimension.max(1);
         let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();

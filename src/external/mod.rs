@@ -68,8 +68,8 @@ pub trait SolverFactory: Sync {
         Vec::new()
     }
 
-    /// Creates a subject in the initial state of `problem`. The labels of the subject are the
-    /// reference positions of the particles, or of the solver's own sample points.
+    /// Sets up the solver in the initial state of `problem`. Its labels are the reference positions
+    /// of the particles, or of the solver's own sample points.
     ///
     /// # Errors
     /// [`SubjectError::Unsupported`] if the solver refuses the problem; the case is then not

@@ -33,8 +33,8 @@ pub struct LevelProblem {
     pub loads: Vec<ProblemLoad>,
     /// Particles per cell.
     pub particles_per_cell: Option<u64>,
-    /// Number of load steps if the load grows in quasi-static steps without time. It equals
-    /// `steps`.
+    /// Number of load steps, equal to `steps`, if the load grows in quasi-static steps without
+    /// time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_steps: Option<u64>,
     /// Number of steps.

@@ -310,10 +310,11 @@ fn all_finite(quantity: &'static str, nodal: &[f64]) -> Result<(), Failure> {
 ///
 /// None of these positions is superconvergent. To leading order, the interpolation error is the
 /// same polynomial in every element: `(1 - xi^2) u''` if linear, `xi (1 - xi^2) u'''` if quadratic.
-/// At its zeros (the nodes, including the midside node) only the error of the nodal values remains,
-/// which may be of a higher order. At `xi = 1/4` and `3/4` the linear polynomial has the values
-/// 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33 (maximum 0.38). At the points
-/// `+-1/sqrt(3)`, the *strain* of a quadratic element is superconvergent.
+/// At the zeros of this polynomial (the nodes, including the midside node), only the error of the
+/// nodal values remains, which may be of a higher order. At `xi = 1/4` and `3/4` the linear
+/// polynomial has the values 0.94 and 0.44 (maximum 1), and the quadratic one 0.23 and 0.33
+/// (maximum 0.38). At the points `+-1/sqrt(3)`, the *strain* of a quadratic element is
+/// superconvergent.
 const PLACES: [f64; 4] = [0.125, 0.375, 0.625, 0.875];
 
 impl Bar {

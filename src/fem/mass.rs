@@ -87,8 +87,8 @@ fn product(mesh: &Mesh, a: usize, b: usize) -> f64 {
     mesh.points().iter().map(|point| point.weight * (point.shape[a] * point.shape[b])).sum()
 }
 
-/// Restricts the matrix to free nodes: the row and column of a fixed node become those of the
-/// identity matrix, so the matrix remains positive definite.
+/// Restricts the matrix to free nodes. The row and column of a fixed node become a row and column
+/// of the identity matrix, so the matrix remains positive definite.
 fn held(matrix: &CooMatrix<f64>, fixed: [bool; 2]) -> CooMatrix<f64> {
     let size = matrix.nrows();
     let is_fixed = |i: usize| (fixed[0] && i == 0) || (fixed[1] && i + 1 == size);

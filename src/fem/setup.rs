@@ -6,7 +6,7 @@ use crate::named::named;
 use crate::subject::{Failure, Start};
 use thiserror::Error;
 
-/// A function of the reference position X, or of the deformation gradient F.
+/// A function of the reference position X or of the deformation gradient F.
 pub type ScalarFunction = Box<dyn Fn(f64) -> f64 + Send>;
 /// A function of time t.
 pub type TimeFunction = Box<dyn Fn(f64) -> f64 + Send>;

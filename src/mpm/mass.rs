@@ -111,7 +111,7 @@ struct Factor {
     row: Vec<Option<usize>>,
     rows: usize,
     assembly: Assembly,
-    /// Values of the matrix (kg), from which the factor is computed.
+    /// Values of the matrix (kg) from which the factor is computed.
     values: Vec<f64>,
     cholesky: CscCholesky<f64>,
 }
@@ -208,7 +208,8 @@ impl<const D: usize> MassMatrix<D> for Consistent {
         for axis in 0..if same { 1 } else { D } {
             self.factors.push(Factor::after(last.next(), &along(axis), &self.entries)?);
         }
-        // For each particle, every pair of its nodes is visited. This counts as `support` passes.
+        // For each particle, all pairs of nodes in its support are visited. This counts as
+        // `support` passes.
         Ok(1 + kernel.support())
     }
 
@@ -226,7 +227,7 @@ struct Assembly {
     pattern: SparsityPattern,
     /// Indices of the entries, grouped by matrix position.
     order: Vec<usize>,
-    /// End of the entries of each matrix position in `order`.
+    /// For each matrix position, the end of its entries in `order`.
     ends: Vec<usize>,
 }
 

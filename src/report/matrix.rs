@@ -163,7 +163,7 @@ fn order(case: &CaseOutcome) -> Option<f64> {
     study.judgement.order.map(|order| order.value)
 }
 
-/// Returns the text that replaces the order of a case; `None` if the order is shown.
+/// Returns the text shown in place of the order of a case; `None` if the order is shown.
 fn word(case: &CaseOutcome) -> Option<String> {
     if !case.lacks.is_empty() {
         return Some("n/a".to_owned());

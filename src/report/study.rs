@@ -263,7 +263,7 @@ impl StudyReport for SpectrumReport {
     }
 }
 
-/// Name of a case and one of its waves.
+/// Name of a case, and the result for one of its waves.
 type NamedWave = (String, SpectrumRow);
 
 /// Adds a column with the names of the cases in front of `columns`.

@@ -18,7 +18,8 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
-    // At regular times, a motion with whole periods in each interval would appear to be at rest.
+    // The times are irregular. At regular times, a motion with whole periods in each interval would
+    // appear to be at rest.
     let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
     for share in even.chain(golden) {
         motion.set_time(problem.until * share);
@@ -119,9 +120,8 @@ impl Extremes {
     }
 }
 
-/// Angle (rad) by which the phase of a quasi-static motion changes at most while a wave crosses the
-/// body. The second harmonic of the motion then has at most a fifth of the lowest frequency of the
-/// body.
+/// Maximum change (rad) of the phase of a quasi-static motion while a wave crosses the body. The
+/// second harmonic of the motion then has at most a fifth of the lowest frequency of the body.
 const SLOW: f64 = 0.3;
 
 /// Residual of a linearised solution, and the error that it causes.

@@ -70,8 +70,8 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     }
 }
 
-/// Returns whether the force meets the expectation, the verdict, and the measured value that led to
-/// it.
+/// Returns a flag that is true if the force meets the expectation, the verdict, and the measured
+/// value that led to the verdict.
 fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
     let largest = largest(rows.iter().map(|row| row.predicted));
     match expected {

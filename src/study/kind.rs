@@ -32,7 +32,7 @@ pub(crate) trait Study: StudyPlan {
     }
 
     /// Returns the profile of a step of case number `_case` on the coarsest level, optionally
-    /// without one effect. `None` for a study without levels, or if the subject has no profile.
+    /// without one effect. `None` for a study without levels, or if the solver reports no profile.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
@@ -41,7 +41,7 @@ pub(crate) trait Study: StudyPlan {
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
-/// Warning about the time step of a level. It is found before anything runs.
+/// Warning about the time step of a level, found before anything runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StepWarning {
     /// Index of the case.
@@ -94,9 +94,9 @@ pub(crate) struct RunContext<'a> {
 
 impl RunContext<'_> {
     /// Returns the cached result of `key`. If there is none, caches and returns the result of
-    /// `run`. `name` is the name of the result in messages. A result of an external solver is not
-    /// cached if it is `broken`, because a solver that fails or times out may succeed the next
-    /// time.
+    /// `run`. `name` is the name of the result in messages. A result of an external solver for
+    /// which `broken` returns true is not cached, because a solver that fails or times out may
+    /// succeed the next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -108,7 +108,7 @@ impl RunContext<'_> {
         let solver = match self.solver.map(SolverFactory::identity) {
             None => String::new(),
             Some(Some(identity)) => format!(" {identity:016x}"),
-            // A solver without an identity may have changed since the result was cached.
+            // A solver that reports no identity may have changed since the result was cached.
             Some(None) => return run(),
         };
         let mut uncached = None;
@@ -125,7 +125,7 @@ impl RunContext<'_> {
     }
 }
 
-/// Downcasts a plan to one kind of study.
+/// Function that downcasts a plan to one kind of study.
 type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
 
 /// All kinds of study, as functions that downcast a plan.
@@ -159,7 +159,7 @@ pub fn statement(suite: &Suite) -> Vec<(String, String)> {
 }
 
 /// Returns the profile of a step of the case `name` on the coarsest level, optionally without one
-/// effect. `None` for a case without levels, or if the subject has no profile.
+/// effect. `None` for a case without levels, or if the solver reports no profile.
 pub fn profile(suite: &Suite, name: &str, without: Option<Dispensable>) -> Option<Profile> {
     let case = suite.case_names().into_iter().position(|case| case == name)?;
     study(suite).profile(case, without)

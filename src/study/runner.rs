@@ -155,9 +155,9 @@ impl FromStr for Shard {
 
 impl Shard {
     /// Returns the cases of `suites` in this part; suites without such a case are excluded. The
-    /// most expensive remaining case is always assigned to the part with the lowest cost so far
-    /// (Graham 1969, SIAM J. Appl. Math. 17, 416: no part takes more than 4/3 of the optimum). All
-    /// parts compute the same assignment.
+    /// most expensive remaining case is always assigned to the part with the lowest cost so far. By
+    /// this rule, no part takes more than 4/3 of the time in the best division (Graham 1969, SIAM
+    /// J. Appl. Math. 17, 416). All parts compute the same assignment.
     pub fn of(self, suites: &[Suite], extent: Extent) -> Vec<Suite> {
         let costs: Vec<Vec<f64>> = suites.iter().map(|suite| seconds(suite, extent)).collect();
         let mut all: Vec<(usize, usize)> = Vec::new();

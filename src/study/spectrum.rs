@@ -212,7 +212,7 @@ impl CaseRunner for SpectrumRunner<'_> {
 /// Creates the part of an outcome that is known before the case runs.
 fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOutcome {
     let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
-    // A periodic domain has no walls.
+    // The setting of walls is omitted, because a periodic domain has no walls.
     settings.extend(case.method.settings().into_iter().filter(|(key, _)| key != "walls"));
     let expected = case.expected.as_ref();
     CaseOutcome {

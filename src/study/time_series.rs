@@ -15,7 +15,7 @@ const INSTANTS: u64 = 20;
 pub(crate) struct ShownRun<'a> {
     /// Name of the run in its case, such as `64 cells`.
     pub(crate) name: String,
-    /// Subject at t = 0.
+    /// Solver at t = 0.
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
@@ -56,7 +56,7 @@ impl From<&str> for SeriesError {
     }
 }
 
-/// Runs `run` until its end or failure. Writes its state at the start, at up to [`INSTANTS`]
+/// Runs `run` until its end or failure. Writes the state at the start, at up to [`INSTANTS`]
 /// instants and at a failure. The list of the files, `NAME.RUN.pvd`, is written last.
 ///
 /// # Errors
@@ -137,7 +137,8 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
     files
 }
 
-/// Returns the particle fields that solvers do not store, u and the errors, for all bodies.
+/// Returns the particle fields that solvers do not store, for all bodies: the displacement and the
+/// errors.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
@@ -149,7 +150,7 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(fields.filter_map(error)).collect()
 }
 
-/// Returns the fields of a subject that reports only samples. Their names are those of the built-in
+/// Returns the fields of a solver that reports only samples. The names are those of the built-in
 /// solver.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [

@@ -1,4 +1,4 @@
-//! Records the state of a subject during a run as bytes, and restores it bit for bit.
+//! Records the state of a solver during a run as bytes, and restores it bit for bit.
 //!
 //! [`Memory::visit`] both records and restores, so every number that is written is also read.
 //! Numbers are stored without names, as eight bytes in little-endian order on any machine. The
@@ -75,7 +75,7 @@ impl<'a> Checkpoint<'a> {
         }
     }
 
-    /// Marks the checkpoint as invalid, because of the last value that was read.
+    /// Marks the checkpoint as invalid, because the last value that was read is invalid.
     pub fn refuse(&mut self) {
         self.0 = Way::Misfit;
     }
@@ -114,8 +114,8 @@ impl Memory for f64 {
         *self = Self::from_bits(checkpoint.word(self.to_bits()));
     }
 
-    /// Visits all entries in one call, for speed: analyses restore a state before each of many
-    /// steps.
+    /// Visits all entries in one call, because this is faster and analyses restore a state before
+    /// each of many steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
             Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),

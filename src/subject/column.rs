@@ -1,7 +1,6 @@
-//! Columns of a subject's state, with their numbers and memory size, and the cost profile of a
-//! step.
+//! Columns of a solver's state, with their numbers and memory size, and the cost profile of a step.
 
-/// Owner of the entries of a column: particles or nodes.
+/// Kind of object to which the entries of a column belong: particles or nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Holder {
     /// Each entry belongs to a particle.
@@ -39,7 +38,7 @@ pub struct ColumnSize {
     pub bytes: usize,
 }
 
-/// A column of a subject's state.
+/// A column of a solver's state.
 pub struct Column<'a> {
     /// Name, owner and size.
     pub size: ColumnSize,
@@ -105,7 +104,7 @@ pub struct BodyFields {
     pub of_nodes: Vec<StateField>,
 }
 
-/// Cost of one step of a subject: its passes and its memory.
+/// Cost of one step of a solver: active effects, passes and memory.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Profile {
     /// Active effects, in the order in which they are applied.

@@ -103,7 +103,7 @@ named! {
     /// Meaning of the initial velocity `v0` in the first step.
     ///
     /// A step of Euler-Cromer, `v += dt a(u)`, `u += dt v`, is a leapfrog whose velocities are half
-    /// a step behind. So the start determines the order in time.
+    /// a step behind. The choice of the start therefore determines the order in time.
     pub enum Start {
         /// `v(-dt/2) = v0`, as in Wobbes & Tielen (2015). The velocity error is `dt/2 a0`: first
         /// order in time, unless the initial acceleration `a0` is zero.
@@ -114,7 +114,7 @@ named! {
 }
 
 /// State at reference labels: `n` labels in `dimension` dimensions, one label after another.
-/// Without its column, stress, F or temperature cannot be verified.
+/// Stress, F and temperature can be verified only if their columns are present.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Samples {

@@ -48,7 +48,7 @@ pub fn judge_case<R: Reruns>(
         }
         _ => None,
     };
-    // Errors below the rounding bound give no information about the order.
+    // Errors below the rounding bound are no evidence of an order.
     if gate.as_ref().is_some_and(|gate| gate.result.is_err()) && leaves_too_few(&levels, &judgement)
     {
         exemption = Some("the rounding bound leaves too few levels for an order".to_owned());
@@ -94,7 +94,7 @@ pub fn judge_case<R: Reruns>(
 
 impl JudgePlan<'_> {
     /// Returns the verdict and its reason for a case without expectations. The reason compares the
-    /// order with theory, and lists the drifts.
+    /// order with theory, and lists the drifts of conserved sums.
     fn explore(&self, judgement: &Judgement, measured: &Measured) -> (String, String) {
         let drift = self.sums.iter().map(|sum| (*sum, f64::INFINITY)).collect();
         let drifts = Limits { drift, ..Limits::default() }.found(measured);

@@ -1,9 +1,9 @@
 //! Changes of conserved sums during a run without external forces.
 //!
-//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. The
-//! scale is the largest value of a mass or an energy during the run. For momenta, which may be
-//! zero, it is the largest sum of the magnitudes of their terms. The energy is NaN for a law
-//! without stored energy.
+//! A drift is the largest change of a sum since t = 0, over all instants, relative to a scale. For
+//! a mass or an energy, the scale is the largest value during the run. For a momentum, which may be
+//! zero, the scale is the largest sum of the magnitudes of the particle momenta. The energy is NaN
+//! for a law without stored energy.
 
 use super::error::norm::larger;
 use crate::named::named;
@@ -87,7 +87,7 @@ impl Balance {
         balance
     }
 
-    /// Includes the totals of an instant. All drifts become NaN if the subject stops reporting
+    /// Includes the totals of an instant. All drifts become NaN if the solver stops reporting
     /// totals.
     pub(super) fn look(&mut self, now: Option<&Totals>) {
         for (i, sum) in Conserved::ALL.iter().enumerate() {

@@ -292,7 +292,7 @@ pub(in crate::verify) mod tests {
         assert_eq!(level.is_too_long(), is_too_long);
     }
 
-    /// For order 2 the limit is 2.04, and its interval extends to the finest value, 2.
+    /// For order 2 the limit is 2.04, and the interval extends to the finest value, 2.
     #[rstest]
     #[case(2.0, true)]
     #[case(2.079, true)]

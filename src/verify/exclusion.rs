@@ -34,7 +34,8 @@ named! {
 /// and the next smaller single-precision number. `None` if `largest` is zero or not a normal number
 /// in single precision.
 pub fn single_precision_spacing(largest: f64) -> Option<f64> {
-    // Coordinates are rounded first: a position of 1 + 1e-16 is 1 in single precision.
+    // The coordinate is rounded first. A coordinate of 1 + 1e-16, for example, is 1 in single
+    // precision.
     let largest = largest as f32;
     let is_normal = largest.is_normal() && largest > 0.0;
     is_normal.then(|| f64::from(largest) - f64::from(largest.next_down()))
@@ -44,9 +45,9 @@ pub fn single_precision_spacing(largest: f64) -> Option<f64> {
 /// steps. In each step positions are rounded to multiples of `spacing` (m).
 ///
 /// One rounding error is uniform in `[-spacing/2, spacing/2]`, with the root mean square
-/// `spacing/sqrt 12`. In the worst case all rounding errors are equal, because increments change
-/// little from step to step. The sum of N rounding errors is then `N spacing/sqrt 12` in the RMS
-/// norm, and `N spacing/2` in the maximum norm.
+/// `spacing/sqrt 12`. In the worst case all rounding errors are equal. This is possible because
+/// increments change little from step to step. The sum of N rounding errors is then `N spacing/sqrt
+/// 12` in the RMS norm, and `N spacing/2` in the maximum norm.
 pub fn rounding_bound(steps: u64, spacing: f64, norm: NormName) -> f64 {
     let most = steps as f64 * spacing;
     match norm {
@@ -78,7 +79,7 @@ fn excluded(levels: &[LevelOutcome], by: Exclusion) -> Vec<&LevelOutcome> {
     levels.iter().filter(|level| level.exclusion() == Some(by)).collect()
 }
 
-/// Whether too few levels remain for an order without the levels that rounding excludes.
+/// Whether too few levels remain for an order if rounding excludes levels.
 pub(super) fn leaves_too_few(levels: &[LevelOutcome], judgement: &Judgement) -> bool {
     judgement.verdict == Verdict::TooFewLevels && !excluded(levels, Exclusion::Rounding).is_empty()
 }

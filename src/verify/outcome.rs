@@ -25,7 +25,7 @@ pub struct SuiteOutcome {
     pub about: String,
     /// The problem as rows of name and value: parameters, scene, exact solution, time step.
     pub statement: Vec<(String, String)>,
-    /// Hash of the statement's meaning, independent of its notation.
+    /// Hash of the problem, independent of the notation of the statement.
     pub meaning: u64,
     /// One outcome for each case, in suite order.
     pub cases: Vec<CaseOutcome>,
@@ -52,7 +52,7 @@ pub struct CaseOutcome {
     pub subject: &'static str,
     /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
     pub settings: Vec<(String, String)>,
-    /// Cost of a step on the coarsest level, if the subject has a profile.
+    /// Loads, passes and memory of a step on the coarsest level, if the solver reports a profile.
     pub profile: Option<Profile>,
     /// Expectation in one line; `None` if the suite only explores and expects nothing.
     pub expected: Option<String>,
@@ -193,8 +193,8 @@ impl CaseOutcome {
         Self { reason, exemption: Some(Exemption::NotGated), ..self }
     }
 
-    /// Completes the outcome by `run`. The case does not run if `gating` excepts it, or if the
-    /// solver lacks capabilities (`lacks`).
+    /// Completes the outcome by calling `run`. The case does not run if `gating` excepts it, or if
+    /// the solver lacks capabilities (`lacks`).
     #[must_use]
     pub(crate) fn after(
         self,
@@ -225,7 +225,8 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that its solver's author excepts from `run --gate`.
+    /// Converts the outcome to that of a case that the author of its solver excludes from `run
+    /// --gate`.
     #[must_use]
     pub(crate) fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));

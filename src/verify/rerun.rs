@@ -3,8 +3,9 @@
 //! - To find why the error has stopped decreasing (an error floor), the finest level runs again
 //!   with half the spacing on another axis.
 //! - Some suites have one time step on all levels. In a solver that is accurate in space, the error
-//!   of this step may dominate: the error stops decreasing, or the order is too low. If an external
-//!   solver then misses the requirement of `run --gate`, its levels run again with shorter steps.
+//!   of this step may dominate, so that the total error stops decreasing or has a low order. If an
+//!   external solver then misses the requirement of `run --gate`, the levels run again with shorter
+//!   steps.
 
 use super::convergence::LevelOutcome;
 use super::expectation::gate::{Acceptance, GateResult, Requirement};
@@ -65,14 +66,14 @@ const HALVINGS: i32 = 3;
 /// smaller decrease the other levels do not run again.
 const LEAST_FALL: f64 = 0.05;
 
-/// Minimum exponent of h in a time step that counts as refined with the cells.
+/// Minimum exponent of h for which a time step counts as refined together with the cells.
 const FOLLOWS: f64 = 0.5;
 
 /// Measures the effect of halving the spacings of the other axes on the error of the finest level
 /// that counts. `None` if the error has not stopped decreasing and the suite expects no floor, if
 /// this level failed, or if spacings cannot be halved.
 ///
-/// Runs one to three probes in parallel. The results are in the order of the axes.
+/// Runs one to three probes in parallel. The results are listed in the order of the axes.
 pub(super) fn floor<R: Reruns>(
     plan: &JudgePlan<'_>,
     judgement: &Judgement,
@@ -133,7 +134,8 @@ fn shorten<R: Reruns>(
         let shorter = |level: &LevelOutcome| {
             reruns.run_with_step(level, share * level.dt).map(|run| plan.level(run))
         };
-        // The finest level alone shows whether the time step contributes to the error.
+        // A run of the finest level is sufficient to show whether the time step contributes to the
+        // error.
         let finest = shorter(last).ok()?;
         if !(finest.error <= (1.0 - LEAST_FALL) * before) {
             return None;
@@ -164,9 +166,9 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
         && first.dt < last.dt * libm::pow(first.h / last.h, FOLLOWS)
 }
 
-/// Estimates the error due to rounding, in the judged norm and relative to the judged scale: a
-/// random walk whose steps are rounding errors of the largest number from which the judged quantity
-/// is computed.
+/// Estimates the error due to rounding, in the judged norm and relative to the judged scale:
+/// rounding errors of the largest number from which the judged quantity is computed are added like
+/// the steps of a random walk.
 fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);

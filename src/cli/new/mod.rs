@@ -57,7 +57,7 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
 
 fn written(args: &NewArgs) -> Result<PathBuf, CommandError> {
     let path = args.output.clone().unwrap_or_else(|| format!("{}.yaml", args.name).into());
-    // This check precedes all questions; `save` checks again.
+    // The file is checked before any question is asked, and again in `save`.
     if path.exists() {
         return Err(in_the_way(&path));
     }
@@ -124,8 +124,8 @@ fn law(args: &NewArgs) -> Result<LawChoice, CommandError> {
     LawChoice::from_str(&answer, false).map_err(CommandError::Message)
 }
 
-/// Loads the suite. The diagnostic for an error caused by an option points to the option, because
-/// the suite file does not exist yet.
+/// Loads the suite. If an option causes an error, the diagnostic points to the option, because the
+/// suite file does not exist yet.
 fn load(choices: &Choices, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     let name = format!("{} (not written)", path.display());
     let loaded = Source::from_text(name, text).and_then(|source| Suite::load(&source));

@@ -76,7 +76,7 @@ pub(super) struct NamedChoice {
     pub(super) known: Vec<&'static str>,
 }
 
-/// Template variables for each dimension. The 3-D levels are coarse, because every level should run
+/// Template variables for each dimension. The 3-D levels are coarse, so that every level runs
 /// within seconds. Each axis has a different phase of the motion, so parts of the body are
 /// stretched while others are compressed.
 const SHAPES: [[(&str, &str); 9]; 3] = [

@@ -98,7 +98,7 @@ pub(super) fn write_page(
 /// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
-    /// True if all cases are written; false if only cases with unexpected results are written.
+    /// Whether all cases are written, or only those with unexpected results.
     all: bool,
 }
 

@@ -93,8 +93,8 @@ fn report(
     let (runs, judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Suites without a selected case have no source; the remaining sources keep the order of
-    // `suites`.
+    // Sources of suites without a selected case are removed. The remaining sources keep the order
+    // of `suites`.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -156,7 +156,7 @@ fn report(
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let any = of_solvers.iter().any(|outcomes| !outcomes.is_empty());
     for (solver, outcomes) in judging.solvers.iter().zip(&of_solvers) {
-        // `--case` may have selected only cases of other solvers.
+        // A solver has no outcomes if `--case` selects only cases of other solvers.
         if outcomes.is_empty() && any {
             continue;
         }

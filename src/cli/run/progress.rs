@@ -12,8 +12,7 @@ use std::time::Instant;
 /// Exit status after Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// The remaining time is shown after levels with this fraction of the total predicted time have
-/// finished.
+/// Fraction of the total predicted time that must have finished before the remaining time is shown.
 const ENOUGH: f64 = 0.02;
 
 pub(super) struct RunProgress {
@@ -112,7 +111,7 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
     })
 }
 
-/// Describes how to resume this command line. `kept` is true if finished levels are stored.
+/// Describes how to resume the interrupted run. `kept` is true if finished levels are stored.
 pub(super) fn interrupt_note(kept: bool) -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
     note_of(&words, kept)

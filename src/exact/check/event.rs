@@ -12,8 +12,8 @@ pub(crate) struct Event {
 }
 
 impl Event {
-    /// Refuses values that differ by more than `allowed`, or whose difference is infinite or NaN.
-    /// `values` are expected and found; `condition` describes the difference.
+    /// Returns a violation if the two `values`, expected and found, differ by more than `allowed`,
+    /// or if their difference is infinite or NaN. `condition` describes the difference.
     pub(crate) fn judge(
         &self,
         allowed: f64,
@@ -29,8 +29,8 @@ impl Event {
         Err(self.violation(condition, Some(expected), found, Some(allowed), unit))
     }
 
-    /// Refuses like [`judge`](Self::judge), with a `condition` that the violation reports as
-    /// violated.
+    /// Compares values like [`judge`](Self::judge), with a `condition` that the violation reports
+    /// as violated.
     pub(crate) fn judge_condition(
         &self,
         allowed: f64,
@@ -82,8 +82,8 @@ pub(crate) fn largest(values: &[f64; 3]) -> f64 {
     values.iter().fold(0.0, |a, b| if f64::is_nan(a + b) { f64::NAN } else { f64::max(a, b.abs()) })
 }
 
-/// Returns the magnitude of a residual `left`, divided by `size` of the same unit; 0 if `left` is
-/// 0.
+/// Returns the magnitude of the residual `left`, divided by `size`, which has the same unit; 0 if
+/// `left` is 0.
 pub(super) fn share(left: f64, size: f64) -> f64 {
     if left == 0.0 { 0.0 } else { left.abs() / size }
 }

@@ -1,5 +1,5 @@
 //! Checks Coulomb friction at a point of a face. The wall exerts pressure but no tension, the face
-//! does not penetrate the wall, and sliding is resisted by mu times the pressure.
+//! does not penetrate the wall, and the friction stress against sliding is mu times the pressure.
 //!
 //! Forces are per reference area, which does not affect Coulomb's law.
 

@@ -5,8 +5,8 @@
 //! Pressure acts only where they touch; tractions are equal and opposite, and friction resists
 //! sliding.
 //!
-//! One formula may describe several bodies and jump at their interface. The motion at the face is
-//! therefore expanded about a point inside the body, at a distance of 1e-9 body lengths from the
+//! If one formula describes several bodies, it may jump at their interface. The motion at the face
+//! is therefore expanded about a point inside the body, at a distance of 1e-9 body lengths from the
 //! face.
 
 use super::event::{AXES, Event, FACE_EVENTS, OnFace};
@@ -18,7 +18,7 @@ use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
-/// Condition on a face next to another body. It requires nothing of one body alone; [`meets`]
+/// Condition on a face next to another body. For one body alone nothing is checked; [`meets`]
 /// checks both bodies together.
 #[derive(Debug)]
 pub struct Interface;
@@ -32,9 +32,9 @@ impl Condition for Interface {
 /// Distance of the expansion point from the face, relative to the length of the body.
 const INSIDE: f64 = 1e-9;
 
-/// Checks the high face of `one` against the opposite low face of `other` along `axis`. With a
-/// coefficient of `friction` the bodies are in contact, otherwise they are bonded. `largest`
-/// contains the scales of the residuals over all bodies.
+/// Checks the high face of the body `one` against the opposite low face of the body `other` along
+/// `axis`. With a coefficient of `friction` the bodies are in contact, otherwise they are bonded.
+/// `largest` contains the scales of the residuals over all bodies.
 ///
 /// # Errors
 /// The first condition that the motions violate.

@@ -25,8 +25,8 @@ impl Problem {
         self.check_with(&Survey::new(self))
     }
 
-    /// Checks the motion as in [`check`](Self::check), with a `survey` whose magnitudes are maxima
-    /// over all bodies.
+    /// Checks the motion like [`check`](Self::check). Residuals are divided by the magnitudes in
+    /// `survey`, which in a problem with several bodies must be the maxima over all of them.
     ///
     /// # Errors
     /// The first [`Violation`].
@@ -76,8 +76,8 @@ mod tests {
     use crate::exact::tests::{bar, fixed, free};
     use rstest::rstest;
 
-    /// A small-amplitude wave in Tait's fluid between walls. The residual is K u_XX times 8 u_X,
-    /// compared with a sum of inertia and stress of 2 K u_XX.
+    /// A wave of small amplitude in Tait's fluid between walls. The residual is K u_XX times 8 u_X.
+    /// The inertia and stress terms, by which the residual is divided, have the sum 2 K u_XX.
     #[rstest]
     #[case(1e-3)]
     #[case(1e-6)]

@@ -59,8 +59,8 @@ pub(crate) fn initial(problem: &Problem, survey: &Survey) -> Result<(), Violatio
     found.into_iter().try_for_each(LargestViolation::into_result)
 }
 
-/// Returns component i of an initial condition, from the formulas `stated` if there are any.
-/// Otherwise returns the value of the `motion` if the problem follows the motion, and zero if not.
+/// Returns component i of an initial condition: the value of the formulas `stated`, if there are
+/// any; otherwise the value `motion` if the problem starts with the exact motion, and zero if not.
 fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion: f64) -> f64 {
     if stated.is_empty() && problem.follows_motion {
         return motion;
@@ -74,7 +74,7 @@ fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
 }
 
 /// Rounding error of Div P, relative to the modulus times the largest second derivative. The check
-/// allows this error because the terms of Div P can cancel everywhere, as in Lame's tube at rest.
+/// allows this error, because the terms of Div P may cancel everywhere, as in Lame's tube at rest.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Checks `rho0 u_tt = Div P + rho0 b`, with derivatives by automatic differentiation. If the

@@ -88,11 +88,11 @@ impl SpaceTimePatch {
     }
 
     /// Returns an upper bound on the sum of all terms of a balance over a raster. Every term is
-    /// assumed to have its `largest` density everywhere in the patch.
+    /// assumed to have the density given by `largest` everywhere in the patch.
     pub(super) fn largest_sum(&self, largest: &Densities, per_axis: usize) -> f64 {
         let d = self.dimension();
-        // On one axis, the integral of the bump is 32/35, and that of the magnitude of its slope is
-        // 2.
+        // On one axis, the bump has the integral 32/35, and the magnitude of its slope has the
+        // integral 2.
         let points = per_axis as f64;
         let mean: f64 = (0..d).map(|_| 16.0 / 35.0 * points).product();
         let slope = |axis: usize| mean * points / self.half[axis];

@@ -1,9 +1,9 @@
 //! Samples a problem: positions and times of the checks, and the largest terms.
 //!
-//! Events are distributed evenly over the body and the run. If terms are large only in a small
-//! part, more events are used, and further events are placed close to the largest terms, so that
-//! narrow pulses are resolved. Residuals are relative to the largest term of the whole survey,
-//! because all terms far from a pulse are rounding errors.
+//! Events are distributed evenly over the body and the run. An event is a position with a time. If
+//! terms are large only in a small part, more events are used, and further events are placed close
+//! to the largest terms, so that narrow pulses are resolved. Residuals are divided by the largest
+//! term at all events, because terms far from a pulse are only rounding errors.
 
 use super::event::{BROAD, EVENTS, Event, FACE_EVENTS, SpaceTimeBox, greatest, largest};
 use crate::exact::motion::Derivatives;
@@ -112,7 +112,8 @@ pub(crate) struct SurveyPoint {
     sizes: Magnitudes,
 }
 
-/// The motion of a problem at many events. An event is a position with a time.
+/// The motion of a problem at many events (positions with times), and the largest magnitudes of its
+/// terms.
 #[derive(Debug)]
 pub struct Survey {
     /// Evenly distributed events, followed by those close to the largest terms.

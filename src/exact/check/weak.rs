@@ -82,9 +82,9 @@ pub(crate) fn momentum(problem: &Problem, survey: &Survey) -> Result<(), Violati
     Ok(())
 }
 
-/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts if it hardly
-/// changes with twice and four times as many points per axis. Otherwise the check is repeated on
-/// the half patch around the largest term.
+/// Compares gain and loss over a patch by the midpoint rule. An imbalance counts only if it hardly
+/// changes with twice and four times as many points per axis. If it changes, the check is repeated
+/// on the half patch around the largest term.
 ///
 /// `condition` is the beginning of a message and ends with the name of the equation.
 pub(crate) fn balances<const N: usize>(
@@ -159,14 +159,15 @@ impl Sums {
         (self.gain - self.loss) / self.size.max(self.smallest)
     }
 
-    /// Whether gain and loss differ by at most a `share` of the sum of the magnitudes of all terms.
+    /// Whether gain and loss differ by at most the fraction `share` of the sum of the magnitudes of
+    /// all terms.
     fn imbalance_within(&self, share: f64) -> bool {
         (self.gain - self.loss).abs() <= share * self.size.max(self.smallest)
     }
 
-    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from that of a `coarse`
-    /// raster with half as many points per axis. `share` is the number of coarse points divided by
-    /// that of fine points.
+    /// Whether the imbalance exceeds [`TOLERANCE`] and hardly differs from the imbalance of a
+    /// `coarse` raster with half as many points per axis. `share` is the number of coarse points
+    /// divided by the number of fine points.
     fn has_settled(&self, coarse: &Self, share: f64) -> bool {
         let (fine, before) = (self.imbalance(), coarse.imbalance());
         let same_size = (coarse.size - share * self.size).abs() <= 0.05 * coarse.size;
@@ -208,8 +209,8 @@ fn balance(
     };
     balances(patch, condition, &densities, |raster, smallest| {
         let all = sums(problem, raster, smallest, only_first);
-        // The square root of a constant zero has NaN derivatives in slopes, and zero derivatives in
-        // jets.
+        // If only first derivatives are computed, the square root of a constant zero has NaN
+        // derivatives. With second derivatives, it has zero derivatives.
         let is_finite = all.iter().all(|sums| sums.size.is_finite());
         if is_finite { all } else { sums(problem, raster, smallest, false) }
     })

@@ -2,10 +2,10 @@
 //!
 //! The steps of a program are split by their dependence: on position, on time, or on both.
 //!
-//! Sums are unrolled and registers renamed, so each step is a node that is computed once (static
-//! single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on position or time if one
-//! of its arguments does. The split does not change the operations that lead to a number, so values
-//! are bit-identical.
+//! Sums are unrolled and registers are renamed. Each step is then a node that is computed once
+//! (static single assignment: Cytron et al. 1991, ACM TOPLAS 13). A node depends on position or
+//! time if one of its arguments does. The split does not change the operations that lead to a
+//! number, so values are bit-identical.
 
 use super::bound::Formula;
 use super::builtin::Binary;
@@ -121,7 +121,7 @@ pub(super) struct PartProgram {
     pub(super) kept: usize,
 }
 
-/// Formulas of the same variables, ending with the time, split into three parts.
+/// Formulas of the same variables, split into three parts. The last variable is the time.
 #[derive(Debug, Clone)]
 pub(super) struct Split {
     /// Steps that depend only on position. Their inputs are the variables of the formulas.
@@ -201,7 +201,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
     now(&held, formula.result())
 }
 
-/// The parts and registers in which each node is computed.
+/// The part of the program, and the register, in which each node is computed.
 struct Homes {
     dependence: Vec<Dependence>,
     /// For each part, the registers of the nodes that the part computes.
@@ -276,8 +276,8 @@ impl Homes {
 }
 
 /// Returns the part that computes an input of `reader`. A constant is computed in the part that
-/// uses it. Constants of the rest are computed in the part that depends on time, because the rest
-/// runs most often.
+/// uses it, with one exception: the part `time` computes the constants for `rest`, which runs most
+/// often.
 fn home(dependence: Dependence, reader: Dependence) -> Dependence {
     match (dependence, reader) {
         (NOTHING, BOTH) => TIME,

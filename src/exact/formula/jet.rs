@@ -10,7 +10,7 @@ use super::unary::Unary;
 ///
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
-/// undefined derivatives, such as that of `sqrt` at 0, are infinite or NaN.
+/// undefined derivatives, such as the derivative of `sqrt` at 0, are infinite or NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet<const N: usize> {
     value: f64,
@@ -88,8 +88,8 @@ impl<const N: usize> Jet<N> {
         self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
     }
 
-    /// Clears the derivatives with respect to variables on which the argument does not depend. If
-    /// the function has an infinite derivative, these would be NaN, infinity times 0.
+    /// Clears the derivatives with respect to variables on which the argument does not depend.
+    /// Otherwise they would be NaN (infinity times 0) if the function has an infinite derivative.
     fn flattened(&self, flat: impl Fn(usize) -> bool) -> Self {
         Self::build(
             self.value,
@@ -199,7 +199,8 @@ impl<const N: usize> Number for Jet<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) if that is numerically safer.
+        // The derivatives are computed as those of atan(y/x), or of -atan(x/y) if that is
+        // numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {
@@ -215,8 +216,8 @@ impl<const N: usize> Number for Jet<N> {
         if exponent < 0 && value.abs() < TINY {
             return Self::from(value);
         }
-        // Derivatives of x^0 and x^1 that vanish are set to 0, because the general rule gives 0 *
-        // infinity at x = 0.
+        // Derivatives of x^0 and x^1 that vanish are set to 0, because the general rule would give
+        // 0 times infinity at x = 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
         let second = match exponent {
             0 | 1 => 0.0,
@@ -243,8 +244,8 @@ impl<const N: usize> Number for Jet<N> {
 /// Quotients below this magnitude count as constant if their derivatives could overflow.
 pub(super) const TINY: f64 = 1e-140;
 
-/// Whether the derivatives of a quotient with this denominator would be quotients of infinities.
-/// Such a quotient counts as constant, because it is tiny.
+/// Whether the derivatives of a quotient with this denominator would be computed as infinity
+/// divided by infinity. Such a quotient counts as constant, because it is tiny.
 #[inline]
 pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
     denominator.abs() > 1.0 / TINY && quotient.abs() < TINY

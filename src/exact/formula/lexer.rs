@@ -58,7 +58,8 @@ fn continues_name(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || byte == b'_'
 }
 
-/// A position in the source. It is always on a character boundary, because only ASCII is consumed.
+/// A position in the source, which is always on a character boundary, because only ASCII is
+/// consumed.
 struct Lexer<'a> {
     source: &'a str,
     at: usize,

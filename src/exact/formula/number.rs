@@ -142,8 +142,8 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Number of values per batch, so large that decoding an instruction costs little compared with the
-/// operations.
+/// Number of values per batch. In a batch of this size, decoding an instruction costs little
+/// compared with the operations.
 const MANY: usize = 8;
 
 /// The values of one formula at several positions and times. An evaluation decodes each instruction

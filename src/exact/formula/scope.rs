@@ -13,7 +13,7 @@ pub struct Scope {
     constants: BTreeMap<String, f64>,
     functions: BTreeMap<String, Function>,
     tables: BTreeMap<String, Tabulated>,
-    /// Names defined as expressions of constants and the free variable.
+    /// Names, each defined as an expression of constants and the free variable.
     definitions: BTreeMap<String, Expr>,
     /// The free variable, which functions and definitions may also use.
     free: Option<String>,
@@ -113,9 +113,9 @@ impl Scope {
         Ok(())
     }
 
-    /// Declares a table: `name` is a piecewise linear function of `by`, which is a constant or a
-    /// variable. Each of `rows` contains a value of `by` and the function value, in ascending order
-    /// of `by`. The function is constant before the first and after the last row.
+    /// Declares a table: `name` is a piecewise linear function of the argument `by`, which is a
+    /// constant or a variable. Each of `rows` contains a value of `by` and the function value, in
+    /// ascending order of `by`. The function is constant before the first and after the last row.
     ///
     /// # Errors
     /// When `name` or `by` is invalid, or when `name` is taken.

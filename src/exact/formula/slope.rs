@@ -132,7 +132,8 @@ impl<const N: usize> Number for Slope<N> {
     }
 
     fn atan2(self, x: Self) -> Self {
-        // The derivatives are those of atan(y/x), or of -atan(x/y) if that is numerically safer.
+        // The derivatives are computed as those of atan(y/x), or of -atan(x/y) if that is
+        // numerically safer.
         let quotient = if libm::fabs(x.value) >= libm::fabs(self.value) {
             (self / x).unary(Unary::Atan)
         } else {

@@ -26,7 +26,7 @@ impl Formula {
         })
     }
 
-    /// Returns whether each register depends on a variable at some step.
+    /// Returns, for each register, whether its value depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
         let mut varying = vec![false; self.registers()];
         // An iteration of a formula's `sum` reads registers that the previous iteration wrote, so

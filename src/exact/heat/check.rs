@@ -66,7 +66,8 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
     let mut worst = LargestViolation::default();
     for event in start.spread(FACE_EVENTS, |_| true, &mut Random::new(2)) {
         let found = problem.temperature.at(&event.label, 0.0);
-        // Without a prescribed initial temperature, the exact one must only be finite.
+        // Without a prescribed initial temperature, the exact one is compared with itself, which
+        // fails only if it is not finite.
         let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
         let allowed = problem.tolerance * largest.value;
@@ -201,8 +202,8 @@ fn differences(
     event.judge(allowed, name, (divergence, exact), "W/m3")
 }
 
-/// Checks the heat equation `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`: compares the source s
-/// that it requires with the prescribed source.
+/// Checks the heat equation `rho0 c T_t = Div (k J C^-1 Grad T) + rho0 s`, by comparing the source
+/// s that it requires with the prescribed source.
 fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(), Violation> {
     let mut found = LargestViolation::default();
     for point in points {
@@ -214,8 +215,8 @@ fn equation(problem: &Conduction, points: &[HeatPoint], size: f64) -> Result<(),
     found.into_result()
 }
 
-/// Checks the heat balance on random patches. Terms of the balance that are far below the `largest`
-/// are ignored.
+/// Checks the heat balance on random patches. Terms that are far below the `largest` magnitudes are
+/// ignored.
 pub(super) fn balance(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violation> {
     let densities = Densities {
         stored: problem.density * problem.capacity * largest.range,

@@ -230,7 +230,7 @@ fn shear_turns_the_flow() {
     refused(&Conduction { motion: None, ..sheared }, "heat equation");
 }
 
-/// The source during a run is bit-identical to a single evaluation.
+/// The source computed during a run is bit-identical to a single evaluation.
 #[rstest]
 fn source_of_a_run_is_bit_identical_to_single_evaluations(
     #[values(1, 2, 3)] dimension: usize,

@@ -53,7 +53,7 @@ impl CamClayLaw {
     ) -> Self {
         let slope = critical_state_slope;
         let ratio = 3.0 * (1.0 - 2.0 * poisson) / (2.0 * (1.0 + poisson));
-        // Intersection of q = 2 r (p - p0) and q^2 = M^2 p (pc - p).
+        // The clay yields at the intersection of q = 2 r (p - p0) and q^2 = M^2 p (pc - p).
         let square = 4.0 * ratio * ratio / (slope * slope);
         let half = square * initial_pressure + 0.5 * preconsolidation;
         let constant = square * initial_pressure * initial_pressure;

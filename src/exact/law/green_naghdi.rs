@@ -40,7 +40,8 @@ impl ConstitutiveLaw for GreenNaghdiLaw {
             let (cos, sin) = (Number::cos(double), Number::sin(double));
             let log = Number::ln(Number::cos(beta));
             let (half, square) = (Number::tan(beta), Number::sin(beta) * Number::sin(beta));
-            // Product of cos(2 beta) and tan(2 beta), finite even where the tangent is infinite.
+            // The product of cos(2 beta) and tan(2 beta) is written as sin(2 beta), because the
+            // tangent may be infinite.
             let shear = T::from(2.0) * (cos * (double - half) - T::from(2.0) * sin * log);
             [T::from(4.0) * mu * (cos * log + beta * sin - square), mu * shear]
         })

@@ -56,7 +56,7 @@ macro_rules! laws {
                 }
             }
 
-            /// Returns the equation of motion in reports.
+            /// Returns the equation of motion as reports print it.
             pub fn text(&self) -> &'static str {
                 match self {
                     $($(Self::$law(_) => $law::EQUATION,)?)+

@@ -1,7 +1,7 @@
 //! Bodies that are not boxes: round bodies and polygons.
 //!
-//! Rims are the parts of the boundary. They are free, except that a pressure may act on a rim of a
-//! round body, and sides of a quadrilateral may lie on a face.
+//! The parts of the boundary are called rims. Rims are free, except that a pressure may act on a
+//! rim of a round body, and sides of a quadrilateral may lie on a face.
 
 mod piece;
 mod polygon;
@@ -16,12 +16,12 @@ pub use round::{Circle, Round};
 use super::random::Random;
 use std::fmt::Debug;
 
-/// Share of a length or an area that is treated as rounding error.
+/// Fraction of a length or an area that is treated as rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// Shape of a body that is not a box, in the reference configuration.
 pub trait Outline: Debug + Send + Sync {
-    /// Returns the name of this kind of outline in suites.
+    /// Returns the name of this kind of shape in suites.
     fn kind(&self) -> &'static str;
 
     /// Returns a one-line description for reports.
@@ -51,8 +51,9 @@ pub trait Outline: Debug + Send + Sync {
         0.0
     }
 
-    /// Returns the part of a lattice cell that belongs to the body, as particles. The cell is a box
-    /// with half-lengths `half` (m) around `centre`.
+    /// Returns the part of a lattice cell that belongs to the body, as particles. A lattice cell is
+    /// the box that one particle of a regular lattice represents, with half-lengths `half` (m)
+    /// around `centre`.
     fn cut(&self, centre: &[f64], half: &[f64]) -> Cut;
 
     /// Returns the volume of the part of the body in a box (m^D).

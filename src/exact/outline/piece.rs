@@ -1,11 +1,12 @@
-//! Parts of a body that become particles, and merging of small parts.
+//! Parts of a body that become particles, and merging of small parts. A regular lattice divides
+//! space into boxes, called lattice cells here, each with one particle.
 
 use super::ROUNDING;
 use std::collections::BTreeMap;
 
 /// Minimum size of a piece, as a share of a lattice cell. A smaller piece is merged with a
-/// neighbour. As the only particle in the support of a node, it would limit the time step as much
-/// as a cell of its width.
+/// neighbour. If it were the only particle in the support of a node, it would limit the time step
+/// as much as a cell of its width.
 const LEAST: f64 = 0.25;
 
 /// The part of a lattice cell that belongs to the body.
@@ -40,10 +41,11 @@ impl Piece {
     }
 
     /// Returns the domain of the particle: the half-lengths (m), row by row, of a parallelogram
-    /// with the volume of the piece and proportional mean products of coordinates. Its columns are
-    /// those of the symmetric root `(Q + s I)/t`, where Q is three times the matrix of mean
-    /// products, `s = sqrt(det Q)` and `t = sqrt(tr Q + 2 s)` (Higham 2008, *Functions of
-    /// Matrices*, problem 6.2). For an axis-aligned rectangle, the result is the rectangle itself.
+    /// with the volume of the piece, and with mean products of coordinates proportional to those of
+    /// the piece. The columns of the domain are the columns of the symmetric root `(Q + s I)/t`,
+    /// where Q is three times the matrix of mean products, `s = sqrt(det Q)` and `t = sqrt(tr Q + 2
+    /// s)` (Higham 2008, *Functions of Matrices*, problem 6.2). For an axis-aligned rectangle, the
+    /// result is the rectangle itself.
     pub fn domain(&self) -> [f64; 4] {
         let [xx, xy, yy] = self.spread.map(|product| 3.0 * product);
         let root = (xx * yy - xy * xy).sqrt();

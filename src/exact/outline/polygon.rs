@@ -106,7 +106,7 @@ impl Outline for Polygon {
         (end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max))
     }
 
-    /// Counts the sides that a ray to the right crosses.
+    /// Whether the polygon contains the point. Counts the sides that a ray to the right crosses.
     fn holds(&self, label: &[f64]) -> bool {
         let p = [label[0], label[1]];
         let (from, to) = self.ends();
@@ -182,8 +182,8 @@ impl Outline for Polygon {
             left < 0.0
         });
         let chart = chosen.unwrap_or(self.triangles.len() - 1);
-        // The square root makes the distribution uniform, because the area of a triangle grows with
-        // the square of the distance from its corner.
+        // The chart collapses one side of the square to a corner, so the area per unit of the first
+        // coordinate grows in proportion to it. The square root makes the distribution uniform.
         self.place(chart, &[random.unit().sqrt(), random.unit()]).0
     }
 
@@ -205,7 +205,8 @@ impl Outline for Polygon {
         (centre, half)
     }
 
-    /// Returns one chart per triangle: a unit square with one side collapsed to the first corner.
+    /// Returns one chart per triangle: a unit square that is mapped to the triangle, with one side
+    /// mapped to the first corner.
     fn charts(&self) -> Vec<Vec<(f64, f64)>> {
         self.triangles.iter().map(|_| vec![(0.0, 1.0); 2]).collect()
     }

@@ -1,6 +1,6 @@
 //! Round bodies: annuli and disks in the plane, balls in space.
 //!
-//! The module also computes the common volume of a box and a ball around the origin.
+//! The module also computes the volume of the intersection of a box and a ball around the origin.
 
 use super::{Cut, Outline};
 use crate::exact::gauss::points;
@@ -56,7 +56,8 @@ impl Round {
         [inner, outer].into_iter().filter(|rim| rim.radius > 0.0)
     }
 
-    /// Returns a random direction, uniform because the height on a sphere is uniform (Archimedes).
+    /// Returns a random direction. On a sphere, the heights of uniformly distributed points are
+    /// uniform (Archimedes).
     fn direction(&self, random: &mut Random) -> [f64; 3] {
         let angle = random.between(-PI, PI);
         let height = if self.centre.len() == 2 { 0.0 } else { random.between(-1.0, 1.0) };

@@ -104,7 +104,7 @@ pub(super) struct State {
 }
 
 pub(super) struct ValueRequest {
-    /// Name of the requested field; absent in a `body_force` request.
+    /// Name of the requested field. A `body_force` request has no such name.
     pub(super) of: Option<String>,
     pub(super) t: Option<f64>,
     pub(super) reference_position: Option<ColumnText>,

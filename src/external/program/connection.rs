@@ -45,7 +45,8 @@ impl Default for ProgramLimits {
     }
 }
 
-/// A process with its pipes. Dropping it kills the process and all processes of its group.
+/// A process with its pipes. Dropping the connection kills the process and all processes of its
+/// group.
 pub(super) struct Connection {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
@@ -154,7 +155,7 @@ impl Connection {
     }
 
     fn with_standard_error(&self, error: ProgramError) -> ProgramError {
-        // The process has ended, but its last output may not have arrived.
+        // The process has ended, but the last part of its output may not have arrived.
         patiently(GRACE, || self.listener.is_finished().then_some(()));
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);

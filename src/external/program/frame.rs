@@ -112,7 +112,7 @@ pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,
 ) -> Result<Option<MessageFrame>, ProgramError> {
-    // Loaded each time, because the limit can change while a line is read.
+    // The limit is loaded for each check, because it can change while a line is read.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
         if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }

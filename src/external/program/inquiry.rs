@@ -21,7 +21,7 @@ pub(super) struct Inquiry {
     /// points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
-    /// Body force at `labels`, created by the first request for it.
+    /// Body force at `labels`, created by the first request for a body force.
     placed: Option<PlacedBodyForce>,
     version: u64,
     binary: bool,
@@ -129,7 +129,8 @@ impl Inquiry {
         let count = labels.len() / self.dimension;
         let bodies = match (field, body) {
             (FieldName::Face(_), _) => vec![0; count],
-            // A load that is equal at all points has one default point, assigned to body 0.
+            // A load that has the same value at all points has one default point, assigned to body
+            // 0.
             (FieldName::Load(_), _) if are_own && labels.len() != self.labels.len() => {
                 vec![0; count]
             }

@@ -1,4 +1,4 @@
-//! Creates subjects that run in a solver program.
+//! Starts solver programs and sets up levels that run in these programs.
 
 use super::answer::{Answer, Hello, Points};
 use super::connection::{Connection, ProgramLimits};
@@ -262,7 +262,8 @@ impl SolverProgram {
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
         let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // The answer contains invalid JSON such as NaN, so the index of the number is unknown.
+            // The answer is invalid JSON, because it contains a word such as NaN. The index of the
+            // number is unknown.
             ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
             error => error,
         });

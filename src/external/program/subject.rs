@@ -34,7 +34,7 @@ pub(super) fn conclude(
     }
 }
 
-/// A subject in a solver process. One message requests all steps up to the next instant of
+/// A level that runs in a solver process. One message requests all steps up to the next instant of
 /// comparison with the exact solution.
 pub(super) struct ProgramSubject {
     connection: Connection,
@@ -56,8 +56,8 @@ pub(super) struct ProgramSubject {
 }
 
 impl ProgramSubject {
-    /// Creates the subject in the initial state of `problem`. Without `points`, the sample points
-    /// are the particles.
+    /// Creates the level in the initial state of `problem`. Without `points`, the sample points are
+    /// the particles.
     ///
     /// # Errors
     /// If the points are invalid.

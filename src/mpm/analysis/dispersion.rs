@@ -2,8 +2,9 @@
 //!
 //! The analysis assumes a periodic row of cells, a linear elastic law and particles at fixed
 //! positions. On the grid, two numbers describe each Fourier mode: the nodal velocity `w` before
-//! the update and the acceleration `f`. With the symbols s of the mass and kappa of the stiffness
-//! ([`WaveSymbols`]), a FLIP step with a lumped mass matrix is
+//! the update and the acceleration `f`. The symbols s (mass) and kappa (stiffness) are the
+//! eigenvalues of maps between particles and grid for this mode ([`WaveSymbols`]). With these
+//! symbols, a FLIP step with a lumped mass matrix is
 //!
 //! ```text
 //! w_new = w + s dt f
@@ -90,7 +91,8 @@ impl WaveTransfer {
             TransferName::Xpic5 => Some(Self::Xpic(5)),
             TransferName::Fmpm2 => Some(Self::Fmpm(2)),
             TransferName::Fmpm4 => Some(Self::Fmpm(4)),
-            // TLS maps between particles and grid through quadrature points.
+            // TLS has no closed form, because it maps between particles and grid through quadrature
+            // points.
             TransferName::Tls => None,
         }
     }
@@ -173,8 +175,8 @@ impl WaveStep {
         let slope = self.slope();
         let root = (slope * slope - 4.0 * square * lost).sqrt();
         let end = (slope + root) / (2.0 * square);
-        // Uses the product of the roots, lost/square, because `slope - root` would suffer from
-        // cancellation.
+        // The second root follows from the product of the roots, lost/square, because `slope -
+        // root` would suffer from cancellation.
         let start = lost / (square * end);
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
     }

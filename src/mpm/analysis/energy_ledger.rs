@@ -3,9 +3,9 @@
 //! A particle p has the velocity field `u_pi = v_p + C_p (x_i - x_p)` at node i; C_p is zero for a
 //! transfer without an affine field. The kinetic energy is `sum m_p N_i u_pi^2 / 2` for the
 //! particles, and `sum M_i w_i^2 / 2` with the lumped mass for the grid. The entries are exact for
-//! particles at any positions and for any transfer with the nodal mass `sum m_p N_i`. Each entry is
-//! a sum over particles or nodes, except that the entries for effects, motion and stored energy are
-//! differences of energies. Primes mark values after the update of velocities:
+//! particles at any positions and for any transfer with the nodal mass `sum m_p N_i`. The entries
+//! for effects, motion and stored energy are differences of energies. All other entries are sums
+//! over particles or nodes. Primes mark values after the update of velocities:
 //!
 //! ```text
 //! particle to grid    -sum m_p N_i (u_pi - w_i)^2 / 2

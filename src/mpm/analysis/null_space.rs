@@ -16,7 +16,7 @@ use crate::mpm::step::solver::Solver;
 /// Residual energy that counts as rounding, as a fraction of the initial energy.
 const ROUNDING: f64 = 1e-26;
 
-/// Maximum number of iterations. A mode that PIC multiplies by l needs about `1/sqrt(l)`
+/// Maximum number of iterations. A mode that PIC multiplies by the factor l needs about `1/sqrt(l)`
 /// iterations.
 const MOST: usize = 200;
 

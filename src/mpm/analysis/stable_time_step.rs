@@ -3,7 +3,7 @@
 //! Nodal velocities strain the particles, the stresses give forces, and the forces accelerate the
 //! nodes. This operator, `L = M^-1 K`, is applied by running the stages of a step with small nodal
 //! velocities. Power iteration gives the largest eigenvalue of L, the square of the highest
-//! frequency. Below, L also denotes this eigenvalue.
+//! frequency. In the formulas below, L denotes this eigenvalue.
 //!
 //! Under USL an explicit step is stable up to `dt^2 L = 4/(2 - a)`, where a, between 0 and 1, is
 //! the fraction of a velocity that the particles return to the grid. So `dt = sqrt(2/L)` is stable
@@ -108,7 +108,7 @@ impl<const D: usize> Solver<D> {
             for (found, rest) in found.iter_mut().zip(&rest) {
                 *found = (*found - rest) / dt;
             }
-            // The comparison below is false for NaN, so NaN propagates to the result.
+            // The comparison is false for NaN, so the result becomes NaN.
             let ratio = (self.size(&found) / self.size(mode)).sqrt();
             square = if square > ratio { square } else { ratio };
             // The next mode is (L - shift) mode, up to a sign.
@@ -162,7 +162,8 @@ impl<const D: usize> Solver<D> {
         self.visit_state(&mut Checkpoint::from_bytes(start));
     }
 
-    /// Visits all state that a response changes, including the state of material and effects.
+    /// Visits all state that [`Self::response`] changes, including the state of material and
+    /// effects.
     fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
         checkpoint.visit(&mut self.setup);
         checkpoint.visit(&mut self.velocity_time);
@@ -177,7 +178,7 @@ fn strains_by_mapped_velocity(scheme: SchemeName, kind: TransferKind) -> bool {
 }
 
 /// Returns the simplest scheme and transfer whose stable time step is bit-identical to that of the
-/// given pair. Methods with the same result need only one computation.
+/// given scheme and transfer. Methods with the same result need only one computation.
 ///
 /// All transfers except [`TransferKind::Fit`] compute forces and velocity gradients from the basis.
 /// All except [`TransferKind::Series`] and [`TransferKind::Cells`] compute accelerations from the

@@ -62,8 +62,8 @@ impl<const D: usize> CellLocator<D> {
     ) -> CellPositions<S::F64x4, D> {
         let zero = simd.splat(0.0);
         let mut places = CellPositions { cell: [zero; D], xi: [zero; D], inside: ALL };
-        // The four positions are read by reference. If they were copied, store-to-load forwarding
-        // would fail for scalar stores followed by a vector load.
+        // The four positions are read by reference. Copying them would be slow, because
+        // store-to-load forwarding fails for scalar stores followed by a vector load.
         let few;
         let x = if let Some(four) = x[first..].first_chunk() {
             four

@@ -60,8 +60,8 @@ pub trait Basis: Sized + Sync + Send + 'static {
     fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
 
     /// Calls `visit` for every patch of particle `p`. If a node is in several patches, its weight
-    /// and gradient are the sums over these patches. A particle outside the grid has no patch; the
-    /// solver reports such particles when particles are moved. Implementations must be
+    /// and gradient are the sums over these patches. A particle outside the grid has no patch. The
+    /// solver reports such particles when it moves particles. Implementations must be
     /// `#[inline(always)]`, because this function is part of the hot loop.
     fn patches<const D: usize>(
         grid: &Grid<D>,
@@ -70,10 +70,11 @@ pub trait Basis: Sized + Sync + Send + 'static {
         visit: impl FnMut(&Self::Patch<D>),
     );
 
-    /// Stores the patches of the four particles of `lanes`. Returns a mask with bit k for particle
-    /// `lanes.particle + k`. A bit is set if the particle has a single patch. Only such patches are
-    /// stored. For other particles, use [`Basis::patches`]. Both methods give bit-identical
-    /// results. A basis overrides this method to compute the weights of four particles at once.
+    /// Stores the patches of the four particles of `lanes`. Returns a mask, in which bit k belongs
+    /// to particle `lanes.particle + k` and is set if this particle has a single patch. Only single
+    /// patches are stored. For other particles, use [`Basis::patches`]. Both methods give
+    /// bit-identical results. A basis overrides this method to compute the weights of four
+    /// particles at once.
     #[inline(always)]
     fn patches_x4<S: Simd, const D: usize>(
         _width: S,

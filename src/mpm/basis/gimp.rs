@@ -7,7 +7,7 @@
 //! by the diagonal entry of F, so that domains neither separate nor overlap. At walls the domain is
 //! truncated.
 //!
-//! Four particles are processed at a time if their domains have at most three nodes along each
+//! Four particles are processed at a time if their domains reach at most three nodes along each
 //! axis. Otherwise one particle is processed at a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
@@ -107,7 +107,7 @@ fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> 
     array(0.0, |k| half(particles, first + k, axis, true))
 }
 
-/// Wraps first nodes that lie before the start of a periodic axis.
+/// If the `first` node of a domain lies before the start of a periodic axis, wraps it.
 #[cold]
 #[inline(never)]
 fn beyond_seam<const D: usize>(grid: &Grid<D>, axis: usize, first: [f64; LANES]) -> [f64; LANES] {

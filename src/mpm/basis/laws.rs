@@ -66,8 +66,8 @@ struct NodeWeights<const D: usize> {
     offset: Vector<D>,
 }
 
-/// Returns the nodes of the only particle. The function is not inlined, so all tests share one
-/// compiled loop.
+/// Returns the nodes of the only particle and their weights. The function is not inlined, so all
+/// tests share one compiled loop.
 #[inline(never)]
 fn node_weights<B: Basis, const D: usize>(
     grid: &Grid<D>,
@@ -117,7 +117,8 @@ fn hold<B: Basis, const D: usize>(periodic: bool) {
 }
 
 /// Compares grad N with central differences, for bases with `GRADIENT_OF_WEIGHT`. Points are
-/// excluded if a node is inside the stencil.
+/// excluded if a node lies between the points of the difference, because gradients may jump at
+/// nodes.
 fn differentiate<B: Basis, const D: usize>(periodic: bool) {
     if !B::GRADIENT_OF_WEIGHT {
         return;

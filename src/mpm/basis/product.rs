@@ -94,9 +94,9 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 }
 
-/// Batch of [`Product`]s. With `OUTWARD = 1` the gradient of a function is its weight times a
-/// vector of the patch, as for the corners of [CPDI](super::Cpdi). With `OUTWARD = 0` the gradient
-/// is the derivative.
+/// Batch of [`Product`]s. If `OUTWARD` is 1, the gradient of a function is its weight times a
+/// vector of the patch, as for the corners of [CPDI](super::Cpdi). If `OUTWARD` is 0, the gradient
+/// is the derivative of the function.
 #[derive(Debug)]
 pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
     /// Index of the first node of each patch in a packed field.
@@ -175,9 +175,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         NodeTerm { value: Some(value), flux: None, ..term }
     }
 
-    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) receives
-    /// `first_i weight_jk + row_jk weight_i`: two products and two sums, independent of the number
-    /// of axes.
+    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) receives `first_i weight_jk +
+    /// row_jk weight_i`. This requires two products and two sums for any number of axes.
     #[inline(always)]
     fn add<S: Simd, N: PackedNode>(
         &self,
@@ -188,7 +187,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
         let (start, x, weights) =
             (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
-        // These are loops, because closures are not always inlined.
+        // Loops are used, because closures are not always inlined.
         let (mut first, mut rise) = ([None; K], [None; K]);
         for i in 0..K {
             if let Some(slope) = &slope {

@@ -17,8 +17,8 @@ pub struct Weights1d<const K: usize> {
     pub slope: [f64; K],
     /// Positions of the functions relative to the particle (m).
     pub offset: [f64; K],
-    /// Variance, `sum weight offset^2` (m^2). If these K functions are all functions of the
-    /// particle along this axis, offsets are measured from their mean.
+    /// Variance, `sum weight offset^2` (m^2). If the particle has no other functions along this
+    /// axis, offsets are measured from their mean.
     pub variance: f64,
 }
 

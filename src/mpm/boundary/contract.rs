@@ -47,8 +47,8 @@ pub trait Boundary<const D: usize>: Send {
     fn hold_acceleration(&self, acceleration: &mut [Vector<D>], advance: &Advance);
 
     /// Imposes a condition on velocities (m/s) and accelerations (m/s2) together. The velocities
-    /// before the advance already satisfy the condition, and are available only if a condition
-    /// reads velocities.
+    /// before the advance already satisfy the condition. They are available only if
+    /// [`Boundary::reads_velocity`] of some condition returns true.
     fn hold_advance(
         &mut self,
         _velocity: &mut [Vector<D>],
@@ -58,8 +58,8 @@ pub trait Boundary<const D: usize>: Send {
         self.hold_acceleration(acceleration, advance);
     }
 
-    /// Returns axis and end of a face with fixed normal velocity, if the wall carries the complete
-    /// force of its nodes. `None` for a wall that moves or releases nodes.
+    /// Returns the axis of a face with fixed normal velocity, and the end of this axis, if the wall
+    /// carries the complete force of its nodes. `None` for a wall that moves or releases nodes.
     fn standing_face(&self) -> Option<(usize, Side)> {
         None
     }

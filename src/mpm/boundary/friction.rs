@@ -10,8 +10,8 @@
 //! the wall, the node is free. This is the contact law of Bardenhagen, Brackbill & Sulsky (2000,
 //! CMAME 187, section 3) between a body and a fixed wall.
 //!
-//! Nodes store their contact state until the next advance. The stored state constrains velocities
-//! that are mapped in this interval.
+//! Nodes keep their contact state until the next advance. Velocities that are mapped to the grid
+//! before then are constrained by this state.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::Vector;

@@ -1,8 +1,8 @@
 //! A wall with a prescribed velocity, to which the body sticks: v = v(x, t).
 //!
 //! Each node has the wall velocity at the position of the node. The wall stays at the face of the
-//! grid; the grid does not follow it. A wall may therefore slide any distance along itself, but may
-//! move along its normal only by a small fraction of a cell.
+//! grid, which does not move. A wall may therefore slide any distance along itself, but may move
+//! along its normal only by a small fraction of a cell.
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;

@@ -1,10 +1,10 @@
 //! Artificial viscosity: a pressure that resists compression and spreads shocks over a few cells.
 //!
-//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the current
-//! density rho, the cell size l and the wave speed c at rest. The quadratic term (von Neumann &
-//! Richtmyer 1950) acts in strong shocks. The linear term (Landshoff 1955) damps the oscillations
-//! behind weak shocks. In smooth motion, the quadratic term is of second order in l, and the linear
-//! term of first order.
+//! `q = rho l |tr D| (c1 c + c2 l |tr D|)` if `tr D < 0`, and zero otherwise, with the rate of
+//! deformation D, the current density rho, the cell size l and the wave speed c at rest. The
+//! quadratic term (von Neumann & Richtmyer 1950) acts in strong shocks. The linear term (Landshoff
+//! 1955) damps the oscillations behind weak shocks. In smooth motion, the quadratic term is of
+//! second order in l, and the linear term of first order.
 //!
 //! The pressure is part of the stress only while forces are computed. It is removed before the
 //! material updates the stress, because a law in rate form adds increments to the old stress.

@@ -69,8 +69,8 @@ pub trait Effect<const D: usize>: Send {
     /// Completes the initial state of the particles, after their columns have been created.
     fn start(&mut self, _material: &mut dyn Material<D>, _particles: &mut Particles<D>) {}
 
-    /// Runs before the strain update, with the grid velocities that strain the particles over `dt`
-    /// (s). Returns the number of visited particle-node pairs.
+    /// Runs before the strain update. The velocities of the grid are those that strain the
+    /// particles over the time step (s). Returns the number of visited particle-node pairs.
     fn map_velocity(
         &mut self,
         _dt: f64,
@@ -120,8 +120,8 @@ pub(in crate::mpm) fn strain<const D: usize>(
         effect.before_stress(body.particles());
     }
     material.update(&mut body);
-    // After the update, the effects run in reverse order. Thermal expansion thus restores the
-    // volume before artificial viscosity computes the density.
+    // After the update, the effects run in reverse order. Thermal expansion, for example, restores
+    // the volume before artificial viscosity computes the density.
     for effect in effects.iter_mut().rev().filter(|effect| effect.makes_stress()) {
         effect.after_stress(body.particles());
     }

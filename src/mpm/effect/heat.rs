@@ -13,9 +13,9 @@
 //!
 //! The published scheme maps only T_p, without the slope. The temperature of a node is then a
 //! weighted mean of the temperatures of nearby particles. At a wall this mean differs from the wall
-//! value. With linear functions the slope at the wall is a third too small, and the error at a face
-//! with heat flux is not of second order. With `g_p`, the slope of the previous step (as in TPIC),
-//! the map reproduces a linear field, also at the wall.
+//! value. With linear functions, the slope at the wall is too small by a third, and at a face with
+//! heat flux the error is not of second order. With `g_p`, the slope of the previous step (as in
+//! TPIC), the map reproduces a linear field, also at the wall.
 //!
 //! The method is of second order in space and of first order in time. The sum of `Q_i` is the heat
 //! flow into the body, to round-off. The method neglects heat from plastic work, viscosity and
@@ -197,8 +197,8 @@ mod tests {
     use crate::mpm::{Block, Matrix};
     use approx::assert_relative_eq;
 
-    /// If a body starts stretched and sheared, its temperature gradient is taken with respect to x:
-    /// `F^T grad T = Grad T`.
+    /// If a body starts stretched and sheared, the solver uses the temperature gradient with
+    /// respect to x: `F^T grad T = Grad T`.
     #[test]
     fn slopes_at_the_start_are_those_of_the_deformed_body() {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));

@@ -2,12 +2,13 @@
 //!
 //! `f_i <- f_i - zeta |f_i| sign(v_i)` for each component of each node, after all other forces have
 //! been added (Cundall 1987, in Analytical and Computational Methods in Engineering Rock Mechanics,
-//! ch. 4). A body in equilibrium is not damped under any load. Each mode decays by the same factor
-//! per half period, `sqrt((1 - zeta)/(1 + zeta))`, if all velocities change sign at the same time.
+//! ch. 4). In equilibrium there is no unbalanced force and hence no damping force, under any load.
+//! Each mode decays by the same factor per half period, `sqrt((1 - zeta)/(1 + zeta))`, if all
+//! velocities change sign at the same time.
 //!
 //! The sign is taken from the velocity at the start of the step, half a step behind the forces. The
-//! damping force therefore changes sign up to one step late, and is of first order in time. FLIP
-//! velocities without nodal momentum are not damped.
+//! damping force therefore changes sign up to one step late, and is of first order in time. The
+//! part of the FLIP velocities that gives no momentum to any node is not damped.
 
 use super::contract::Effect;
 use crate::mpm::foundation::grid::Grid;
@@ -28,8 +29,8 @@ impl<const D: usize> Effect<D> for LocalDamping {
     fn modify_force(&self, grid: &mut Grid<D>) {
         for (force, velocity) in grid.force.iter_mut().zip(&grid.velocity) {
             for (f, v) in force.iter_mut().zip(velocity) {
-                // A node with zero velocity is not damped, and NaN is reported by the check of the
-                // particles.
+                // A node with zero velocity is not damped. A velocity of NaN is ignored here,
+                // because the check of the particles reports it.
                 if *v > 0.0 {
                     *f -= self.0 * f.abs();
                 } else if *v < 0.0 {

@@ -117,7 +117,7 @@ mod tests {
         assert!(sum.norm() <= 1e-14, "{sum}");
         let length: f64 = facets.iter().map(|facet| facet.area.norm()).sum();
         assert_relative_eq!(length, TAU * 1.3, max_relative = 1e-3);
-        // Computes twice the area of the polygon by the divergence theorem; negative around a hole.
+        // Twice the area of the polygon, by the divergence theorem; negative around a hole.
         let doubled: f64 = facets
             .iter()
             .map(|facet| facet.area.dot(&(facet.label - Vector::from([2.0, 1.9]))))

@@ -235,7 +235,8 @@ mod tests {
     /// Axis, direction, length and position of each side of a panel.
     type Sides<'a> = &'a [(usize, f64, f64, f64)];
 
-    /// Vertical and horizontal sides of a panel are recognised for any slope of the particle rows.
+    /// Vertical and horizontal sides of a panel are recognised, even if the particle rows are
+    /// oblique.
     #[rstest]
     #[case::slanting(
         [[0.0, 0.0], [3.0, 0.0], [2.0, 2.0], [0.0, 2.0]],

@@ -6,7 +6,7 @@
 //! evaluated along the face only. Heat enters at the face and not at the particles half a spacing
 //! inside, because that would cause an error of first order.
 //!
-//! Areas are taken in the reference configuration. The face must stay at the end of the grid.
+//! Areas are those of the reference configuration. The face must stay at the end of the grid.
 
 use super::surface::{Placement, Surface};
 use crate::mpm::basis::BasisName;

@@ -1,5 +1,5 @@
-//! Macros that declare a family of types, such as the basis functions. One line registers a type
-//! with its name.
+//! Macros that declare a family of types with a common trait, such as the basis functions. One line
+//! registers a type with its name.
 
 /// Declares a family of types that suite files select by name.
 ///

@@ -37,8 +37,8 @@ pub struct Particles<const D: usize> {
     pub stress_across: Vec<f64>,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix, F diag(spacing)/2, are the vectors from the particle to the middles
-    /// of the faces of its domain (m). Domains are updated from F only when the particles move,
-    /// because otherwise nodes without mass could receive forces.
+    /// of the faces of its domain (m). Domains are updated from F only when the particles move.
+    /// With an earlier update, nodes without mass could receive forces.
     pub domain: Vec<Matrix<D>>,
     /// Domains in the reference configuration; empty if all are boxes of the size `spacing`.
     pub domain0: Vec<Matrix<D>>,
@@ -315,7 +315,8 @@ mod tests {
         let block = Block { from, to, density: 1.0 };
         let ring = |x: &Vector<2>| (0.75..=1.25).contains(&x.norm());
         let particles = Particles::fill_where(&block, 0.125, 2, ring);
-        // The unit is half a spacing: the centres are odd numbers and the radii are 24 and 40.
+        // In units of half a spacing, the coordinates of the centres are odd numbers, and the radii
+        // are 24 and 40.
         let odd = || (-63..64_i32).step_by(2);
         let squares = odd().flat_map(|a| odd().map(move |b| a * a + b * b));
         let inside = squares.filter(|square| (24 * 24..=40 * 40).contains(square)).count();

@@ -22,7 +22,7 @@ fn call_once(work: &mut Option<impl FnOnce()>) {
     }
 }
 
-/// Joins closures behind pointers, so that `rayon::join` is compiled only once.
+/// Joins closures as trait objects, so that `rayon::join` is compiled only once.
 fn join_any(one: &mut (dyn FnMut() + Send), other: &mut (dyn FnMut() + Send)) {
     rayon::join(one, other);
 }

@@ -15,8 +15,8 @@ pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Pa
 
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
-/// Batches of particles, with the data that locates their patches. The patches are stored
-/// separately, because the fields of one struct would be reloaded after every store of a weight.
+/// Batches of particles, with the data that locates their patches. The patches are not stored in
+/// this struct, because its fields would then be reloaded after every store of a weight.
 pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,

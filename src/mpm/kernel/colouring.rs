@@ -115,7 +115,7 @@ impl Span {
         if !(low <= high) || grid.periodic[axis] && wraps {
             return 0..all;
         }
-        // Some bases have several nodes per cell.
+        // The number of nodes per cell depends on the basis.
         let per_cell = (B::count(2, true) - B::count(1, true)) as f64;
         let node = |x: f64| libm::floor(x.clamp(0.0, cells - 1.0)) * per_cell;
         let (first, last) = (node(low) - below, node(high) + above);

@@ -195,7 +195,7 @@ pub trait Scalars<const D: usize> {
 
 /// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node
 /// positions, and equals the particle position unless a wall truncates the particle domain. The
-/// affine part is taken about `mean_p`, and therefore has no momentum.
+/// affine part is zero at `mean_p`, and therefore has no momentum.
 #[derive(Debug, Clone, Copy)]
 pub enum Affine<'a, const D: usize> {
     /// Gradients `C_p` (1/s).
@@ -254,7 +254,8 @@ pub struct P2gRequest<'a, const D: usize> {
 
 impl<const D: usize> P2gRequest<'_, D> {
     /// Returns the names of the requested quantities, for reports. A request for the mass includes
-    /// the name `weight moments`, so these are counted once for each position of the particles.
+    /// the name `weight moments`, so that the moments of the weights are counted once for each
+    /// position of the particles.
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));

@@ -11,7 +11,8 @@ use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, componen
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// G2P pass. Velocities and accelerations are in two packed fields, or in one ([`are_beside`]).
+/// G2P pass. Velocities and accelerations are in one packed field if [`are_beside`] returns true,
+/// otherwise in two.
 pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
@@ -48,8 +49,8 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
         }
     }
 
-    /// Clears the sums of the particles for which `left_out` is true. Matrices are cleared only if
-    /// a pass uses them.
+    /// Clears the sums of the particles for which `left_out` returns true. Matrices are cleared
+    /// only if a pass uses them.
     #[inline(always)]
     fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);

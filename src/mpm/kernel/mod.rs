@@ -53,8 +53,8 @@ pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> 
     *kernel.unwrap_or_else(|_| unreachable!("no kernel in {D} dimensions"))
 }
 
-/// Creates a `Box<dyn Kernel<D>>` as `Any`. The function is not generic, so that the loops are
-/// compiled only in this crate.
+/// Creates a `Box<dyn Kernel<D>>` and returns it as `Any`. The function is not generic, so that the
+/// loops are compiled only in this crate.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
         with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))

@@ -63,8 +63,9 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     /// Whether a node has lanes for momentum and mass in addition to a force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
-    /// Adds the contributions of particles to their nodes. With `SLOPE` these contain an affine
-    /// part, and with `FLUX` a part along the gradient.
+    /// Adds the contributions of particles to their nodes. If `SLOPE` is true, the contributions
+    /// have an affine part; if `FLUX` is true, they have a part along the gradient of the basis
+    /// function.
     #[inline(always)]
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
@@ -73,8 +74,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that the request does not need are never unpacked, so positions can replace
-        // velocities that do not exist (body at rest).
+        // Lanes that the request does not need are never copied to the grid. For a body at rest,
+        // which has no velocities, positions can therefore take their place.
         let (v, affine) =
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);

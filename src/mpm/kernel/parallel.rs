@@ -1,7 +1,8 @@
 //! Two-colour schedule of P2G on threads, and the division of G2P particles among threads.
 //!
 //! Even blocks and the odd blocks between them form a binary tree of joins. An odd block runs on
-//! any thread after both its neighbours. A layer is unpacked as soon as no later block adds to it,
+//! any thread after both its neighbours. The sums at the nodes are copied from the packed field of
+//! P2G to the arrays of the grid. A layer of nodes is copied as soon as no later block adds to it,
 //! while its nodes are in the cache.
 
 use super::colouring::ParticleBlock;
@@ -12,7 +13,8 @@ use crate::mpm::foundation::simd::BATCH;
 use crate::mpm::foundation::threads::{FEW, join, split};
 use std::ops::Range;
 
-/// Target of P2G: a packed field, and the columns to which it is unpacked.
+/// Target of P2G: the packed field in which nodal values are summed, and the arrays of the grid to
+/// which the sums are copied (see `packed_grid`).
 #[derive(Debug)]
 pub(in crate::mpm) struct Target<'a, const D: usize, N> {
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
@@ -35,7 +37,8 @@ impl<const D: usize, N: PackedNode> Target<'_, D, N> {
 type Add<'a, N> = dyn Fn(&ParticleBlock, FieldViewMut<'_, N>) + Sync + 'a;
 
 /// Clears `target`, calls `add` for all blocks, each with a field that contains its nodes, and
-/// unpacks the sums. Odd block k shares nodes with even blocks k and k + 1.
+/// copies the sums to the arrays of the grid. Odd block k shares nodes with even blocks k and k +
+/// 1.
 pub(in crate::mpm) fn two_colour_schedule<const D: usize, N: PackedNode>(
     grid: &Grid<D>,
     [even, odd]: [&[ParticleBlock]; 2],
@@ -85,7 +88,7 @@ impl<const D: usize, N: PackedNode> Schedule<'_, D, N> {
         join(|| self.add(between, done, low), || self.add(last, end..own.end, high));
     }
 
-    /// Adds a block, if any. Then unpacks the layers `done`.
+    /// Adds a block, if any, and then copies the layers `done` to the arrays of the grid.
     fn add(&self, block: &[ParticleBlock], done: Range<usize>, mut target: Target<'_, D, N>) {
         if let [block] = block {
             (self.add)(block, target.field.reborrow());

@@ -54,7 +54,8 @@ impl<const D: usize> P2g<'_, D> {
             let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
             B::run(level, pass);
         };
-        // At a periodic end, margins must be added to the nodes that they repeat before unpacking.
+        // On a periodic axis, the sums in the margins must be added to the nodes that the margins
+        // repeat, before nodal values are copied to the grid.
         let (at_once, after) = if grid.periodic.contains(&true) {
             (None, Some(columns))
         } else {

@@ -1,8 +1,8 @@
 //! Bodies of revolution: a three-dimensional law whose third axis is the hoop direction, with the
 //! stretch `F_33 = r/R`.
 //!
-//! Any law can be used in a body of revolution. The law is evaluated in three dimensions, where the
-//! shears between the meridian plane and the hoop direction are zero.
+//! The law is evaluated in three dimensions, where the shears between the meridian plane and the
+//! hoop direction are zero. Any law can therefore be used.
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
@@ -131,8 +131,8 @@ mod tests {
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    /// For every law, compares stress (with the hoop stress), volume and energy with those of the
-    /// 3-D law over several steps.
+    /// For every law, compares stress (with the hoop stress), volume and energy over several steps
+    /// with the results of the 3-D law.
     #[test]
     fn body_of_revolution_agrees_with_the_3d_law() {
         for plan in every() {

@@ -9,9 +9,9 @@
 //!
 //! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by `I + grad v
 //! dt`, whose polar decomposition is `v R`: R rotates the stress, and `ln v` is the strain
-//! increment. This integration is exact under any rotation, and agrees with the Jaumann rate to
-//! second order in the step. The return mapping is implicit. It is exact at a constant stress
-//! ratio, and of first order in the step otherwise.
+//! increment. The integration of a pure rotation is exact. In general, the result agrees with the
+//! Jaumann rate to second order in the step. The return mapping is implicit. It is exact at a
+//! constant stress ratio, and of first order in the step otherwise.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
 use super::spectral::MatrixBatch;
@@ -160,7 +160,7 @@ impl CamClay {
             let beyond = equivalent(&deviator) - slope * m * p;
             6.0 * modulus / slope * flow * m - beyond * (1.0 - m * m)
         };
-        // Ratio m on the yield surface before the step.
+        // The value of m on the yield surface before the step.
         let m = libm::sqrt(libm::expm1(-depth).max(0.0));
         let m = root(residual, m.min(1.0), m.max(1.0));
         let flow = flow(m);

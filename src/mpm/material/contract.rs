@@ -6,8 +6,8 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
-/// Implements [`MaterialProperties::takes_averaged_volume`] for every law in rate form. Returns an
-/// error, because such a law reads the velocity gradient.
+/// Implements [`MaterialProperties::takes_averaged_volume`] for laws in rate form. Returns an
+/// error, because such a law computes the stress from the velocity gradient.
 pub(super) fn rate_form_averages_no_volume() -> Result<(), &'static str> {
     Err("a law in rate form does not compute its stress from F or J")
 }

@@ -4,8 +4,8 @@
 //! sigma`, with `Omega = R_dot R^T` and the polar decomposition `F = R U` (Green & Naghdi 1965;
 //! Johnson & Bammann 1984). The state is the stress `R^T tau R`, whose rate is `lambda tr(D) I + 2
 //! mu D` with `D = sym(U_dot U^-1)`. A step from U to U' adds `sym(ln(U' U^-1))` to the integral of
-//! D. This integration is exact under any rotation, and of order 2 in the time step. The work of
-//! the stress in a closed cycle of deformation is not zero, so the law has no energy.
+//! D. The integration of a pure rotation is exact; in general, the order in the time step is 2. The
+//! work of the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::hyperelastic::linear;

@@ -1,9 +1,9 @@
 //! Hencky elasticity: the small-strain law, with logarithmic strain and Kirchhoff stress.
 //!
-//! `sigma = (lambda tr(eps) I + 2 mu eps)/J`, `eps = ln(F F^T)/2` (Hencky 1928; de Souza Neto,
-//! Peric & Owen 2008, chapter 13; Charlton et al. 2017 in MPM). The stress derives from the energy
-//! `W = lambda/2 tr(eps)^2 + mu eps : eps`. The law assumes plane strain in 2-D and uniaxial strain
-//! in 1-D.
+//! The stress is `sigma = (lambda tr(eps) I + 2 mu eps)/J` with `eps = ln(F F^T)/2` (Hencky 1928;
+//! de Souza Neto, Peric & Owen 2008, chapter 13; Charlton et al. 2017 in MPM). The stress derives
+//! from the energy `W = lambda/2 tr(eps)^2 + mu eps : eps`. The law assumes plane strain in 2-D and
+//! uniaxial strain in 1-D.
 
 use super::contract::{Material, MaterialProperties};
 use super::hyperelastic::{linear, set_stress_of_stretch, stored_energy};

@@ -2,9 +2,9 @@
 //!
 //! `tau_dot = lambda tr(d) I + 2 mu d + w tau - tau w` for the Kirchhoff stress `tau = J sigma`,
 //! with the symmetric part d and the skew part w of the velocity gradient (Johnson & Bammann 1984).
-//! In a step, `I + grad v dt = v R`: R rotates the stress and `ln v` is the strain increment. This
-//! integration is exact under any rotation, and of order 2 in the time step. The work of the stress
-//! in a closed cycle of deformation is not zero, so the law has no energy.
+//! In a step, `I + grad v dt = v R`: R rotates the stress and `ln v` is the strain increment. The
+//! integration of a pure rotation is exact; in general, the order in the time step is 2. The work
+//! of the stress in a closed cycle of deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::hyperelastic::linear;

@@ -1,5 +1,4 @@
-//! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D. Differences
-//! between materials are declared in their properties and closed forms.
+//! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D.
 
 use super::specimen::{DENSITY, FAST, SLOW, Specimen, diagonal, every, scattered, stress};
 use super::{
@@ -122,7 +121,8 @@ fn rotation_in_a_step_only_rotates_the_stress<const D: usize>(plan: MaterialPlan
 }
 
 /// Tests isotropy and frame indifference, `sigma(Q L Q^T + W) = Q sigma(L) Q^T`, for the velocity
-/// gradient L and any spin W. A law that reads F must pass the stronger test above.
+/// gradient L and any spin W. For a law that reads F, the test
+/// [`rotation_in_a_step_only_rotates_the_stress`] is stronger.
 fn spin_only_rotates_the_stress<const D: usize>(plan: MaterialPlan) {
     if reads_deformation(plan) {
         return;
@@ -162,7 +162,7 @@ fn deformed_start_has_the_stress_of_one_step<const D: usize>(plan: MaterialPlan)
     }
 }
 
-/// The resumed run is bit-identical: plastic flow and hardening are in the checkpoint.
+/// The resumed run is bit-identical, because plastic flow and hardening are in the checkpoint.
 fn resumed_run_is_bit_identical<const D: usize>(plan: MaterialPlan) {
     let step = |k: i32| scattered::<D>(0.1, f64::from(k));
     for dt in [SLOW, 1.0, FAST] {

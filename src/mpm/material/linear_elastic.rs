@@ -294,7 +294,7 @@ mod tests {
         }
     }
 
-    /// An objective law would rotate the stress; this law does not.
+    /// An objective law would rotate the stress.
     #[test]
     fn spin_does_not_rotate_the_stress() {
         let mut solid = one_particle::<2>();

@@ -30,7 +30,7 @@ pub struct Pyramid {
     strength: f64,
 }
 
-/// Maximum relative size of a negative flow on an edge that counts as a rounding error.
+/// A negative flow on an edge up to this relative size counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// A plane of the pyramid: the indices of the largest and the smallest principal stress.
@@ -77,8 +77,8 @@ impl Pyramid {
         relief
     }
 
-    /// Returns the reduction of the yield function of `plane` per unit of flow on the plane `of`
-    /// (Pa).
+    /// Returns the reduction of the yield function of one `plane` per unit of flow on another
+    /// plane, the argument `of` (Pa).
     fn slope(&self, plane: YieldPlane, of: YieldPlane) -> f64 {
         self.excess(plane, &self.relief(of)) + self.strength
     }
@@ -275,10 +275,10 @@ mod tests {
     use proptest::prelude::*;
     use rstest::rstest;
 
-    /// The arguments are the angles, a path of logarithmic strain, and the expected principal
-    /// Kirchhoff stresses at the end of the path. An independent program computed these stresses
-    /// from closed forms. Uniaxial paths return to an edge, isochoric paths to a plane. The path
-    /// `isochoric_to_an_edge` ends on an edge.
+    /// The arguments are the angles of friction and dilation, a path of logarithmic strain, and the
+    /// expected principal Kirchhoff stresses at the end of the path. An independent program
+    /// computed these stresses from closed forms. Uniaxial paths return to an edge, isochoric paths
+    /// to a plane. The path `isochoric_to_an_edge` ends on an edge.
     #[rstest]
     #[case::compression([30.0, 10.0], &[[-0.01, 0.0, 0.0]], [-196.127_569_232, -53.828_851_027, -53.828_851_027])]
     #[case::in_steps(
@@ -333,8 +333,8 @@ mod tests {
             }
         }
 
-        /// The trial stress returns to the edge of a plane, up to rounding. There the flow on the
-        /// other plane is zero, and rounding can make this flow negative.
+        /// The trial stress returns to the edge of a plane, up to rounding. On this edge the flow
+        /// on the other plane is zero, and rounding can make it negative.
         #[test]
         fn return_to_the_edge_of_a_plane_ends_on_the_edge(
             friction in prop_oneof![Just(0.0), 0.0..50.0_f64],

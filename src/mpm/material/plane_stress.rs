@@ -44,8 +44,8 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
             let results = volumes.zip(sigma.iter_mut());
             for (f, (((vol, vol0), across), sigma)) in def_grad.iter().zip(results) {
                 let area = det(f);
-                // The solver detects an inverted particle by its volume, so any stretch is valid
-                // here.
+                // Any stretch may be returned for an inverted particle, because the solver detects
+                // the invalid volume.
                 *across = if area > 0.0 { self.0.stretch(area) } else { 1.0 };
                 let j = area * *across;
                 *vol = j * vol0;
@@ -55,8 +55,8 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
     }
 }
 
-/// Returns `nu/(1 - nu)`: minus the out-of-plane logarithmic strain divided by the logarithmic area
-/// strain.
+/// Returns `nu/(1 - nu)`, the ratio of the out-of-plane logarithmic strain to the logarithmic area
+/// strain, with opposite sign.
 pub(super) fn thinning(lambda: f64, mu: f64) -> f64 {
     lambda / (lambda + 2.0 * mu)
 }

@@ -290,8 +290,8 @@ impl<S: YieldSurface> MaterialProperties for ElastoPlastic<S> {
         Ok(())
     }
 
-    /// Accepts the averaged volume: trial strains are computed from Fbar (de Souza Neto et al.
-    /// 1996, IJSS 33).
+    /// Allows a volume that is averaged over a cell: trial strains are then computed from Fbar (de
+    /// Souza Neto et al. 1996, IJSS 33).
     fn takes_averaged_volume(&self) -> Result<(), &'static str> {
         Ok(())
     }

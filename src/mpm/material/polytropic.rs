@@ -3,8 +3,8 @@
 //!
 //! The pressure is a function of the current density `rho = m/V`, the particle mass divided by the
 //! particle volume. Each particle therefore has its own reference density `m/V0`, which may vary
-//! over the body. The gas has a pressure at J = 1. In the limit of infinite expansion, pressure and
-//! energy are zero.
+//! over the body. The pressure is not zero at J = 1. Pressure and energy tend to zero under
+//! infinite expansion.
 //!
 //! The volume is integrated as `J *= det(I + grad v dt)`. F is not stored.
 
@@ -130,8 +130,8 @@ mod tests {
         row
     }
 
-    /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of this after a stretch of
-    /// 2.
+    /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of these pressures after a
+    /// stretch of 2.
     #[test]
     fn pressure_follows_the_density_of_each_particle() {
         let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());

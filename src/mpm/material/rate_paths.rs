@@ -12,7 +12,7 @@ const JAUMANN: MaterialPlan = MaterialPlan::Jaumann { young: 2.5, poisson: 0.25 
 const GREEN_NAGHDI: MaterialPlan = MaterialPlan::GreenNaghdi { young: 2.5, poisson: 0.25 };
 const LOGARITHMIC: MaterialPlan = MaterialPlan::Hencky { young: 2.5, poisson: 0.25 };
 
-/// Returns a plane F with a shear `a` and a stretch `b` of the second axis.
+/// Returns a plane F with the shear `a`, and the stretch `b` of the second axis.
 fn sheared([a, b]: [f64; 2]) -> Matrix<2> {
     Matrix::<2>::new(1.0, a, 0.0, b)
 }
@@ -53,8 +53,8 @@ fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
     (rows[0], order)
 }
 
-/// Tests components 11 and 12 of the stress in simple shear. The integration of the rates has order
-/// 2.
+/// Tests components 11 and 12 of the stress in simple shear. The error of the integration is of
+/// order 2 in the step.
 #[rstest]
 #[case::jaumann(JAUMANN, 1.0, [0.459_697_694_1, 0.841_470_984_8])]
 #[case::jaumann_far(JAUMANN, 3.0, [1.989_992_496_6, 0.141_120_008_1])]
@@ -74,8 +74,8 @@ fn simple_shear_matches_closed_forms_of_the_rates(
     assert!(plan == LOGARITHMIC || (1.98..2.02).contains(&order), "order {order}");
 }
 
-/// After a closed cycle of shear and stretch, stress and work remain, except with the logarithmic
-/// rate. The reversed cycle leaves a different stress, but the same work.
+/// After a closed cycle of shear and stretch, stress and work are not zero, except with the
+/// logarithmic rate. The reversed cycle leaves a different stress, but the same work.
 #[rstest]
 #[case::jaumann(JAUMANN, [-0.002_977_508_1, -0.003_181_719_0], [0.003_081_891_7, 0.003_080_719_7], 9.494_445e-6)]
 #[case::green_naghdi(GREEN_NAGHDI, [0.001_516_992_8, 0.001_567_942_8], [f64::NAN; 2], 2.379_856e-6)]

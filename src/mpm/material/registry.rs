@@ -1,7 +1,8 @@
 //! Registration: one line defines the name of a material and the keys of its parameters.
 
 /// Declares the registry of materials from the lines of [`each_material`](crate::members). The key
-/// of the density is added to the keys of every material; laws compute the density from the masses.
+/// of the density is added to the keys of every material. Laws do not receive this key, because
+/// they compute the density from the masses.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?

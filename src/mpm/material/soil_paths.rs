@@ -1,5 +1,5 @@
-//! Compares the plasticity of soils with closed forms along paths of deformation: the stress of one
-//! particle after every step.
+//! Compares the stress of one particle of soil after every step with closed forms, along paths of
+//! deformation.
 
 use super::MaterialPlan;
 use super::plastic_flow::path::isotropic;

@@ -14,7 +14,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector, product};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// Maximum number of sweeps. Each sweep squares the off-diagonal entries, so a few sweeps suffice.
-/// For NaN, the loop ends only at this limit.
+/// For NaN, the loop ends only at this maximum.
 const MOST_SWEEPS: usize = 12;
 
 /// Computes the eigenvalues of the symmetric matrix `m` and its axes as columns:

@@ -280,7 +280,7 @@ mod tests {
         }
     }
 
-    /// The test changes the volume of a particle outside the law.
+    /// The volume of a particle is changed outside the law.
     #[test]
     fn particles_are_strained_once_and_checked_after_changes() {
         let mut body = squares(3);

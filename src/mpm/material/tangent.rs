@@ -133,8 +133,8 @@ mod tests {
             let mut dh = Matrix::<D>::zeros();
             dh[(k / D, k % D)] = 1.0;
             let stress = |step: f64| response(&((Matrix::identity() + dh * step) * f)).kirchhoff;
-            // The difference is of fourth order. The error of a second-order difference would be
-            // 1e-10 of the modulus.
+            // A difference of fourth order is used, because the error of a second-order difference
+            // would be 1e-10 of the modulus.
             let wide = (stress(2.0 * step) - stress(-2.0 * step)) / (4.0 * step);
             let narrow = (stress(step) - stress(-step)) / (2.0 * step);
             let expected = (narrow * 4.0 - wide) / 3.0;
@@ -200,7 +200,7 @@ mod tests {
         }
     }
 
-    /// The response has the stress of the update, and does not change the state of the law.
+    /// The response has the same stress as the update, and does not change the state of the law.
     #[test]
     fn response_has_the_stress_of_the_update() {
         let plans = || every().into_iter().filter(has_tangent);

@@ -13,8 +13,8 @@
 //! a body, where `grad m_a - grad m_b` may have the wrong sign.
 //!
 //! Impulses are added to accelerations, `a_i = (v*_i - v_i)/dt`, so that particles receive the
-//! complete impulses. Velocities that strain the bodies before or after the impulses are corrected
-//! by the same rule, but only for the strain update.
+//! complete impulses. The velocities that strain the bodies may be computed before or after the
+//! impulses. They are corrected by the same rule, but only for the strain update.
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
@@ -121,8 +121,8 @@ impl<const D: usize> Contact<D> {
         }
     }
 
-    /// Returns normal and reduced mass of a pair of bodies at node i; `None` unless both have mass
-    /// there.
+    /// Returns the normal and the reduced mass of a pair of bodies at node i; `None` unless both
+    /// bodies have mass at the node.
     fn meet_at(&self, bodies: &[Solver<D>], i: usize, pair: usize) -> Option<ContactPair<D>> {
         let [(m, out_of_one), (k, out_of_other)] =
             self.pairs[pair].map(|k| (bodies[k].setup.grid.mass[i], &self.outwards[k][i]));

@@ -131,7 +131,7 @@ impl<const D: usize> Subject for Bodies<D> {
         for solver in &self.solvers {
             solver.particles().sample(samples);
         }
-        // If any body has no deformation gradients, the column must be empty.
+        // The column must be empty if a body has no deformation gradients.
         if samples.deformation_gradient.len() != samples.len() * D * D {
             samples.deformation_gradient.clear();
         }
@@ -215,8 +215,9 @@ pub(in crate::mpm) fn joint_profile<const D: usize>(
     all
 }
 
-/// Adds the columns of one body to `all`. Columns of the same kind are added to each other, in
-/// order if a body has several, for example for two walls.
+/// Adds the columns of one body to `all`. Columns of the same kind are added to each other. If a
+/// body has several columns of one kind, for example for two walls, their order decides which ones
+/// are added.
 fn add_columns(all: &mut Vec<ColumnSize>, body: Vec<ColumnSize>) {
     let kind = |column: &ColumnSize| (column.name, column.holder, column.bytes);
     let known = all.len();

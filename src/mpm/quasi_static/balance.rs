@@ -62,7 +62,7 @@ pub(super) struct Iterate<const D: usize> {
     /// Norm of the residual over the unknowns (N).
     pub(super) norm: f64,
     responses: Vec<StressResponse<D>>,
-    /// Factor `(I + grad u)^-T` of the gradients at each particle.
+    /// Matrix `(I + grad u)^-T` at each particle, by which gradients are multiplied.
     push: Vec<Matrix<D>>,
 }
 

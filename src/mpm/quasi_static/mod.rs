@@ -16,7 +16,7 @@
 //! load, the body remains at rest.
 //!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
-//! transfer. If Newton's method does not converge, the run fails; the load step is not divided.
+//! transfer. If Newton's method does not converge, the load step is not divided, and the run fails.
 
 mod balance;
 mod banded;
@@ -54,7 +54,7 @@ pub struct QuasiStaticSetup<const D: usize> {
     pub effects: Vec<Box<dyn Effect<D>>>,
     /// Fixed walls.
     pub boundary: Vec<Box<dyn Boundary<D>>>,
-    /// Number of load steps of length 1 that add up to the full load.
+    /// Number of load steps, each of length 1, that add up to the full load.
     pub load_steps: u64,
 }
 
@@ -181,7 +181,8 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         balance.add_holding_forces(&self.initial_stress, particles, 1.0 - share, &mut load);
         let solution = newton::solve(&balance, particles, material.as_ref(), &load);
         self.residuals = solution.residuals;
-        // For each iterate, the stress and the tangent each visit the nodes of all particles.
+        // For each iterate, the computation of the stress and that of the tangent each visit the
+        // nodes of all particles.
         let passes = 2 * self.residuals.len() as u64;
         self.transfers += passes * balance.pairs();
         let iterate = solution.last?;

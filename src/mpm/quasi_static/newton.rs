@@ -2,10 +2,11 @@
 //!
 //! The method first takes full steps, even if the residual rises for a few iterates: when particles
 //! begin to yield, a full step increases the residual, and the next one reduces it by orders of
-//! magnitude. If several successive iterates do not improve on the best one, for example in a cycle
-//! between the branches of a law, the method returns to the best iterate and then accepts only
-//! steps that reduce the residual (the watchdog technique of Chamberlain, Powell, Lemarechal &
-//! Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always halved.
+//! magnitude. If several successive iterates do not improve on the best one, for example because
+//! they alternate between elastic and plastic response, the method returns to the best iterate and
+//! then accepts only steps that reduce the residual (the watchdog technique of Chamberlain, Powell,
+//! Lemarechal & Pedersen 1982, Math. Program. Study 16). A step that inverts a particle is always
+//! halved.
 
 use super::balance::{Iterate, StepEquations};
 use crate::mpm::foundation::algebra::Vector;
@@ -99,7 +100,7 @@ impl<const D: usize> LoadStep<'_, D> {
         for _ in 0..=MOST_HALVINGS {
             let moved = now.increment.iter().zip(&correction);
             let next = self.iterate(moved.map(|(u, change)| u + change * share).collect());
-            // An increment that inverts a particle gives an error instead of an iterate.
+            // A correction that inverts a particle gives an error instead of an iterate.
             let next = next
                 .ok()
                 .filter(|next| !searches || next.norm <= (1.0 - SUFFICIENT * share) * now.norm);

@@ -84,7 +84,7 @@ impl<const D: usize> Particles<D> {
         (self.rate_across, self.stress_across) = (vec![0.0; self.len()], vec![0.0; self.len()]);
     }
 
-    /// Whether the body is a body of revolution with a particle whose initial radius is NaN or
+    /// Whether this is a body of revolution in which the initial radius of a particle is NaN or
     /// differs from the reference radius.
     pub(in crate::mpm) fn is_widened(&self) -> bool {
         let is_own = |(x, x0): (&Vector<D>, &Vector<D>)| x[0] == x0[0];

@@ -13,7 +13,7 @@ impl<const D: usize> Particles<D> {
     /// Particles in the same cell keep their order, and particles outside the grid come last. Must
     /// be called before effects or transfers create their own columns.
     pub fn sort_by_cell(&mut self, grid: &Grid<D>) -> Vec<usize> {
-        // Pseudo-cell of the particles outside the grid, after all cells.
+        // Particles outside the grid get an additional cell number after all cells.
         let nowhere = grid.cells.iter().product();
         let place = |x: &Vector<D>| {
             grid.cell(x).map_or(nowhere, |cell| {
@@ -62,8 +62,8 @@ impl<const D: usize> Particles<D> {
     }
 }
 
-/// Moves entry `order[k]` to position k, in all existing columns. Each column reuses the memory of
-/// the previous one, because allocation costs more than the moves.
+/// Moves entry `order[k]` to position k, in all existing columns. The sorted copy of each column is
+/// written to the memory of the previous column, because allocation costs more than the moves.
 fn permute<T: Copy, const N: usize>(columns: [&mut Vec<T>; N], order: &[usize]) {
     let mut spare = Vec::new();
     for column in columns.into_iter().filter(|column| !column.is_empty()) {

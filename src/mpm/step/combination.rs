@@ -45,8 +45,9 @@ pub fn combine(
              consistent one by powers of the lumped one"
         ));
     }
-    // APIC-like transfers already map a linear field to m_i v(x_i), the product of the lumped
-    // matrix and the nodal velocities. The inverse of a consistent matrix would amplify this field.
+    // For a linear velocity field, APIC-like transfers give node i the momentum m_i v(x_i), which
+    // is the product of the lumped matrix and the nodal velocities. The inverse of a consistent
+    // matrix would therefore give wrong velocities.
     if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
         return Err(refusal!(
             "the transfer `{t}` is not supported with the mass matrix `{m}`: it gives each node \

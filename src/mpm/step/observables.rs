@@ -1,10 +1,9 @@
 //! Observables of a body: conserved sums, samples of the particles, and the reaction of fixed
 //! walls.
 //!
-//! Without the wall, the nodal forces would accelerate the fixed nodes. The reaction is therefore
-//! `-sum f_i` over the fixed components of internal and external forces. Only the functions of
-//! these nodes are non-zero on the wall, where their sum is one, so the reaction converges to the
-//! integral of the traction for small cells.
+//! The reaction balances the internal and external forces on the fixed nodes, so it is `-sum f_i`
+//! over the fixed components. Only the functions of these nodes are non-zero on the wall, where
+//! their sum is one, so the reaction converges to the integral of the traction for small cells.
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
@@ -14,8 +13,8 @@ use crate::subject::{Reaction, Samples, Totals};
 
 impl<const D: usize> Particles<D> {
     /// Returns current mass, momenta and kinetic energy, without the strain energy of the material.
-    /// `own` is the first moment of the velocity field within a particle, if the transfer has such
-    /// a field (Jiang et al. 2015).
+    /// The function `own` returns the first moment of the velocity field within a particle, if the
+    /// transfer has such a field (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
         for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {

@@ -86,13 +86,13 @@ impl CouplingPoint {
 /// All passes of a run.
 #[derive(Debug, Clone, Default)]
 pub(in crate::mpm) struct StepSchedule {
-    /// Passes before the first step. They compute the accelerations at t = 0 if velocities start
-    /// half a step back.
+    /// Passes before the first step. If the run starts with velocities half a step before t = 0,
+    /// these passes compute the accelerations at t = 0.
     pub(in crate::mpm) opening: Arc<[Pass]>,
     pub(in crate::mpm) passes: Arc<[Pass]>,
 }
 
-/// Properties of the coupling of a body with other bodies.
+/// Properties of the coupling between a body and other bodies.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::mpm) struct Coupled {
     pub(in crate::mpm) bodies: bool,

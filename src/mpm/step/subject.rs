@@ -2,8 +2,8 @@
 //! numbers.
 //!
 //! A step runs the passes of the schedule in order. The checkpoint functions list every field by
-//! name, so the compiler reports an omitted field. The grid and the advected positions are
-//! recomputed in each step.
+//! name, so the compiler reports an omitted field. The grid and the advected positions are not
+//! stored, because each step recomputes them.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
 //! its column exists, and the affine state of the transfer. Internal variables of a material
@@ -132,7 +132,7 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn totals(&self) -> Option<Totals> {
         let Setup { particles, transfer, material, .. } = &self.setup;
-        // With averaged volume ratios, the force is not the derivative of the energy of F.
+        // With averaged volume ratios, the internal force is not the derivative of the energy of F.
         let is_averaged = self.volume_average.is_some();
         let strain_energy = if is_averaged { None } else { material.energy(particles) };
         Some(Totals { strain_energy, ..particles.totals(|p| transfer.moment(p)) })

@@ -9,14 +9,14 @@
 //! Fbar_p = (Jbar_p/J_p)^(1/D) F_p
 //! ```
 //!
-//! The weights belong to the start of the step, like the weights for forces and velocity gradients,
-//! and J belongs to the end of the step. The averaging does not change F, J and volume of a
-//! particle. The internal force uses the volume `V0 J` and gradients without averaging. Both
-//! averages have the same weights, which sum to one, so a uniform J is reproduced and Jbar is
-//! between the smallest and largest J.
+//! The weights are those at the start of the step, as for forces and velocity gradients; J is the
+//! value at the end of the step. The averaging does not change F, J and volume of a particle. The
+//! internal force uses the volume `V0 J` and gradients that are not averaged. Both averages have
+//! the same weights, which sum to one, so a uniform J is reproduced and Jbar is between the
+//! smallest and largest J.
 //!
-//! A law that stores only J receives Jbar as its volume. The force does not derive from a stored
-//! energy.
+//! A law that stores only J receives Jbar as its volume. With averaged ratios, the internal force
+//! is not the derivative of a stored energy.
 
 use crate::mpm::foundation::algebra::{Matrix, Vector, det};
 use crate::mpm::foundation::grid::Grid;
@@ -44,9 +44,11 @@ pub(in crate::mpm) struct VolumeAverage<const D: usize> {
     ratio: Vec<Vector<D>>,
     /// Sums of `V0 J N_i` and `V0 N_i` for each node (m^D); later Jbar_i and 1.
     nodal_ratio: Vec<Vector<D>>,
-    /// Own volume of each particle (m^D), stored while the law reads the averaged volume.
+    /// Volume of each particle without averaging (m^D), stored while the law reads the averaged
+    /// volume.
     own_volume: Vec<f64>,
-    /// Own F of each particle, stored while the law reads Fbar; empty if the law does not read F.
+    /// F of each particle without averaging, stored while the law reads Fbar; empty if the law does
+    /// not read F.
     own_def_grad: Vec<Matrix<D>>,
 }
 

@@ -39,9 +39,9 @@ impl TransferParameter {
     pub(super) const TERMS: Self = Self { range: (1, 64), words: ("a series of", "terms") };
 }
 
-/// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. Methods with a
-/// loop over particles return the number of passes for the work counter, which counts each quantity
-/// of a request as a pass.
+/// Exchange of velocities between particles and grid, by passes of a [`Kernel`]. A method that
+/// loops over particles returns a number of passes for the work counter. Each quantity of a request
+/// counts as one pass.
 pub trait Transfer<const D: usize>: Send + Sync {
     /// Returns the kind of the transfer.
     fn kind(&self) -> TransferKind {

@@ -1,7 +1,7 @@
 //! PIC: the interpolated grid velocity replaces the particle velocity.
 //!
-//! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). Every step filters the velocity once through the grid.
-//! This damps variations within a cell.
+//! `v_p = sum_i v_i N_i(x_p)` (Harlow 1964). In each step, the velocity is averaged by one transfer
+//! to the grid and back, which damps variations within a cell.
 
 use super::contract::Transfer;
 use crate::mpm::kernel::contract::G2pRequest;

@@ -1,8 +1,8 @@
 //! TPIC: PIC with the first terms of a Taylor series.
 //!
 //! `v_p = sum_i v_i N_i`, `C_p = sum_i v_i (x) grad N_i`, and nodes receive `v_p + C_p (x_i - x_p)`
-//! (Nakamura, Matsumura & Mizutani 2023, CMAME 411). No inertia tensor is inverted. Angular
-//! momentum is not conserved exactly, because the gradient of the basis is not a moment.
+//! (Nakamura, Matsumura & Mizutani 2023, CMAME 411). Unlike in APIC, no inertia tensor is inverted.
+//! Angular momentum is not conserved exactly, because the gradient of the basis is not a moment.
 
 use super::contract::{Transfer, TransferKind, p2g};
 use crate::mpm::foundation::algebra::Matrix;

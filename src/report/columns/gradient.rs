@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 /// One level, with the order relative to the previous level.
 pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
 
-/// One perturbation, the Taylor remainder, its order relative to the previous perturbation, and the
-/// central difference.
+/// One perturbation, the remainder of the Taylor series with the order relative to the previous
+/// perturbation, and the central difference.
 pub(crate) struct TaylorRow {
     perturbed: Perturbed,
     remainder: f64,

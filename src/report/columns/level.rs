@@ -83,8 +83,8 @@ fn norms<'a>() -> [LevelColumn<'a>; 5] {
     ]
 }
 
-/// Returns the columns of the largest error of `of` at the end and of the order of this error. An
-/// error that equals the judged error is shown as a dash.
+/// Returns two columns: the largest error of the quantity `of` at the end, and the order of this
+/// error. An error that equals the judged error is shown as a dash.
 pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
     let heading = format!("linf of {} at end ({})", of.words(), of.unit());
     let about = "order of the largest error between the two finest levels";
@@ -256,8 +256,8 @@ impl LevelRow<'_> {
         Cell::number(error, scientific).or_failed(self.level.run.failure.as_ref())
     }
 
-    /// Returns the largest error at the end: of the judged quantity if it is a primary unknown,
-    /// otherwise of the displacement.
+    /// Returns the largest error at the end: the error of the judged quantity if this is a primary
+    /// unknown, otherwise the error of the displacement.
     fn linf(&self) -> f64 {
         let run = &self.level.run;
         let errors =

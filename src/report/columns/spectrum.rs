@@ -87,7 +87,8 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// Returns the columns of closed-form values for each Courant number. No run confirms these values.
+/// Returns the columns of closed-form values for each Courant number. These values are not compared
+/// with runs.
 pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),

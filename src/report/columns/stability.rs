@@ -41,7 +41,7 @@ fn steps<'a>() -> TrialColumn<'a> {
 
 /// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
-    // The ledger table prints the other ledger quantities in joules.
+    // A separate table lists the other energies of the ledger, in joules.
     let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;
     let figures = study.figures.iter().filter(is_here).map(|one| figure(*one));
     let columns = [verdict(), steps()].into_iter().chain(figures);
@@ -49,7 +49,7 @@ pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     std::iter::once(swept(study)).chain(columns).collect()
 }
 
-/// Returns the columns of limits; `sought` is the parameter whose limit is searched.
+/// Returns the columns of stability limits. `sought` is the name of the parameter that is limited.
 pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let mut columns = vec![
         swept(study),

@@ -63,8 +63,9 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Selects the error change to report. Levels that newly fail or no longer fail come first, then
-/// the finest level, then the level with the largest change. Returns `None` without a change.
+/// Selects the error change to report. Levels that newly fail or no longer fail are preferred.
+/// Otherwise the finest level is used, or, if its error has not changed, the level with the largest
+/// change. Returns `None` without a change.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,

@@ -1,8 +1,8 @@
 //! Compares the work for the same error in two runs.
 //!
-//! Methods and versions reach different errors on the same grid, so the relevant cost is the work
-//! for a target error. Between two levels of a converging series, ln(work) is interpolated linearly
-//! in ln(error). This is exact for `error = C h^p` and `work = c h^-q`. Nothing is extrapolated,
+//! On the same grid, two methods or versions reach different errors, so the work for a target error
+//! is compared. Between two levels of a converging series, ln(work) is interpolated linearly in
+//! ln(error). This is exact for `error = C h^p` and `work = c h^-q`. Nothing is extrapolated,
 //! because the error may stop falling on levels finer than the last one.
 
 /// Error and work of a level.
@@ -74,8 +74,8 @@ mod tests {
             .collect()
     }
 
-    /// With these power laws, four times the error means eight times the work at equal error:
-    /// (c'/c)^(3/2).
+    /// With these power laws, the ratio of the work at equal error is (c'/c)^(3/2): eight for four
+    /// times the error.
     #[rstest]
     #[case::itself(1.0, 1.0, 1.0)]
     #[case::twice_the_work(1.0, 2.0, 2.0)]

@@ -6,7 +6,8 @@
 //! particle-node transfers, which is the same on all machines. Work is compared at equal error
 //! (`equal_error`) if the errors of both runs have a common range.
 //!
-//! A case that has only bounds on drifts has no error to compare, so only its verdict is compared.
+//! For a case that only bounds the drift of conserved sums there is no error to compare, so only
+//! the verdict is compared.
 
 mod accuracy;
 mod changes;
@@ -25,8 +26,8 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::{json, markdown, text};
 
-/// Default maximum relative change of a value that counts as unchanged, as in the [drift
-/// gate](super::text::drift).
+/// Default tolerance: values whose relative change is at most this number count as unchanged, as in
+/// the [drift gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
 /// Compares `old` with `new`. Changes by at most the relative `tolerance` are ignored.

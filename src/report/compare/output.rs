@@ -49,8 +49,9 @@ const MAX_ROWS: usize = 40;
 
 /// Writes a comparison as Markdown, for a comment on a pull request.
 ///
-/// The first line is a summary. Tables of worse results are unfolded, the others folded. All text
-/// from files is escaped, so that it cannot contain markup, mention a user or end a table.
+/// The first line is a summary. Tables of worse results are unfolded, and all other tables are
+/// folded. All text from files is escaped, so that it cannot contain markup, mention a user or end
+/// a table.
 pub fn markdown(comparison: &ReportComparison) -> String {
     let head = if comparison.is_worse() { "Worse" } else { "Nothing worse" };
     let mut page = format!("**mpm-verify: {head}**: {}\n", comparison.headline());
@@ -288,7 +289,7 @@ fn times(ratio: f64) -> String {
     }
 }
 
-/// Creates a code span. Only backticks, table bars and control characters are replaced.
+/// Creates a code span. Only backticks, table bars and control characters need replacement.
 pub(super) fn code(text: &str) -> String {
     let plain = |c: char| match c {
         '`' => "'".to_owned(),

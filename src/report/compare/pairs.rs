@@ -164,8 +164,8 @@ fn otherwise(
     notes
 }
 
-/// Returns the kind of change if the verdict has changed, or whether the case meets its
-/// expectations.
+/// Returns the kind of change if the verdict has changed, or if the case newly meets or no longer
+/// meets its expectations; otherwise `None`.
 fn verdict_rank(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -198,7 +198,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// Returns the kind and size of a change that affects only errors, work or stability limits.
+/// Returns the kind and size of a change of errors, work or stability limits.
 fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
     let error = found.error.as_ref();
     let work = found.equal.map(|equal| equal.ratio).or(found.work);
@@ -215,9 +215,9 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
     }
 }
 
-/// Names of statement rows about levels and outputs. Differences in these rows are not changes of
-/// the problem. `--full adds` is the former name of `further levels`, and names that are read from
-/// snapshots have one word.
+/// Names of the rows about levels and outputs in the description of a problem. Differences in these
+/// rows are not changes of the problem. Older documents have `--full adds` instead of `further
+/// levels`. Names read from snapshots have only one word.
 const OF_LEVELS: [&str; 11] = [
     "cells",
     "dt",
@@ -232,7 +232,7 @@ const OF_LEVELS: [&str; 11] = [
     "crossing",
 ];
 
-/// Returns the suites whose statement differs between the runs.
+/// Returns the suites whose problem description differs between the runs.
 fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
     let moved = |suite: &SuiteDocument| {
         let before = old.suites.iter().find(|known| known.name == suite.name)?;
@@ -242,8 +242,8 @@ fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove>
     new.suites.iter().filter_map(moved).collect()
 }
 
-/// Returns the rows that differ between two statements; none if one of the statements was not
-/// stored.
+/// Returns the rows that differ between two problem descriptions; none if one of the descriptions
+/// was not stored.
 fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
     if old.is_empty() || new.is_empty() {
         return Vec::new();
@@ -277,7 +277,7 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
 }
 
 /// Returns the target errors whose minimum work has changed, sorted by decreasing ratio. Targets
-/// that no method reaches any longer come first. Suites with a changed problem are excluded.
+/// that are no longer reached come first. Suites with a changed problem are excluded.
 ///
 /// The key `cost` of a document lists the work of each method for each target of its problem.
 /// Documents without this key are not compared.

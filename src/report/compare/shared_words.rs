@@ -18,8 +18,8 @@ pub(super) struct SharedWord {
     pub(super) all: usize,
 }
 
-/// Finds words common to the names of several worse cases. `cases` are pairs of `SUITE::CASE` and
-/// whether the case became worse.
+/// Finds words common to the names of several worse cases. Each of `cases` consists of the name
+/// `SUITE::CASE`, and of a flag that is true if the case became worse.
 ///
 /// Words in more worse cases come first, then words in fewer cases overall. A case counts only for
 /// the first of its words. The result is empty if at most half of the worse cases have a shared
@@ -42,7 +42,7 @@ pub(super) fn shared_words(cases: &[(&str, bool)]) -> Vec<SharedWord> {
             all: cases.iter().filter(|(words, _)| words.contains(word)).count(),
         };
         let tells = |shared: &SharedWord| {
-            // A word that all cases have does not distinguish the worse ones.
+            // A word in the names of all cases does not distinguish the worse ones.
             shared.all < cases.len()
                 && shared.worse >= FEWEST
                 && shared.worse as f64 > MOST * shared.all as f64

@@ -4,7 +4,7 @@
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
 
-/// Axis name for studies whose snapshot contains only the finest level.
+/// Name used as refinement axis if the snapshot contains only the finest level.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {

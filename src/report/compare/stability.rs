@@ -8,11 +8,11 @@ use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
 pub(super) struct StabilityMove {
     /// Descriptions of rows with a changed verdict.
     pub(super) verdicts: Vec<String>,
-    /// Whether any of these verdicts is worse, and whether any is better.
+    /// Whether any verdict is worse, and whether any verdict is better.
     pub(super) verdict: [bool; 2],
     /// Descriptions of rows with a changed limit.
     pub(super) limits: Vec<String>,
-    /// Whether any of these limits is lower, and whether any is higher.
+    /// Whether any limit is lower, and whether any limit is higher.
     pub(super) limit: [bool; 2],
     /// Largest `|ln(new limit/old limit)|` of all rows.
     pub(super) weight: f64,

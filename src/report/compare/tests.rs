@@ -143,7 +143,8 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 #[test]
 fn a_small_change_is_detected() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // Only part of the interval between the two finest levels has changed work: 1.004^0.82.
+    // Only a part of the work at this error, which is interpolated between the two finest levels,
+    // has changed: 1.004^0.82.
     assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
 }
 
@@ -366,7 +367,7 @@ fn duplicate_cases_are_refused() {
     assert_eq!(error.message, "the case `bar::a` is there twice");
 }
 
-/// Names and verdicts come from a file. They must not add markup, end a table or mention a user.
+/// Names and verdicts are text from a file, and must not add markup, end a table or mention a user.
 #[test]
 fn markdown_is_escaped() {
     let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";

@@ -5,7 +5,7 @@ use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Maximum number of lines with their own colour and name, because a reader cannot distinguish
+/// Maximum number of lines with a separate colour and name, because a reader cannot distinguish
 /// more.
 const MOST_NAMED: usize = 7;
 
@@ -79,7 +79,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
 fn coincide(a: &Ranked, b: &Ranked) -> bool {
     let (a, b) = (&a.method.samples, &b.method.samples);
     let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
-    // Levels that count for neither method need not coincide.
+    // Levels that count for neither method may differ.
     let same = |(a, b): (&Sample, &Sample)| {
         let counts = a.counts() || b.counts();
         !counts || (near(a.work, b.work) && near(a.error, b.error))

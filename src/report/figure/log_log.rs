@@ -20,7 +20,7 @@ pub struct LogLogPlot {
     pub x_label: String,
     /// Label of the vertical axis with its unit.
     pub y_label: String,
-    /// Methods with their own line and name.
+    /// Methods with a separate line and name.
     pub series: Vec<PlotSeries>,
     /// Other methods, drawn as thin grey lines without names.
     pub others: Vec<PlotSeries>,

@@ -197,7 +197,7 @@ fn rounded(order: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Returns the points whose mark `is_chosen` accepts, sorted by spacing or work.
+/// Returns the points whose mark `is_chosen` accepts, sorted by their horizontal coordinate.
 fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
     let drawn =
         series.points.iter().filter(|point| is_drawn(point)).filter(|point| is_chosen(point.mark));
@@ -240,7 +240,7 @@ impl HistoryPlot {
 }
 
 impl Map {
-    /// Creates the figure as a LaTeX document with a field for each number, including its text.
+    /// Creates the figure as a LaTeX document. Each number is printed on a coloured field.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, "");
@@ -287,8 +287,8 @@ impl Map {
 
 impl ErrorMap {
     /// Creates the figure as a LaTeX document. Plane bodies have a panel for each case. Each part
-    /// of the body is a square, coloured by the decimal logarithm of its error. Bars have one plot
-    /// of the errors over the position, with a curve for each case.
+    /// of a body is a square, coloured by the decimal logarithm of the error. Bars have one plot of
+    /// the errors over the position, with a curve for each case.
     pub fn to_pgfplots(&self) -> String {
         if self.panels.iter().any(|(_, field)| field.is_plane) {
             self.panels_to_pgfplots()

@@ -15,11 +15,11 @@ pub struct PlotPoint {
     /// The error. An error that is not finite is drawn as failed; a zero error is mentioned below
     /// the figure.
     pub error: f64,
-    /// How the judge uses the level.
+    /// Use of the level by the judge.
     pub mark: Mark,
 }
 
-/// How the judge uses a level, and how a plot shows this use.
+/// Use of a level by the judge, and its marker in a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// The level is in the asymptotic window: filled marker, solid line.
@@ -79,7 +79,7 @@ pub(super) struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// Creates a series with its own colour.
+    /// Creates a series with the colour and marker of its method.
     pub(super) fn new(series: &'a PlotSeries) -> Self {
         let look = look(series.look);
         Self { name: &series.name, look, grey: false, levels: levels(&series.points) }

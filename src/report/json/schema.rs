@@ -47,8 +47,8 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
-    // Only convergence studies have the verdicts of the judge. Other studies, and cases that do not
-    // apply, have verdicts of their own.
+    // Only convergence studies have the verdicts in this list. Other studies, and cases that do not
+    // apply, have other verdicts.
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),

@@ -107,8 +107,8 @@ fn file(source: &SuiteSource<'_>) -> Html {
     folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
 }
 
-/// Creates a folded block of preformatted text. `words` is the text on which a reader clicks to
-/// unfold the block.
+/// Creates a folded block of preformatted text. A reader clicks on the text `words` to unfold the
+/// block.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));
@@ -152,8 +152,8 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
 /// ids.
 ///
 /// Ids must be unique on a page with many figures. References to an id get the same prefix. The
-/// style sheet of figures is on the page once, so the copy in the document is removed. The style
-/// sheet of the page sets the size of a figure; the `viewBox` preserves its shape.
+/// page already contains the style sheet of figures, so the copy in the document is removed. The
+/// style sheet of the page sets the size of a figure; the `viewBox` preserves its shape.
 pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
     let ids = ids(document);
     let mut inline = document.trim().to_owned();

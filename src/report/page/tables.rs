@@ -242,7 +242,8 @@ pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
     format!("suite-{}", outcome.suite)
 }
 
-/// Returns the id of a case's row. Ids are unique because names of suites contain no dot.
+/// Returns the id of a case's row. The id has a dot between the names of suite and case. Names of
+/// suites contain no dot, so ids are unique.
 pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const HOSTILE: &str = "</pre></script><script>alert(1)</script>\"'<img src=x onerror=alert(2)>&lt;";
 
-/// Creates an internal-force study with `words` as every text.
+/// Creates an internal-force study in which every text contains `words`.
 fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
     let word = || words.to_owned();
     let row = |position| ForceRow { position, left: 1, right: 2, force: position, predicted: 0.5 };

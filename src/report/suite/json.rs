@@ -41,22 +41,22 @@
 //! `null` marks a missing value. Numbers that are not finite are the strings `"nan"`, `"inf"`,
 //! `"-inf"`.
 //!
-//! Internal-force studies have no levels; their `forces` are a list of
-//! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
-//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row contains the `value` of the
-//! swept parameter. It also contains either the `run`, with its verdict and measured values, or the
-//! limit of the sought parameter: `predicted`, `observed` (each with `at`, or `above` or `below`
-//! the range) and the runs that `confirmed` it.
+//! Internal-force studies have no levels; their `forces` are a list of `{"position", "n_left",
+//! "n_right", "force", "predicted"}`. Stability studies have no levels either; their `stability` is
+//! `{"swept", "sought", "rows"}`. Each row contains the `value` of the swept parameter. It also
+//! contains either the `run`, with its verdict and measured values, or the stability limit of the
+//! parameter named in `sought`: `predicted`, `observed` (each with `at`, or `above` or `below` the
+//! range) and the runs that `confirmed` it.
 //!
 //! `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the spacing on this
 //! axis. There is no formal order for `particles`. `energy_rate` is d ln E/dt (1/s), followed by
 //! both ends of its 95 % interval. For a law without an energy the drift of `energy` is `"nan"`.
 //! `stable_time_step` (s) is present if the time step is automatic, or if a given time step is
 //! longer than the stable one. `profile` is the cost of one step on the coarsest level, if the
-//! subject reports it (MPM): its `passes` in order, the number of particles that each part of these
-//! passes `visits`, and the `columns` of memory, with the `bytes` of one entry. `floor` contains
-//! the error of the finest level with another spacing halved, if such a run exists. Its `cause` is
-//! one of the axes, or `none`, or null if the cause could not be determined.
+//! solver reports it (MPM). It contains the `passes` in order, the number of particles that each
+//! part of the passes `visits`, and the `columns` of memory with the `bytes` of one entry. `floor`
+//! contains the error of the finest level with another spacing halved, if such a run exists. Its
+//! `cause` is one of the axes, or `none`, or null if the cause could not be determined.
 //!
 //! Keys may be added, but are renamed or removed only in a new major version. `docs/columns.md`
 //! lists the keys of rows.

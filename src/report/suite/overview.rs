@@ -6,8 +6,8 @@ use crate::report::text::prose::{paragraph_lines, row, row_of_width};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
 
-/// Column widths in the overview of all suites. They are fixed because the overview is stored as a
-/// snapshot.
+/// Column widths in the overview of all suites. The widths are fixed, because the overview is
+/// stored as a snapshot.
 const WIDTHS: [(&str, usize); 16] = [
     ("suite", 31),
     ("linear", BASIS),

@@ -1,7 +1,7 @@
 //! Reports as text: aligned tables that are readable in a diff.
 //!
-//! Errors have four significant digits and orders two decimals; counters are exact. Reports do not
-//! depend on the machine.
+//! Errors have four significant digits, and orders have two decimals. Counters are exact. Reports
+//! do not depend on the machine.
 
 use super::verdicts;
 use crate::report::columns::TableColumn;
@@ -31,9 +31,10 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds the statement of the problem: parameters and functions in rows, the rest in one paragraph.
+/// Adds the description of the problem: parameters and functions in rows, the rest in one
+/// paragraph.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The judged quantity is left out, because the heading of the error table contains it.
+    // The judged quantity is omitted, because the heading of the error table contains it.
     let is_told = |(key, value): &&(String, String)| {
         key == "judged" || (key == "crossing levels" && value == "counted")
     };

@@ -2,7 +2,7 @@
 //! compared with theory. The module also writes the reports of timed suites. Their times depend on
 //! the machine and are therefore not in snapshots.
 //!
-//! Snapshots count work in particle-node transfers, which are equal on all machines.
+//! Snapshots give work as the number of particle-node transfers, which is equal on all machines.
 
 use super::table::Table;
 use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
@@ -57,7 +57,7 @@ pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option
 }
 
 /// Describes the value by which the errors of a ranking are divided. `study` is one of the ranked
-/// studies, if they are known.
+/// studies, if known.
 fn relative(ranking: &Ranking, study: Option<&Convergence>) -> String {
     let with_unit = |value: String, of: Quantity| {
         let text = format!("divided by {value} {}", of.unit());

@@ -2,7 +2,8 @@
 //!
 //! Text and whole numbers (counters) must be equal. Decimal numbers may differ by [`RELATIVE`], or
 //! by one unit in the last printed digit. A number that is not finite equals nothing, not even
-//! itself. These tolerances cover last-bit differences between platforms, but no relevant change.
+//! itself. These tolerances allow differences in the last bits between platforms, but no relevant
+//! change.
 
 /// Maximum relative difference between decimal numbers that count as equal.
 pub const RELATIVE: f64 = 1e-3;

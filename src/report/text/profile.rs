@@ -1,5 +1,5 @@
-//! Formats the cost of a step (effects, passes, visits and memory) as rows for reports and
-//! `explain`, and as tables of all methods.
+//! Formats the cost of a step as rows for reports and `explain`, and as tables of all methods:
+//! active loads and other effects, passes over particles and nodes, visited particles, and memory.
 
 use super::prose::{hanging, paragraph_lines};
 use super::table::Table;
@@ -23,8 +23,8 @@ pub(crate) fn effects(profile: &Profile, none: &str) -> String {
     if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
-/// Lists the differences between two profiles: each row of the first that differs in the second,
-/// followed by the row of the second.
+/// Lists the differences between two profiles: each row of the first profile that differs, followed
+/// by the same row of the second.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);
@@ -127,8 +127,8 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     table.flush_left(&["effects"]).lines()
 }
 
-/// Returns two sums of bytes: of columns with an entry for each particle or node, and of the other
-/// columns.
+/// Returns the bytes of the columns with an entry for each particle or node, and the bytes of the
+/// other columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);

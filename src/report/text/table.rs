@@ -126,8 +126,8 @@ fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     merged_blocks(rows.into_iter().map(block))
 }
 
-/// Puts the name of its block in front of each row. Equal blocks are merged and get a combined
-/// name.
+/// Puts the name of the block in front of each of its rows. Equal blocks are merged and get a
+/// combined name.
 pub(crate) fn merged_blocks(
     blocks: impl Iterator<Item = (String, Vec<Vec<String>>)>,
 ) -> Vec<Vec<String>> {
@@ -201,8 +201,8 @@ pub(crate) fn together(names: &[&str]) -> String {
     })
 }
 
-/// Combines names if they are all combinations of some words: `mpm-{linear,ugimp}-{flip,apic}`.
-/// Returns `None` otherwise.
+/// Combines names that consist of all combinations of some words, for example
+/// `mpm-{linear,ugimp}-{flip,apic}`. Returns `None` otherwise.
 fn product(first: &[String], names: &[Vec<String>]) -> Option<String> {
     let at = |k: usize| {
         names.iter().map(|name| name.get(k)).collect::<Option<Vec<&String>>>().map(distinct)

@@ -60,7 +60,7 @@ fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
     Conserved::ALL.iter().copied().filter(|sum| moves && has(sum)).collect()
 }
 
-/// Returns the sizes of the numbers that the solver of a case rounds.
+/// Returns the sizes of the numbers whose rounding limits the accuracy of a case.
 pub(super) fn rounding_sizes(
     plan: &ConvergencePlan,
     case: &Case,
@@ -109,7 +109,8 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
-        // Load steps are not refined, and heat is integrated by forward Euler.
+        // For load steps the order is not used, because they are not refined. Heat conduction is
+        // integrated by forward Euler.
         Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
         // The order that an external solver claims in space is assumed in time too.
         Method::External { formal_order, .. } => return formal_order,
@@ -181,8 +182,8 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
 
 /// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
-    // A reference run of the same method has values at its own points only, so a formula for the
-    // motion is preferred.
+    // A reference run of the same method has values only at the points of that run, so a formula
+    // for the motion is preferred.
     let formula = plan.exact.as_ref().map(|exact| exact as &dyn Truth);
     let is_same = matches!(case.against, Against::SameMethod(_));
     let truth = if is_same { formula.unwrap_or(truth) } else { truth };

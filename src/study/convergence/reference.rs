@@ -7,8 +7,9 @@
 //! same grid, with steps so short that the result is the limit dt -> 0 of the space-discrete
 //! equations.
 //!
-//! At the Courant limit, the grid error of a body is larger than the time-step error and would hide
-//! it; `FineSteps` separates both. Methods that filter the velocity in every step (PIC, APIC) have
+//! With time steps near the Courant limit, the error of the grid is larger than the error of the
+//! time step and would hide it. A reference from `FineSteps` has the same grid error, so only the
+//! error of the time step remains. Methods that filter the velocity in every step (PIC, APIC) have
 //! no limit dt -> 0. Neither `FineGrid` nor `FineSteps` checks that the method converges to the
 //! right solution.
 
@@ -293,7 +294,8 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// Changes the method to double precision and to a start of second order.
+/// Changes the method to double precision, and to the start of second order (velocities at t =
+/// -dt/2).
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {

@@ -141,7 +141,7 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
         format!("{share} times the stable time step of each case and level")
     });
     if study.steps == StepKind::Time {
-        // Runs are compared with each other only at instants that they share.
+        // A run can be compared with a reference run only at instants that both have in common.
         let between = match study.cases.iter().any(|case| case.against.is_computed()) {
             true => ", or of steps between instants if compared with another run",
             false => "",

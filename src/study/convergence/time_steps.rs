@@ -40,14 +40,14 @@ impl TimeStep {
 }
 
 /// Computes the time steps of all cases and levels of `suite`; empty unless it is a convergence
-/// study. Levels whose set-up fails are excluded; their run reports the reason.
+/// study. Levels whose set-up fails are excluded, because the run reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
         for level in plan.refine.levels(extent) {
-            // A time step that the suite contains needs no prediction.
+            // A time step that the suite states needs no prediction.
             let stepped = match plan.refine.rule {
                 Some(_) => steps.of(plan, case, *level).map(|(level, _)| level),
                 None => Ok(*level),
@@ -135,7 +135,8 @@ impl StableSteps {
             let limit = limit(ROUNDS)?;
             return Ok((LevelPlan { dt: share * limit, ..level }, Some(limit)));
         }
-        // Unconverged iterations overestimate the limit. A failed set-up is reported by the run.
+        // Few iterations overestimate the limit. A failed set-up is not reported here, because the
+        // run reports it.
         let taken = taken(plan, case, level);
         let is_suspect = limit(FEW).is_ok_and(|limit| taken > NEAR * limit);
         let limit = if is_suspect { limit(ROUNDS).ok() } else { None };
@@ -191,8 +192,8 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Warns of a step that is longer than the stable step or differs from the requested step. The
-/// returned flag is true if the step is too long.
+/// Returns a warning about a step that is longer than the stable step or differs from the requested
+/// step, and whether the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -166,7 +166,7 @@ impl Candidate {
         loop {
             let next = runs.len();
             if next == cells.len() {
-                // In 3-D a larger ratio would make three levels too expensive.
+                // With a ratio above 1.5, three levels in 3-D would be too expensive.
                 let grown = (cells[next - 1] as f64 * 1.5 / self.stride as f64) as u64;
                 cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
             }

@@ -27,7 +27,7 @@ pub(crate) struct Candidate {
     pub(crate) error: PredictedError,
     /// Common divisor of the numbers of cells in the suite.
     pub(crate) stride: u64,
-    /// Maximum refinement relative to the levels of the method.
+    /// Maximum refinement relative to the levels that the method has run.
     pub(crate) reach: u64,
 }
 
@@ -55,7 +55,7 @@ fn common_divisor(a: u64, b: u64) -> u64 {
 }
 
 impl Candidate {
-    /// Returns the finest level of the converging part.
+    /// Returns the finest of the levels over which the error converges.
     pub(crate) fn finest(&self) -> &LevelOutcome {
         &self.study.levels[self.ranked.part.levels.end - 1]
     }
@@ -72,7 +72,7 @@ impl Candidate {
         let h = last.h * last.cells as f64 / cells as f64;
         let rule = libm::log(before.dt / last.dt) / libm::log(before.h / last.h);
         let rule = if rule.is_finite() { rule } else { 0.0 };
-        // On a fine grid a constant step would exceed the Courant limit.
+        // A step that does not decrease with h would exceed the Courant limit on a fine grid.
         let rule = if h < last.h { rule.max(1.0) } else { rule };
         LevelPlan { cells, h, dt: last.dt * libm::pow(h / last.h, rule), ..last }
     }

@@ -65,7 +65,7 @@ pub(crate) fn seconds(
     seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
-/// Measures the time (s) of the steps of a subject on a level. The time of an external solver
+/// Measures the time (s) of the steps of a solver on a level. The time of an external solver
 /// includes its response time.
 fn seconds_of(
     plan: &ConvergencePlan,
@@ -236,7 +236,7 @@ const ROUNDS: u32 = 250_000;
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
-/// Runs `work` on one thread. Large scenes would otherwise use several.
+/// Runs `work` on one thread, even if the scene is so large that it would use several.
 pub(crate) fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match &*ALONE {
         Some(pool) => pool.install(work),

@@ -36,8 +36,9 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     rows
 }
 
-/// Returns the parameters of a stability study whose values differ between runs: the swept and the
-/// sought parameter, each with the name of its row, and the parameters that depend on them.
+/// Returns the parameters of a stability study whose values differ between runs: the swept
+/// parameter and the parameter whose limit is searched for, each with the name of its row, and the
+/// parameters that depend on these two.
 fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
     let Some(plan) = suite.plan::<StabilityPlan>() else { return Vec::new() };
     let mut varied = vec![(plan.swept.clone(), Some("sweep"))];

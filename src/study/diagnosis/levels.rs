@@ -12,8 +12,8 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Maximum ratio of the distances from the theoretical order, without and with coarse levels, for
-/// which coarse levels are the cause.
+/// Coarse levels are the cause if omitting them reduces the difference from the theoretical order
+/// to at most this fraction.
 const CLOSER: f64 = 0.5;
 
 /// Maximum difference between the order of the finest two levels and the theoretical order, if
@@ -25,7 +25,7 @@ const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 const WHOLE: f64 = 0.1;
 
 /// Maximum ratio of the largest to the smallest error for which the errors count as independent of
-/// the cells.
+/// the cell size.
 const CONSTANT: f64 = 1.5;
 
 /// A level is too coarse if its cell size exceeds this fraction of the length scale of the
@@ -94,7 +94,7 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
 }
 
 /// Returns the ratio of the coarsest cell size to the length over which the exact solution changes,
-/// and a sentence that contains both.
+/// and a sentence with both numbers.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;

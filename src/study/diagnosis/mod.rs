@@ -118,7 +118,8 @@ pub fn diagnose(
     let known = Known { session: &session, plan: &all, levels: &found.levels, finest: &finest };
     for check in CHECKS {
         diagnosis.findings.extend(check(&known));
-        // If the cause is known, changed runs with the same step, grid or load give no evidence.
+        // If the cause is known, runs with one change give no evidence, because they have the same
+        // step, grid or load.
         if diagnosis.is_known() {
             break;
         }
@@ -195,8 +196,8 @@ fn changed_plans(
     changed
 }
 
-/// Returns the ratio of the judged quantity's size in `smaller`, a plan with a smaller motion, to
-/// its size in `plan`. Each size is divided by the divisor of the errors.
+/// Returns the size of the judged quantity in `smaller`, a plan with a smaller motion, divided by
+/// the size in `plan`. Each size is divided by the divisor of the errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {

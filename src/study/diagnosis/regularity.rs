@@ -1,7 +1,7 @@
 //! Finds jumps of the exact displacement or its derivatives, and the order that such jumps allow.
 //!
-//! The derivatives are computed from the formulas. Between two points that approach each other, a
-//! jump remains, while the change across a steep slope vanishes.
+//! The derivatives are computed from the formulas. If two points approach each other, the
+//! difference of their values remains at a jump, but vanishes on a steep slope.
 
 use super::session::Known;
 use crate::exact::{Derivatives, Problem};
@@ -12,7 +12,7 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, OrderHypothesis, Quantity}
 /// Length (cells) below which a change of the strain counts as a jump.
 const STEEP: f64 = 0.5;
 
-/// A jump explains an observed order that is at most this much below the limit.
+/// A jump explains an observed order only if the order is at most this much below the limit.
 const BELOW: f64 = 0.5;
 
 /// Returns the maximum order that a method of order `p` can reach if the derivative of order `jump`
@@ -229,7 +229,7 @@ impl LocalLine {
         places.filter(|(_, place)| problem.holds(place))
     }
 
-    /// Finds the position where a component of `at` jumps by at least `least`.
+    /// Finds the position where a component of the function `at` jumps by at least `least`.
     fn jump(
         &self,
         problem: &Problem,

@@ -13,10 +13,10 @@ use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypo
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
-/// Maximum distance below the theoretical order of an order that counts as restored.
+/// An order counts as restored if it is at most this much below the theoretical order.
 const NEAR: f64 = 0.2;
 
-/// Maximum distance above the theoretical order of an order that counts as restored.
+/// An order counts as restored if it is at most this much above the theoretical order.
 const ABOVE: f64 = 0.8;
 
 /// Data that all runs of a case need.

@@ -1,4 +1,4 @@
-//! Checks for time steps longer than the stable step, on all levels or on some.
+//! Checks for time steps that are longer than the stable step on some or all levels.
 
 use super::session::{Known, accepts_step, only};
 use crate::study::exact_motion::Extremes;
@@ -12,16 +12,17 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 /// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// Maximum step that is not doubtful if no stable step is predicted, as a fraction of the time in
-/// which a wave crosses a cell.
+/// If no stable step is predicted, steps longer than this fraction of the time in which a wave
+/// crosses a cell are doubtful.
 const IN_QUESTION: f64 = 0.5;
 
-/// If no stable step is predicted, levels run again with this fraction of the crossing time.
+/// If no stable step is predicted, levels run again with this fraction of the time in which a wave
+/// crosses a cell.
 const CAUTIOUS: f64 = 0.2;
 
 /// Maximum ratio of the errors with a stable and with the original step, for which the original
-/// step is the cause. Without instability, a step of 2/5 (`CAUTIOUS / IN_QUESTION`) reduces the
-/// error of a method of order 2 in time to 1/6 only.
+/// step is the cause. In a stable run, reducing the step to 2/5 (`CAUTIOUS / IN_QUESTION`) reduces
+/// the error of a method of order 2 in time only to 1/6.
 const MENDED: f64 = 0.03;
 
 /// A level whose step exceeds a limit (s), and its repetition with a stable step.
@@ -32,8 +33,8 @@ struct Mended<'a> {
     limit: f64,
 }
 
-/// Checks whether steps are longer than the stable step, on levels whose error is small or finite
-/// only with stable steps.
+/// Returns the cause that steps are longer than the stable step, if the error on some levels
+/// becomes small or finite with stable steps.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;

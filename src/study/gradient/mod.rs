@@ -62,7 +62,7 @@ impl CaseRunner for GradientRunner<'_> {
             let run = GradientRun { context: self.context, plan, case, solver, request };
             match run.study(progress) {
                 Ok(study) => judged(described, case, study),
-                // A capability that the solver lacks is not a failure.
+                // If the solver lacks a capability, the case is not applicable rather than failed.
                 Err(GradientError::Cannot(reason)) => {
                     described.not_applicable(vec![reason], "refuses the problem:")
                 }

@@ -15,7 +15,7 @@ use crate::verify::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Rounding error of a functional value, in units of the rounding error of its largest term.
+/// Ratio of the rounding error of a functional value to the rounding error of its largest term.
 const ROUNDING: f64 = 4.0;
 
 /// Exponent k of the perturbation that checks the entries of a wrong gradient. The perturbation is
@@ -128,7 +128,7 @@ impl GradientRun<'_> {
         let young = GradientParameter::Young;
         let soft = problem.parameter(young).map(|young| NO_STRESS * young);
         let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
-        // The value is NaN if the solver fails in one of these runs.
+        // A value is NaN if the solver fails in its run.
         let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
         Ok(GradientEvidence {
             entries,
@@ -145,8 +145,8 @@ impl GradientRun<'_> {
         Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
-    /// Returns the rounding error of the Taylor remainder, in units of the largest term of the
-    /// functional.
+    /// Returns the rounding error of the remainder of the Taylor series, in units of the largest
+    /// term of the functional.
     fn rounding(&self) -> f64 {
         let half = match self.solver.precision() {
             Precision::Double => 0.5 * f64::EPSILON,
@@ -314,8 +314,9 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 type Dual = (f64, f64);
 
 /// Computes the exact derivative of the functional at the end of the run with respect to a
-/// parameter of the problem. This is the total derivative: if the initial velocity of the suite
-/// depends on the parameter, the derivative includes its effect on the exact motion.
+/// parameter of the problem. This is the total derivative. If the initial velocity of the suite
+/// depends on the parameter, the derivative includes the effect of the changed initial velocity on
+/// the motion.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,

@@ -61,7 +61,7 @@ pub(crate) struct HandedRun {
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
     pub(crate) initial: Vec<Initial>,
-    /// Whether random numbers were added to the state of the particles.
+    /// Whether the state of the particles was perturbed by random numbers.
     pub(crate) is_perturbed: bool,
 }
 

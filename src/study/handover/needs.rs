@@ -128,8 +128,8 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// Creates the subject of one level of a case, with `solver` if given and otherwise with the method
-/// of the case. `suite` is the name of the suite.
+/// Creates the solver of one level of a case: `solver` if given, and otherwise the method of the
+/// case. `suite` is the name of the suite.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -44,7 +44,7 @@ fn started<const D: usize>(
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<ProblemParticles, SubjectError> {
-    // This method stores no state except that of the particles.
+    // A method is chosen that stores no state except that of the particles.
     let method = Method::Mpm {
         basis: BasisName::Linear,
         transfer: TransferName::Flip.into(),

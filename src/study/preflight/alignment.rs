@@ -66,7 +66,7 @@ fn loaded_faces(scene: &Scene) -> Vec<Plane> {
             let x = if face.high { scene.to[face.axis] } else { scene.from[face.axis] };
             let what = format!("the loaded {} face", face.name);
             let path = Path::top("scene").then("loads");
-            // This is only a note, because particles transfer the load to the grid, and the method
+            // The finding is only a note: particles transfer the load to the grid, so the method
             // determines the point where the load acts.
             Plane { axis: face.axis, x, what, path, severity: Severity::Note }
         })

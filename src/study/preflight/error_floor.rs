@@ -14,10 +14,11 @@ use crate::suite::model::{Against, Case};
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 
-/// Fraction of the cell error above which another error changes the observed order.
+/// Another error changes the observed order if it exceeds this fraction of the error due to cells.
 const SEEN: f64 = 0.3;
 
-/// Fraction of the cell error above which another error becomes visible after a few refinements.
+/// Another error becomes visible after a few refinements if it exceeds this fraction of the error
+/// due to cells.
 const SOON: f64 = 0.003;
 
 /// Predicts the error (m) due to cells of size `h` (m) as the interpolation error of linear
@@ -88,7 +89,8 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     }
     // The neglected forces are of the order of the strain e. They cause an acceleration e u_tt, and
     // so a displacement e u_tt t^2/2 after a time t, at most about e u over a long run. In more
-    // than one dimension a body rotates with its initial stress.
+    // than one dimension, the initial stress rotates with the body, which the small-strain solution
+    // neglects.
     let turning = if problem.dimension() > 1 { motion.initial_stress } else { 0.0 };
     let neglected = strain + turning / problem.modulus();
     let early = 0.5 * motion.acceleration * case.until * case.until;
@@ -117,7 +119,7 @@ pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     floor_finding(preflight, size, &origin, &help).into_iter().collect()
 }
 
-/// Minimum number of levels whose error is larger than the rounding bound.
+/// Minimum number of levels whose error must be larger than the rounding bound.
 const LEVELS: usize = 4;
 
 /// A level with its predicted errors (m).

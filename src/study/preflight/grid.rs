@@ -18,7 +18,7 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::FEWEST_LEVELS;
 
-/// Warns of an expected order for which too few levels count.
+/// Warns if an order is expected but too few levels count.
 pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let levels = preflight.levels();
     let excluded = preflight.plan.crossing_levels == CrossingLevels::Excluded;

@@ -1,5 +1,4 @@
-//! Warnings and notes about a suite, with positions in its file. They are found before anything
-//! runs.
+//! Warnings and notes about a suite, with positions in its file, found before anything runs.
 //!
 //! ```text
 //! subject      the checked study, and the paths in its file
@@ -50,7 +49,7 @@ const RULES: [(WarningName, PreflightRule); 3] = [
     (WarningName::Undamped, undamped::check),
 ];
 
-/// Adds the name that acknowledges a warning to its help.
+/// Adds to the help of a warning the name by which a suite can acknowledge the warning.
 fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     if finding.severity() != Severity::Warning {
         return finding;
@@ -63,8 +62,8 @@ fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
     finding.with_help(&help)
 }
 
-/// Returns warnings and notes about `suite`, which was read from `source`. Acknowledged ones are
-/// excluded. Studies without refinement have none.
+/// Returns warnings and notes about `suite`, which was read from `source`. Acknowledged warnings
+/// are excluded. The list is empty for studies without refinement levels.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);
@@ -83,7 +82,8 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
 }
 
 /// Warns of a time step in which a wave or a particle crosses more than one cell, or for which heat
-/// conduction is unstable. A constant step on all levels of a study in space is a note.
+/// conduction is unstable. If a study in space has the same step on all levels, the finding is a
+/// note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     found.extend(too_long(preflight));

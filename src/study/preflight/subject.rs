@@ -69,7 +69,7 @@ impl<'a> Preflight<'a> {
     }
 
     /// Warns of acknowledgements that are not among those `used`, unless an external solver
-    /// replaces the methods of the suite, because its findings may differ.
+    /// replaces the methods of the suite, because the warnings may then differ.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
         let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);

@@ -1,4 +1,4 @@
-//! Creates the FEM bar of a plan, as a subject or as a reference.
+//! Creates the FEM bar of a plan, as the tested method or as a reference.
 
 use super::initial_state::Initial;
 use crate::exact::{Forcing, Problem};

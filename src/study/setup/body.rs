@@ -31,7 +31,7 @@ pub(crate) struct Body<'a> {
     pub(crate) heat: Option<&'a Conduction>,
     /// Whether the particles store F even if neither law nor basis uses it.
     pub(crate) keeps_deformation: bool,
-    /// Changes to the lattice of particles: particles are moved or added.
+    /// Changes to the lattice of particles: displacements and additional particles.
     pub(crate) lattice: LatticeEdits,
 }
 
@@ -205,8 +205,8 @@ pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Creates boundary conditions on the faces of the grid. Stronger conditions come last, because
-/// later ones override earlier ones at shared nodes.
+/// Creates boundary conditions on the faces of the grid. Conditions with higher priority come last,
+/// because later conditions override earlier ones at shared nodes.
 pub(crate) fn boundary<const D: usize>(
     scene: &Scene,
     grid: &Grid<D>,

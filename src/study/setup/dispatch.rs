@@ -10,10 +10,10 @@ use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 
-/// Creates the subject of `method` for one level.
+/// Creates the solver of `method` for one level.
 ///
 /// # Errors
-/// The reason why there is no such subject.
+/// The reason why the solver cannot be created.
 pub fn subject(
     plan: &ConvergencePlan,
     method: Method,
@@ -84,7 +84,8 @@ pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) 
 }
 
 /// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
-/// `rounds` power iterations. Nodes shared with other bodies do not make a body less stable.
+/// `rounds` power iterations. Each body may be treated separately, because nodes shared with other
+/// bodies do not make it less stable.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -120,8 +121,8 @@ pub(crate) fn stable_time_step_of(
     with_dimension!(body.scene.dimension(), D => of::<D>(body, method, level, rounds))
 }
 
-/// Creates an MPM subject whose state can be perturbed. It contains the `bodies` of one scene on
-/// the cells of `level`.
+/// Creates an MPM solver whose state can be perturbed, for the `bodies` of one scene on the cells
+/// of `level`.
 pub(crate) fn perturbable(
     bodies: &[Body<'_>],
     method: Method,
@@ -144,7 +145,7 @@ pub(crate) fn perturbable(
     with_dimension!(dimension, D => of::<D>(bodies, method, level))
 }
 
-/// Creates an MPM subject with an energy ledger. `bodies` must contain exactly one body.
+/// Creates an MPM solver with an energy ledger. `bodies` must contain exactly one body.
 pub(crate) fn with_ledger(
     bodies: &[Body<'_>],
     method: Method,

@@ -20,7 +20,7 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// Creates the initial state of a subject of `plan` with one body.
+    /// Creates the initial state of a run of `plan` with one body.
     pub(crate) fn of(plan: &ConvergencePlan) -> Self {
         Self::of_body(plan, &plan.scene)
     }

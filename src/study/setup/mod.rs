@@ -1,4 +1,4 @@
-//! Creates subjects from the model, and converts the names in the model to types.
+//! Creates solvers from the model, and converts the names in the model to types.
 
 pub(crate) mod bar;
 pub(crate) mod body;

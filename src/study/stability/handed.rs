@@ -33,7 +33,7 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// Creates the subject of a run by `solver`. `suite` is the name of the suite.
+/// Sets up a run of `solver`. `suite` is the name of the suite.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -89,8 +89,8 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(body).collect()
 }
 
-/// Adds a random number to each component of the state, if the run requests it, to excite every
-/// mode.
+/// If the run requests it, adds a random number to each component of the state, so that every mode
+/// is excited.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

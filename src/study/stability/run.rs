@@ -20,7 +20,7 @@ use crate::verify::{
 /// Number of values that are tested before the first unstable interval is bisected.
 const SCAN: u32 = 48;
 
-/// Number of these values if each test is a whole run.
+/// Number of values that are tested first if each test is a whole run.
 const SCAN_OF_RUNS: u32 = 16;
 
 /// Relative accuracy of predicted limits.
@@ -32,7 +32,7 @@ const SHARP_OF_RUNS: f64 = 5e-3;
 /// Fractions of a predicted limit at which runs check the prediction. Only full runs use 0.95.
 const SHARES: [f64; 4] = [0.95, 0.98, 1.02, 1.05];
 
-/// Rounding error of a defective eigenvalue 1, such as the eigenvalue of rigid motion.
+/// Rounding error of a double eigenvalue 1 with only one eigenvector, such as that of rigid motion.
 const DEFECT: f64 = 1e-5;
 
 pub(super) struct CaseRun<'a> {
@@ -126,8 +126,8 @@ impl CaseRun<'_> {
         })
     }
 
-    /// Searches the limit of the sought parameter. If the particles are frozen, the limit is
-    /// predicted and then checked by runs. Otherwise the limit is observed in runs.
+    /// Searches for the stability limit of the parameter `sought`. If the particles do not move,
+    /// the limit is predicted and then checked by runs. Otherwise the limit is observed in runs.
     fn critical(
         &self,
         value: f64,

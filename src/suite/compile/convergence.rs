@@ -22,7 +22,7 @@ struct Compiled<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a ConvergenceSpec,
     plan: &'a ConvergencePlan,
-    /// Survey of the exact motion of a single body.
+    /// Sampled positions and largest terms of the exact motion of a single body.
     survey: Option<Survey>,
     /// Paths of the levels in the file.
     levels: Vec<LevelPaths>,
@@ -64,7 +64,8 @@ pub(crate) fn convergence_plan(
         None => truth::exact(evaluator, spec, &scene, latest)?,
     };
     let within = judged_box::judged_box(evaluator, spec, &scene, exact.as_ref())?;
-    // Several bodies are surveyed together, with the conditions on their common faces.
+    // For several bodies, the largest terms are computed together with the conditions on their
+    // common faces.
     let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
     let exact = match (&within, exact, &survey) {
         (Some(within), Some(exact), Some(survey)) => {
@@ -122,7 +123,8 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// Returns the acknowledged warnings. Refuses entries without reason and repeated warnings.
+/// Returns the acknowledged warnings. Refuses entries without a reason, and warnings that are
+/// listed twice.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

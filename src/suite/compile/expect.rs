@@ -261,7 +261,8 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Number of points along each axis, and of time intervals, in the check by `is_translation`.
+/// Number of points along each axis, and number of time intervals, in the check by
+/// `is_translation`.
 const PLACES: usize = 5;
 
 /// Displacement gradients up to this value count as rounding errors.

@@ -1,8 +1,8 @@
 //! Compiles an internal-force study, and computes the grid-crossing error without a run.
 //!
-//! Two cells meet at a node. All cells contain equal particles with the same uniform stress. One
-//! particle of the left cell is moved across the node, and the solver's P2G computes the internal
-//! force on the node.
+//! Two cells meet at a node, and all cells contain equal particles under the same uniform stress.
+//! One particle of the left cell is moved across the node. At each position, the P2G of the solver
+//! computes the internal force on the node.
 
 use super::expect::assign;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
@@ -16,8 +16,8 @@ use crate::verify::ForceRow;
 /// ends of the periodic axis.
 const SIDE: usize = 4;
 
-/// Maximum number of particles, summed over all positions of the moving particle. It limits the run
-/// time to about a second.
+/// Maximum number of particles, summed over all positions of the moving particle. This limits the
+/// run time to about a second.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];
@@ -102,7 +102,8 @@ pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
 }
 
 fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
-    // Midpoints of equal parts between -1/2 and 1/2 cells, symmetric about the node.
+    // The positions are the midpoints of equal parts between -1/2 and 1/2 cells, symmetric about
+    // the node.
     let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
     let right = plan.ppc + u64::from(position >= 0.0);
     let left = 2 * plan.ppc - right;

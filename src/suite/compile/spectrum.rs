@@ -22,7 +22,8 @@ use std::f64::consts::TAU;
 /// Maximum number of cases, and of waves per case.
 const MOST: usize = 500;
 
-/// Maximum number of particles per cell. The closed form has one term per particle.
+/// Maximum number of particles per cell. The number is limited, because the closed form has one
+/// term per particle.
 const MOST_PPC: u64 = 64;
 
 /// Minimum symbol `s` of the mass matrix (docs/glossary.md) for a wave that the grid can represent.

@@ -234,7 +234,8 @@ impl<'a> Evaluator<'a> {
         Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
     }
 
-    /// Returns the reason (`because`) at `path` for the `stated` value. Refuses an empty reason.
+    /// Returns the text of a key `because`. An error message names the `stated` value that needs
+    /// the reason. Refuses an empty reason.
     pub(crate) fn because(
         &self,
         path: &Path,
@@ -310,9 +311,9 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. If a formula is infinite or NaN, each of its
-/// parameters is replaced by these values and by its own magnitude, to find the parameter that is
-/// the cause.
+/// Values for which most formulas are finite. If a formula is infinite or NaN, each parameter in
+/// turn is replaced by these values and by its absolute value, to find the parameter that is the
+/// cause.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {

@@ -109,8 +109,8 @@ fn name_in(head: &str) -> &str {
 }
 
 impl Evaluator<'_> {
-    /// Declares the table `name`. Returns the text of the table. If the table is evaluated at a
-    /// parameter, also returns the value there.
+    /// Declares the table `name` and returns its text. If the table depends on a parameter, also
+    /// returns the value of the table at this parameter.
     pub(super) fn declare_table(
         &mut self,
         path: &Path,

@@ -59,7 +59,7 @@ impl EquationName {
         self.0
     }
 
-    /// Returns all laws of exact solutions, then the laws that only the FEM bar has.
+    /// Returns all laws of exact solutions, then the laws that only FEM bars support.
     fn all() -> impl Iterator<Item = Self> {
         let of_bar = BarLaw::ALL.iter().map(|law| law.name());
         let of_bar_alone = of_bar.filter(|name| !Equation::NAMES.contains(name));

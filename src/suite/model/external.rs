@@ -68,7 +68,7 @@ impl ConvergencePlan {
             return;
         }
         let formal_order = terms.formal_order.unwrap_or_else(|| match case.method {
-            // A suite that names the solver may state a lower order.
+            // The order that the suite states for this solver may be lower.
             Method::External { formal_order, .. } => formal_order.min(solver.formal_order),
             _ => solver.formal_order,
         });
@@ -138,8 +138,8 @@ impl ConvergencePlan {
     }
 
     /// Returns the smallest `error_below` among the suite's own expectations; `None` if one of them
-    /// has a verdict. Entries with `error_above` are ignored, because they describe methods that
-    /// fail.
+    /// expects a verdict. Entries with `error_above` are ignored, because they describe methods
+    /// that fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {

@@ -1,4 +1,4 @@
-//! A gradient study after all checks of its suite.
+//! A gradient study whose suite has passed all checks.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};

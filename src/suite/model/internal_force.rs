@@ -1,4 +1,4 @@
-//! An internal-force study after all checks of its suite.
+//! An internal-force study whose suite has passed all checks.
 
 use super::{StudyPlan, kept};
 use crate::exact::formula::Formula;

@@ -66,7 +66,7 @@ pub struct ConvergencePlan {
     pub refine: RefinePlan,
     /// Offsets of particles from their lattice.
     pub scatter: LatticeOffsets,
-    /// Kind of steps. A load step advances time by one unit.
+    /// Kind of steps. The length of a load step is one.
     pub steps: StepKind,
     /// Number of instants at which the error is measured.
     pub instants: u64,
@@ -89,7 +89,7 @@ pub struct ConvergencePlan {
     pub any_method: AnyMethod,
     /// Point (m) whose velocity history and extrapolated displacement are reported.
     pub observe: Option<Vec<f64>>,
-    /// The cases: all combinations of the lists in `methods`, in order.
+    /// The cases, one for each combination of the lists under the key `methods`, in order.
     pub cases: Vec<Case>,
     /// Warnings that the suite acknowledges, in file order.
     pub acknowledged: Vec<WarningName>,

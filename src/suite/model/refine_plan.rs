@@ -21,7 +21,8 @@ pub struct RefinePlan {
 /// One refinement level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPlan {
-    /// Number of cells along the first axis of the stated grid; of the body if no grid is stated.
+    /// Number of cells along the first axis of the grid, or of the body if the suite states no
+    /// grid.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
@@ -78,7 +79,7 @@ impl LevelPlan {
 /// level.
 pub(crate) const FINE_GRID: u64 = 4;
 
-/// The spacing that is smaller in a same-method reference run.
+/// The spacing that a reference run of the same method reduces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SameMethod {
     /// The time step (s), on the same grid, in a study of time steps.

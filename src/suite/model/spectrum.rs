@@ -1,4 +1,4 @@
-//! A spectrum study after all checks of its suite.
+//! A spectrum study whose suite has passed all checks.
 
 use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
@@ -27,7 +27,7 @@ pub struct SpectrumPlan {
     pub waves: Vec<Wave>,
     /// External solvers, each with the case that predicts its results.
     pub solvers: Vec<(String, String)>,
-    /// The cases: all combinations of the lists in `methods`, in order.
+    /// The cases, one for each combination of the lists under the key `methods`, in order.
     pub cases: Vec<SpectrumCase>,
 }
 

@@ -1,4 +1,4 @@
-//! A stability study after all checks of its suite.
+//! A stability study whose suite has passed all checks.
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{StudyPlan, kept};
@@ -16,13 +16,14 @@ pub struct StabilityPlan {
     pub swept: String,
     /// Values of the swept parameter, one for each row of the report.
     pub values: Vec<f64>,
-    /// Name of the parameter whose largest stable value is determined, and the range of the search.
+    /// Name of the parameter whose largest stable value is determined, and the limits of the
+    /// search.
     pub sought: Option<(String, f64, f64)>,
     /// Whether the particles do not move.
     pub frozen: bool,
     /// Measured quantities in the report tables.
     pub figures: Vec<RunFigure>,
-    /// The cases: all combinations of the lists in `methods`, in order.
+    /// The cases, one for each combination of the lists under the key `methods`, in order.
     pub cases: Vec<StabilityCase>,
 }
 
@@ -39,8 +40,8 @@ pub(crate) struct LatticeEdits {
     pub(crate) shift: Vec<f64>,
     /// Offsets of the particles from the lattice.
     pub(crate) scatter: LatticeOffsets,
-    /// Positions of additional particles (m), which are otherwise equal to the first particle of
-    /// the lattice.
+    /// Positions of additional particles (m). Except for the position, they equal the first
+    /// particle of the lattice.
     pub(crate) extra: Vec<Vec<f64>>,
 }
 

@@ -29,7 +29,7 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// Map from a box to a quadrilateral; `None` for other shapes. All other shapes with an outline
+    /// Map from a box to a quadrilateral; `None` for other shapes. All other shapes except the box
     /// have free surfaces.
     pub mapped: Option<Quadrilateral>,
     /// Lowest and highest corner of the stated grid (m).
@@ -133,7 +133,7 @@ impl Scene {
             return false;
         }
         let Some(outline) = &self.outline else { return true };
-        // A position near the edge is inside if a small shift moves it inside.
+        // A position near the edge counts as inside if a small shift moves it inside.
         let moved = |k: usize| {
             let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
             label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
@@ -188,7 +188,7 @@ pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
         Some((from, to)) => (from[axis], to[axis]),
         None => roomy(scene, axis, h),
     };
-    // The factor keeps a rounding error from adding a cell.
+    // Without the factor, a rounding error could add a cell.
     (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 

@@ -180,7 +180,7 @@ fn printable(words: &str) -> String {
     shortened(words, MAX_WORDS)
 }
 
-/// Converts text to one safe line of at most `most` characters.
+/// Converts text to one safe line with a maximum length of `most` characters.
 fn shortened(words: &str, most: usize) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {

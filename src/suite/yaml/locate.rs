@@ -45,7 +45,8 @@ impl Path {
         Self(longer)
     }
 
-    /// Returns the path of value `i` of the setting `alternatives` at this path.
+    /// Returns the path of value number `i` if the setting at this path is a list of
+    /// `alternatives`, and otherwise this path.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }

@@ -97,7 +97,7 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
         .unwrap_or_else(|| fault.at_token(problem))
 }
 
-/// Splits an error of the library into its path, such as `scene.material`, and the problem.
+/// Splits an error of the library into a path, such as `scene.material`, and the problem.
 fn split_path(text: &str) -> (&str, &str) {
     const OPENINGS: [&str; 7] = [
         "unknown field `",
@@ -142,7 +142,8 @@ impl<'a> Fault<'a> {
             Some(rest) => ("key", rest),
             None => ("name", problem.strip_prefix("unknown variant `")?),
         };
-        // The name may contain any text from the file; the expected text is from this crate.
+        // The name is text from the file and may contain any character. The expected text is from
+        // this crate.
         let (name, valid) =
             rest.rsplit_once("`, expected ").or_else(|| rest.rsplit_once("`, there are no "))?;
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();

@@ -1,10 +1,10 @@
 //! Scans a file before parsing: checks its nesting depth and refuses unsupported features.
 //!
-//! The cost of the YAML parser is quadratic in the nesting depth, and its own depth limit applies
-//! too late. The scan follows the parser's rules for the start of tokens, and builds no values. It
-//! stops at text that is not YAML; the parser then reports the reason. The scan records the extent
-//! of each scalar for the carets of diagnostics. It also reports unclosed brackets and quotes,
-//! which the parser would only report at the end of the file.
+//! The cost of the YAML parser is quadratic in the nesting depth, and the depth limit of the parser
+//! applies too late. The scan follows the parser's rules for the start of tokens, and builds no
+//! values. It stops at text that is not YAML; the parser then reports the reason. The scan records
+//! the extent of each scalar for the carets of diagnostics. It also reports unclosed brackets and
+//! quotes, which the parser would only report at the end of the file.
 
 use super::{Diagnostic, MAX_NESTING, Place};
 use std::ops::Range;
@@ -174,7 +174,7 @@ impl Scanner<'_> {
         Ok(())
     }
 
-    /// Handles `- ` and `? `, which open a block list or map at their own column.
+    /// Handles `- ` and `? `, which open a block list or map in their column.
     fn block_indicator(&mut self) -> Result<Next, Diagnostic> {
         if self.in_flow() {
             self.pass(false);

@@ -1,8 +1,8 @@
 //! Checks rules that hold for all keys of a suite file: no duplicate keys, no merge keys, a maximum
 //! number of entries, and finite numbers.
 //!
-//! A separate pass is needed, because a typed parser would report a duplicate key only after
-//! parsing its value, and a field of type `f64` accepts `.nan`.
+//! The checks are a separate pass, because a typed parser would report a duplicate key only after
+//! parsing the value of the key, and a field of type `f64` accepts `.nan`.
 //!
 //! The error for a refused value has three texts (message, label and help), but the error type of a
 //! deserializer holds one string, to which the YAML library adds a path and a position. Separators

@@ -152,8 +152,8 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether the file is a named pipe. Reading a named pipe without a writer would block. Pipes that
-/// the shell opens for a command have a writer and do not count.
+/// Whether the file is a named pipe that may have no writer, so that reading would block. Pipes
+/// that the shell opens for a command have a writer, and the result is false.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

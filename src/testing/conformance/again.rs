@@ -1,4 +1,4 @@
-//! Repeatability checks: repeated sampling, a half-length step, a new subject, a resumed run.
+//! Repeatability checks: repeated sampling, a half-length step, a repeated run, a resumed run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
@@ -32,7 +32,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     };
     let (whole, half) = (moved(&second.samples), moved(&halved[0].samples));
     let far = largest(&whole);
-    // In a stable step, at least a quarter of the distance `dt * fastest` remains despite forces.
+    // In a stable step, forces reduce the distance `dt * fastest` at most to a quarter.
     if !(far >= 0.25 * dt * fastest) {
         let wanted = format!("points to move by about {:e} m in a step of {dt:e} s", dt * fastest);
         return Some(Breach::new("step", wanted, format!("at most {far:e} m")));
@@ -45,7 +45,7 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Reports a breach if a second subject of the same problem gives a different run. Rounding
+/// Reports a breach if the same problem, set up a second time, gives a different run. Rounding
 /// differences are allowed.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
@@ -62,7 +62,7 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
 }
 
 /// Reports a breach if saving a checkpoint changes the run, or if a run resumed from the checkpoint
-/// differs from the uninterrupted run. Not applicable to a subject without checkpoints.
+/// differs from the uninterrupted run. Not applicable to a solver without checkpoints.
 pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
     let (first, rest) = states.split_at(states.len().div_ceil(2));
     let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];

@@ -9,8 +9,8 @@ use crate::subject::Samples;
 /// Maximum relative rounding error of numbers passed to a solver.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between the body volume and the sum of all sample weights. Solvers
-/// may resolve the edge of the body differently.
+/// Maximum relative difference between the body volume and the sum of all sample weights. The
+/// tolerance is wide, because solvers resolve the edge of the body differently.
 const RIM: f64 = 0.1;
 
 /// Returns breaches due to columns of wrong size and numbers that are not finite.
@@ -211,7 +211,7 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     ))
 }
 
-/// Returns the smallest det F of all points; infinite if the subject does not report F.
+/// Returns the smallest det F of all points; infinite if the solver does not report F.
 fn smallest_j(samples: &Samples) -> f64 {
     let d = samples.dimension;
     let all = samples.deformation_gradient.chunks_exact(d * d);

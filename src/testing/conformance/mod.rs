@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! course   columns, labels, weights and motion at the start; counters and sums over a few steps
-//! again    repeated sampling, half-length step, new subject, resumed run
+//! again    repeated sampling, half-length step, repeated run, resumed run
 //! record   recorded runs, and the type of a breach
 //! ```
 
@@ -99,7 +99,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let mut states = vec![RunState::from_subject(subject.as_ref())];
     let mut breaches = course::counts(problem, &states[0].samples);
     if !breaches.is_empty() {
-        // The other checks need valid columns.
+        // The remaining checks need valid columns.
         return breaches;
     }
     breaches.extend(course::start(problem, &states[0].samples));

@@ -3,7 +3,7 @@
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use std::fmt;
 
-/// Observable state of a subject between two steps.
+/// Observable state of a solver between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RunState {
     pub(super) samples: Samples,
@@ -19,7 +19,7 @@ impl RunState {
     }
 }
 
-/// Advances the subject by `steps` steps of length `dt` (s), and appends the state after each step.
+/// Advances the solver by `steps` steps of length `dt` (s), and appends the state after each step.
 /// Stops if a step fails.
 pub(super) fn record(
     subject: &mut dyn Subject,
@@ -78,7 +78,7 @@ pub struct Breach {
     pub about: &'static str,
     /// Behaviour that the contract requires.
     pub expected: String,
-    /// Observed behaviour of the subject.
+    /// Observed behaviour of the solver.
     pub seen: String,
 }
 

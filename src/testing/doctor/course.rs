@@ -9,7 +9,7 @@ pub(super) struct Course {
     /// Times of the states (s).
     pub(super) times: Vec<f64>,
     pub(super) states: Vec<Samples>,
-    /// Why the run ended early; `None` if the run is complete.
+    /// Reason why the run ended early; `None` if the run is complete.
     pub(super) failure: Option<String>,
 }
 

@@ -9,7 +9,7 @@ named! {
     pub enum FindingWeight {
         /// A defect that should be repaired.
         Defect = "defect",
-        /// A property of a correct scheme, for the information of its author.
+        /// A property that is not a defect, reported for information.
         Remark = "remark",
     }
 }
@@ -86,7 +86,7 @@ pub struct DoctorReport {
     pub solver: String,
     /// The solver's description of itself, as pairs of name and value.
     pub settings: Vec<(String, String)>,
-    /// Why no examination was possible; `None` if at least one was.
+    /// Reason why no examination was possible; `None` if at least one was.
     pub silent: Option<String>,
     /// The examinations, starting with the simplest.
     pub examinations: Vec<ExaminationReport>,
@@ -114,7 +114,7 @@ impl ExaminationResult {
     }
 }
 
-/// Code to check in solvers that ignore nodes with little mass.
+/// Advice on the code to check in solvers that ignore nodes with little mass.
 pub(super) const MASS_THRESHOLD: &str = "the threshold on nodal mass below which nodes get no \
                                          velocity: this threshold must be zero, or far below the \
                                          particle mass times the smallest weight";

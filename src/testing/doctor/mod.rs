@@ -1,5 +1,5 @@
 //! Examines a solver on small problems. Each problem reveals one kind of defect, and findings
-//! describe the defect in terms of the solver's code (docs/doctor.md).
+//! describe the probable mistake in the solver's code (docs/doctor.md).
 //!
 //! ```text
 //! finding       findings, and the report as text
@@ -52,7 +52,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Returns the reason why no examination is possible, from the result of the first one.
+/// Returns the reason why the solver cannot be examined, from the result of the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {

@@ -23,7 +23,8 @@ pub(super) const ANY: [&str; 7] =
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Stiffness factor of a soft body, negligible even at nodes whose mass is only a rounding error.
+/// Factor for the stiffness of a soft body. The resulting forces are negligible even at nodes whose
+/// mass is only a rounding error.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the lower and the higher face of a box for each axis.
@@ -217,7 +218,8 @@ impl BoxScene {
         )
     }
 
-    /// Converts the scene to a problem and its requirements. The state is sampled after every step.
+    /// Converts the scene to a problem, and to the capabilities that the problem requires of a
+    /// solver. The state is sampled after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
         let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;

@@ -194,7 +194,7 @@ fn trials(
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
 ) -> (Vec<Trial>, Arc<SharedSuite>) {
-    // The tests live until the end of the process, and so must the suite.
+    // The tests exist until the end of the process, so the suite must too.
     let suite: &'static Suite = Box::leak(Box::new(suite));
     let names = suite.case_names();
     let runner = Runner::new(suite);

@@ -56,7 +56,7 @@ impl SuiteFolder {
     /// states. A case that needs a missing capability is ignored with the reason.
     #[must_use]
     pub fn judging(mut self, solver: impl SolverFactory + 'static) -> Self {
-        // The tests live until the end of the process, and so must the solver.
+        // The tests exist until the end of the process, so the solver must too.
         self.0.solver = Some(Box::leak(Box::new(solver)));
         self
     }
@@ -91,9 +91,9 @@ impl SuiteFolder {
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on rayon threads, and a test thread only waits. More tests than threads wait at
-        // the same time, because a rayon thread that finishes its part of one case may start
-        // another case.
+        // Cases run on rayon threads, and a test thread only waits. There are more waiting tests
+        // than rayon threads, so that a thread that finishes its part of one case can start another
+        // case.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

@@ -18,7 +18,8 @@ const FEWEST: usize = 3;
 /// Minimum relative half-width of an interval, for series without noise.
 const ROUNDING: f64 = 1e-9;
 
-/// Maximum relative difference between observed and theoretical growth of work that count as equal.
+/// Maximum relative difference at which the observed and the theoretical growth of work count as
+/// equal.
 const SAME: f64 = 0.02;
 
 /// Marginal cost of accuracy: the exponent of work over error.
@@ -30,7 +31,8 @@ pub struct Exponent {
     pub theory: f64,
     /// Observed order of the error over the same levels, and the formal order.
     pub order: (f64, f64),
-    /// Observed growth of work over the same levels, and the growth by the refinement plan.
+    /// Observed growth of work over the same levels, and the growth that follows from the
+    /// refinement plan.
     pub growth: (f64, f64),
 }
 

@@ -29,7 +29,7 @@ const FEWEST: usize = 3;
 pub struct PredictedError {
     /// Levels over which the method converges.
     levels: Vec<Sample>,
-    /// The fitted line with the lower of the observed and the formal order, or the reason why no
+    /// The fitted line, and the lower of the observed and the formal order; or the reason why no
     /// error is predicted for finer levels.
     beyond: Result<(FittedLine, f64), Unpredicted>,
 }

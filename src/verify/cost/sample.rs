@@ -43,8 +43,8 @@ const LEAST_ORDER: f64 = 0.2;
 /// may decrease by chance.
 const FEWEST: usize = 3;
 
-/// Minimum ratio of an error to the error of the previous level for which the error counts as
-/// growing. Smaller changes are fluctuations of an error that has stopped decreasing.
+/// Minimum ratio of an error to that of the previous level for which the error counts as growing.
+/// Smaller changes are fluctuations of an error that has stopped decreasing.
 const GROWS: f64 = 1.25;
 
 /// A range of neighbouring levels over which the error decreases.

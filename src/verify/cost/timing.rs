@@ -61,8 +61,8 @@ impl Timing {
 pub struct TimedSuite {
     /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
-    /// Workload and time of each level of each case. The time is `None` if the set-up failed. The
-    /// time of a failed run ends at the failure.
+    /// Workload and time of each level of each case. The time is `None` if the set-up of the level
+    /// failed. The time of a failed run ends at the failure.
     pub levels: Vec<Vec<(Workload, Option<Timing>)>>,
     /// State of the machine.
     pub machine: Machine,
@@ -87,8 +87,8 @@ impl TimedSuite {
         self.levels.get(index)?.get(level)?.1
     }
 
-    /// Fits the cost model of a case. Also returns the relative error with which a fit to the other
-    /// levels predicts the finest level.
+    /// Fits the cost model of a case to all its levels. Also returns a relative error: the finest
+    /// level is predicted by a fit to the other levels.
     pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
         let levels = self.levels.get(case)?.iter();
         let runs: Vec<(Workload, f64)> =

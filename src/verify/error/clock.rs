@@ -1,4 +1,4 @@
-//! Chooses a time step near the requested one that divides the run into whole steps.
+//! Chooses a time step near the requested one, such that the run has a whole number of steps.
 
 /// Number of steps of one run, and the instants at which errors are measured. Each instant is the
 /// end of a step. The instants are as evenly spaced as the steps allow.
@@ -76,7 +76,7 @@ impl Clock {
 /// Whether step number `step` of `steps` ends at one of `instants`. Instants are as evenly spaced
 /// as the steps allow; the last one ends the run.
 pub(crate) fn is_instant(step: u64, steps: u64, instants: u64) -> bool {
-    // Number of instants up to the end of a step, which grows by one at an instant.
+    // Number of instants up to the end of a step. The number grows by one at an instant.
     let passed = |step: u64| u128::from(step) * u128::from(instants) / u128::from(steps);
     step > 0 && passed(step) > passed(step - 1)
 }

@@ -24,8 +24,8 @@ pub(super) struct Declaration {
     /// Writes the exact value at the label X at time t. Returns false if the exact solution does
     /// not define it.
     pub(super) exact: fn(&dyn Truth, &[f64], f64, &mut [f64]) -> bool,
-    /// Writes exact values at all labels in D dimensions. Set only if the exact solution has a
-    /// faster method for many labels.
+    /// Writes exact values at all labels. Set only if the exact solution has a faster method for
+    /// many labels.
     pub(super) exact_at_all: Option<ExactAtAll>,
     /// Size of the exact values by which errors are divided.
     pub(super) size: SolutionSize,
@@ -33,7 +33,7 @@ pub(super) struct Declaration {
     /// quantity, for a body of the given length (m); NaN if unknown.
     pub(super) rounding_size: fn(f64) -> f64,
     pub(super) is_primary: bool,
-    /// Whether only some subjects and exact solutions define the quantity.
+    /// Whether the quantity is defined only by some solvers and exact solutions.
     pub(super) is_optional: bool,
     /// Whether the quantity is defined only for moving bodies, not for heat conduction.
     pub(super) is_of_motion: bool,
@@ -55,8 +55,8 @@ pub(super) struct SumDeclaration {
 #[derive(Clone, Copy)]
 pub(super) enum ComputedSum {
     OfTotals(fn(&Totals) -> Option<[f64; 3]>),
-    /// Computed by a function of the second moments (kg m2) of the body and of its reference
-    /// configuration, one for each axis.
+    /// A function of the second moments (kg m2) of the body in the current and in the reference
+    /// configuration; each has one moment per axis.
     OfMoments(fn([f64; 3], [f64; 3]) -> [f64; 3]),
     /// The reaction force of walls.
     Reaction,

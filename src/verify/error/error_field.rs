@@ -14,8 +14,8 @@ const PARTS: f64 = 80.0;
 /// Fraction of a part below which a distance counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// The largest error in each part of the body. In 3-D the parts divide the first two axes, and the
-/// error is the largest one along the third axis.
+/// The largest error in each part of the body. In 3-D the body is divided along the first two axes
+/// only, and each part extends along the whole third axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorField {
     /// Whether the parts cover a plane rather than a line.

@@ -23,7 +23,7 @@ impl JudgedBox {
     }
 
     /// Returns the samples whose labels lie in the box, in their order. Columns with a wrong number
-    /// of entries remain as they are, so that the comparison reports them as not measured.
+    /// of entries are not restricted, so that the comparison reports them as not measured.
     pub fn restrict(&self, samples: &Samples) -> Samples {
         let d = samples.dimension;
         let labels = samples.label.chunks(d.max(1));

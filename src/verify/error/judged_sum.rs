@@ -1,4 +1,4 @@
-//! Compares a sum over a computed body with the exact value.
+//! Compares a sum over the body, such as its energy or momentum, with the exact value.
 
 use super::declaration::{ComputedSum, SumDeclaration, moments};
 use super::norm::Norms;
@@ -6,20 +6,22 @@ use super::quantity::Quantity;
 use crate::exact::{BodySum, Problem, SumRegion};
 use crate::subject::Subject;
 
-/// A judged sum with its exact value.
+/// A sum over the body, such as its energy or momentum, that is compared with the exact value.
 #[derive(Debug)]
 pub struct JudgedSum {
     of: Quantity,
     exact: BodySum,
-    /// Exact second moments of the reference configuration (kg m2), the denominators of ratios.
+    /// Exact second moments of the reference configuration (kg m2). A ratio of second moments is
+    /// the current value divided by this one.
     reference: [f64; 3],
-    /// Axis and end of the face whose reaction is judged; `None` for the reaction of all faces.
+    /// Axis of the face whose reaction is judged, and whether it is the high face of this axis;
+    /// `None` for the reaction of all faces.
     face: Option<(usize, bool)>,
 }
 
 impl JudgedSum {
-    /// Creates the sum `of` over the body of `problem`. `walls` are the indices of the faces whose
-    /// force is judged as the reaction.
+    /// Prepares the comparison of the quantity `of`, which must be a sum over the body of
+    /// `problem`. `walls` are the indices of the faces whose force is judged as the reaction.
     ///
     /// # Errors
     /// Reason why the exact value is unknown, as a phrase that follows the name of the quantity.
@@ -54,8 +56,8 @@ impl JudgedSum {
         }
     }
 
-    /// Returns the difference from the exact sum at time `t` (s); NaN if the subject does not
-    /// report the sum.
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver does not report
+    /// the sum.
     pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
         let found = match self.of.sum().map(|sum| sum.computed) {
             Some(ComputedSum::OfTotals(value)) => {

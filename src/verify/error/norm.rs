@@ -51,7 +51,7 @@ impl NormName {
         matches!(self, Self::MaxRms | Self::MaxL1 | Self::MaxL2 | Self::MaxLinf | Self::MaxMassL2)
     }
 
-    /// Whether the norm is weighted by masses. Only some subjects report masses.
+    /// Whether the norm is weighted by masses. Only some solvers report masses.
     pub(crate) fn is_by_mass(self) -> bool {
         matches!(self, Self::MassL2 | Self::MaxMassL2)
     }
@@ -278,7 +278,7 @@ mod tests {
         assert_relative_eq!(tiny.l2, 1e-200, max_relative = 1e-15);
     }
 
-    /// A rod that is stretched and heated over time. It has no exact stress.
+    /// A rod that is stretched and heated over time. The exact stress is not defined.
     struct Rod;
 
     impl Truth for Rod {

@@ -10,14 +10,14 @@ use serde::{Deserialize, Serialize};
 pub struct History {
     /// Reference position (m) of the observed label, the one nearest to the requested point.
     pub label: Vec<f64>,
-    /// Time (s), and first velocity component of the subject and of the exact solution (m/s), at
-    /// t = 0 and at each instant.
+    /// Time (s), and the first component of the computed and of the exact velocity (m/s), at t = 0
+    /// and at each instant.
     pub velocity: Vec<[f64; 3]>,
 }
 
 impl History {
     /// Starts the history of the label of `samples` that is nearest to `wanted`. Of two equally
-    /// near labels the first one is observed. `None` for a subject without labels.
+    /// near labels the first one is observed. `None` without labels.
     pub fn start(samples: &Samples, wanted: &[f64]) -> Option<(usize, Self)> {
         let d = samples.dimension;
         let distance = |p: usize| -> f64 {

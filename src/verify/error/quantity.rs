@@ -85,13 +85,13 @@ impl Quantity {
         self.declaration().unit
     }
 
-    /// Whether the quantity is a primary unknown of a subject. Tables show the errors of primary
+    /// Whether the quantity is a primary unknown of a solver. Tables show the errors of primary
     /// unknowns.
     pub fn is_primary(self) -> bool {
         self.declaration().is_primary
     }
 
-    /// Whether only some subjects and exact solutions define the quantity.
+    /// Whether the quantity is defined only by some solvers and exact solutions.
     pub fn is_optional(self) -> bool {
         self.declaration().is_optional
     }
@@ -101,7 +101,7 @@ impl Quantity {
         self.declaration().is_of_motion
     }
 
-    /// Whether a subject must store F for this quantity.
+    /// Whether a solver must store F for this quantity.
     pub fn needs_deformation_gradient(self) -> bool {
         self.declaration().needs_deformation_gradient
     }
@@ -206,7 +206,7 @@ impl Quantity {
     }
 
     /// Computes norms of `computed - exact` at the labels of `samples` at time `t`; all NaN if the
-    /// subject or the exact solution does not define the quantity.
+    /// solver or the exact solution does not define the quantity.
     pub fn errors(self, samples: &Samples, truth: &dyn Truth, t: f64) -> Norms {
         self.differences(samples, truth, t).map_or(Norms::NONE, |(components, error)| {
             let norms = Norms::of(&error, components, &samples.weight);
@@ -215,7 +215,7 @@ impl Quantity {
     }
 
     /// Returns the number of components at each label, and `computed - exact` at the labels of
-    /// `samples` at time `t`. `None` if the subject or the exact solution does not define the
+    /// `samples` at time `t`. `None` if the solver or the exact solution does not define the
     /// quantity.
     pub(crate) fn differences(
         self,
@@ -245,7 +245,8 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Exact solution of a plane that moves along X under uniform shear stress. It has no F.
+    /// Exact solution of a plane body that moves along X under uniform shear stress. The solution
+    /// does not define F.
     struct Sheared;
 
     impl Truth for Sheared {

@@ -1,4 +1,4 @@
-//! Runs one subject on one level and compares it with the exact solution.
+//! Runs a solver on one level and compares the result with the exact solution.
 
 use super::clock::Clock;
 use super::clock::StepKind;
@@ -257,10 +257,10 @@ pub struct RunResult {
     pub errors: RunErrors,
     /// Errors of the displacement (m), if the judged quantity is another one.
     pub displacement_errors: Option<RunErrors>,
-    /// Drifts of the sums over the body, if the subject reports these; NaN if the run failed.
+    /// Drifts of the sums over the body, if the solver reports these sums; NaN if the run failed.
     pub drift: Option<ConservationError>,
     /// Sums over the body at t = 0 and at every instant, each with its time (s); empty if the
-    /// subject reports none.
+    /// solver reports none.
     pub account: Vec<(f64, Totals)>,
     /// Energy rate d ln E/dt (1/s) with its confidence interval, if it could be computed.
     pub energy_rate: Option<Interval>,
@@ -299,7 +299,7 @@ mod tests {
     use crate::subject::RunCounters;
     use approx::assert_relative_eq;
 
-    /// A subject with one label, whose velocity oscillates and whose displacement decays.
+    /// A solver with one point, whose velocity oscillates and whose displacement decays.
     struct Swing(f64);
 
     impl Subject for Swing {
@@ -334,7 +334,7 @@ mod tests {
         }
     }
 
-    /// A subject that fails in its third step.
+    /// A solver that fails in its third step.
     struct Unbalanced(u64);
 
     impl Subject for Unbalanced {

@@ -2,8 +2,9 @@
 //!
 //! Solvers that add in no fixed order, for instance with atomic additions on a GPU, give different
 //! bits in each run. The spread of a level is the largest difference between two of its runs: the
-//! norm of the suite, applied to the difference of the judged quantity at each label. A difference
-//! between two norms would not suffice, because errors with equal norms can differ at every label.
+//! judged quantity is subtracted at each label, and the norm of the suite is applied to the
+//! differences. A difference between two norms would not suffice, because errors with equal norms
+//! can differ at every label.
 
 use super::norm::{NormName, Norms, RunErrors};
 use super::quantity::Quantity;

@@ -12,8 +12,8 @@ use crate::verify::order::window::FEWEST_LEVELS;
 use crate::verify::verdict::judge::judge;
 use crate::verify::verdict::name::Verdict;
 
-/// Maximum width of the observed interval, as a fraction of the half-width of the default range,
-/// for which the range is proposed.
+/// Maximum width of the observed interval for which the default range is proposed, as a fraction of
+/// the half-width of this range.
 const COMFORTABLE: f64 = 0.75;
 
 /// Whether the default range around `order` contains the observed interval with a margin.
@@ -138,7 +138,8 @@ mod tests {
         study
     }
 
-    /// t(4) = 2.776 and t(6) = 2.447; Sxx ~ n (n^2 - 1) for n levels with equal ratios.
+    /// Expects a ratio of widths from t(4) = 2.776 and t(6) = 2.447, and Sxx ~ n (n^2 - 1) for n
+    /// levels with equal ratios.
     #[test]
     fn more_levels_narrow_an_interval_as_those_of_a_line() {
         let width = 2.447 / 2.776 * (6.0 * 35.0 / (8.0 * 63.0_f64)).sqrt();

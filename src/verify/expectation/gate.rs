@@ -30,15 +30,15 @@ pub enum Gating {
     Excepted(String),
 }
 
-/// A required order or bound on errors. It is enough to meet one of them.
+/// A required order, a bound on errors, or both. It is sufficient to meet one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
     /// Required order, from which [`OrderHypothesis::TOLERANCE`] is subtracted.
     pub order: Option<f64>,
     /// Bound at or below which errors are accepted without an order.
     pub error_below: Option<f64>,
-    /// Bound on the errors of the suite's own methods, if no other bound is given. It accepts a
-    /// method with too few levels for an order, but never rejects one.
+    /// Bound on the errors of the suite's own methods, if no other bound is given. Because of this
+    /// bound, a method with too few levels for an order may be accepted, but no method is rejected.
     pub own_error_below: Option<f64>,
     /// The reason, in one line.
     pub because: String,
@@ -145,8 +145,9 @@ impl Requirement {
         let is_met = ends_within
             && match above {
                 0 => true,
-                // Coarse levels that are too few for an order may be pre-asymptotic. Without a
-                // bound, their errors must decrease down to the rounding error.
+                // If there are too few coarse levels for an order, their errors may be
+                // pre-asymptotic. Without a bound, these errors must decrease down to the rounding
+                // error.
                 1..FEWEST_LEVELS => {
                     bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
                 }

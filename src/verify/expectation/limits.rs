@@ -21,7 +21,7 @@ pub struct Limits {
 pub struct Measured {
     /// Values of [`CaseFigure::ALL`]; `None` for a value that the levels do not have.
     pub figures: [Option<f64>; CaseFigure::ALL.len()],
-    /// Largest drifts of the levels that count; `None` if the subject reports no totals.
+    /// Largest drifts of the levels that count; `None` if the solver reports no sums over the body.
     pub drift: Option<ConservationError>,
     /// Union of the confidence intervals of the energy rate (1/s) on the levels that count; `None`
     /// if a level has no interval.

@@ -1,8 +1,8 @@
 //! Proposes expectations for a suite without expectations, based on runs of the suite.
 //!
 //! If the observed order agrees with the formal one, the formal order is proposed. Other values are
-//! taken from the run and are marked accordingly. A range is proposed only if the run meets it with
-//! a margin: twice the uncertainty must fit between the observed order and either bound.
+//! taken from the run and are marked accordingly. A range is proposed only if the observed
+//! order lies inside the range, at a distance of at least twice its uncertainty from either bound.
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
@@ -16,8 +16,8 @@ use crate::verify::verdict::name::Verdict;
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;
 
-/// Minimum ratio of a proposed bound to the measured drift. Another processor or setting may add in
-/// a different order, with different rounding errors.
+/// Minimum ratio of a proposed bound to the measured drift. On another processor or with other
+/// settings, sums may be computed in a different order, with different rounding errors.
 const ROOM_OF_DRIFT: f64 = 30.0;
 
 /// Ratio of a proposed error bound to the largest measured error.

@@ -72,7 +72,7 @@ impl GradientEvidence {
         }
         let factor = own.reported / own.difference;
         let have_factor = |entry: &GradientEntry| alike(entry.reported, factor * entry.difference);
-        // Enough digits that a factor close to 1 is not printed as 1.
+        // With nine digits, a factor close to 1 is not printed as 1.
         let digits = if (factor - 1.0).abs() < 0.01 { 9 } else { 4 };
         let times = format!("{factor:.digits$} times the central difference");
         if self.entries.len() > 1 && self.entries.iter().all(have_factor) {

@@ -44,7 +44,7 @@ pub struct GradientStudy {
     pub parameter: &'static str,
     /// Check 1: the value of the functional, on the level where parameters are perturbed.
     pub value: ValueCheck,
-    /// Check 2: the Taylor remainder.
+    /// Check 2: the remainder of the Taylor series with the derivative.
     pub taylor: Taylor,
     /// Check 3: the derivatives on all levels.
     pub levels: Vec<GradientLevel>,

@@ -1,4 +1,4 @@
-//! Checks a reported derivative by its Taylor remainder.
+//! Checks a reported derivative by the remainder of the Taylor series that contains it.
 
 use super::GradientState;
 
@@ -33,7 +33,7 @@ const SURE: f64 = 10.0;
 /// Values of the functional for one perturbation of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perturbed {
-    /// Exponent of the perturbation e: e is the parameter times 2^-level.
+    /// Exponent of the perturbation e, which is the parameter times 2^-level.
     pub level: u32,
     /// Perturbation e.
     pub by: f64,
@@ -226,7 +226,7 @@ mod tests {
     fn a_derivative_of_a_linear_function_is_linear() {
         assert_eq!(state(|q| 3.0 * q - 1.0, 3.0), GradientState::Linear);
         assert_eq!(state(|q| 3.0 * q - 1.0, 6.0), GradientState::Wrong);
-        // If everything is rounding, no derivative can be judged.
+        // If all differences are rounding errors, no derivative can be judged.
         assert_eq!(state(|_| 0.0, 0.0), GradientState::AtRounding);
     }
 

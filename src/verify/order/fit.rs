@@ -154,7 +154,8 @@ mod tests {
         assert_abs_diff_eq!(order.half_width(), 0.0, epsilon = 1e-13);
     }
 
-    /// By hand: y = 0, 0, 3 at x = 0, 1, 2 gives slope 3/2, rss 3/2 and t(0.975, 1) = 12.7062.
+    /// Values computed by hand: y = 0, 0, 3 at x = 0, 1, 2 gives slope 3/2, rss 3/2 and t(0.975, 1)
+    /// = 12.7062.
     #[test]
     fn three_points_by_hand() {
         let y = [0.0, 0.0, 3.0];
@@ -166,8 +167,8 @@ mod tests {
         assert_abs_diff_eq!(order.half_width(), half_width, epsilon = 1e-4);
     }
 
-    /// By hand: the line of `three_points_by_hand` is -1/2 + 3/2 x, and 1 + 1/3 + 2^2/2 = 10/3 at
-    /// x = 3.
+    /// Values computed by hand: the line of `three_points_by_hand` is -1/2 + 3/2 x, and 1 + 1/3 +
+    /// 2^2/2 = 10/3 at x = 3.
     #[test]
     fn another_point_by_hand() {
         let y = [0.0, 0.0, 3.0];

@@ -40,7 +40,7 @@ impl Axis {
 /// One refinement level: a spacing and the error measured with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// Refined spacing of the grid, of time or of particles; not a number of cells.
+    /// Cell size, time step or particle spacing, whichever is refined; not a number of cells.
     pub h: f64,
     /// Norm of the error on the level.
     pub error: f64,
@@ -87,7 +87,7 @@ impl Level {
 }
 
 /// Sorts levels from coarse to fine and merges identical ones. A merged level counts only if all
-/// its parts count. The diagnostic names the first defect that makes the series invalid.
+/// the identical levels count. The diagnostic names the first defect that makes the series invalid.
 pub(crate) fn arrange(levels: &[Level], axis: Axis) -> (Vec<Level>, Option<String>) {
     let mut sorted = levels.to_vec();
     sorted.sort_by(|a, b| b.h.total_cmp(&a.h).then(a.error.total_cmp(&b.error)));

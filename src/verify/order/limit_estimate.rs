@@ -21,9 +21,9 @@
 //!   always extends to the finest value, like the grid convergence index with a factor of 1 (Roache
 //!   1994).
 //!
-//! Eca & Hoekstra also widen their estimate by a fit through all levels. Here the second triple
-//! serves this purpose, because four values can contradict a model with three unknowns. Series that
-//! Eca & Hoekstra classify as oscillating or divergent give no estimate here.
+//! Eca & Hoekstra also widen their estimate by a fit through all levels. Such a fit is not needed
+//! here, because the second triple shows whether four values contradict a model with three
+//! unknowns. Series that Eca & Hoekstra classify as oscillating or divergent give no estimate here.
 //!
 //! The coverage of the interval was measured over the suites with exact solutions
 //! (`docs/estimate.md`).
@@ -42,8 +42,8 @@ const SAFETY_FACTOR: f64 = 3.0;
 /// Maximum difference between the orders of the two triples.
 const ORDER_SCATTER: f64 = 1.0;
 
-/// Minimum order of a triple. At lower orders the extrapolation exceeds the last change more than
-/// twofold.
+/// Minimum order of a triple. At lower orders, the distance of the extrapolated from the finest
+/// value is more than twice the last change.
 const LEAST_ORDER: f64 = 0.5;
 
 /// Maximum order of a triple, above the order of any method of this crate.
@@ -265,8 +265,9 @@ mod tests {
         assert_eq!(estimate.finest, finest);
     }
 
-    /// By hand: 1 + h + h^2 at h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16 and 11/64, the
-    /// ratios 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 - (11/64)/(17/11).
+    /// Values computed by hand for 1 + h + h^2 at h = 1, 1/2, 1/4, 1/8. The changes are 5/4, 7/16
+    /// and 11/64, the ratios 20/7 and 28/11, and the limits 7/4 - (7/16)/(13/7) and 73/64 -
+    /// (11/64)/(17/11).
     #[test]
     fn the_interval_by_hand() {
         let estimate = estimate_limit(&halvings(&[3.0, 1.75, 1.3125, 1.140_625])).unwrap();

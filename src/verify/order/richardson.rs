@@ -10,11 +10,12 @@
 //! (Roache 1994, 1998; unequal ratios as in Celik et al. 2008.) The classes are those of Eca &
 //! Hoekstra (2014). Only monotonically converging values have an order: the solution `p`.
 //!
-//! Three values always fit, so they give no interval; `limit_estimate` compares two triples. The
-//! grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache 1994) is not offered,
-//! because it contains the true error of only 73 of 100 series of the suites with exact solutions.
-//! The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered either: with the order
-//! fitted to the same three values it is identically `u1 / u2`, which is close to 1 for any values.
+//! Three values always fit, so they give no interval; an interval requires a fourth value
+//! (`limit_estimate`). The grid convergence index `1.25 |(u1 - u2) / u1| / (r21^p - 1)` (Roache
+//! 1994) is not offered, because it contains the true error of only 73 of 100 series of the suites
+//! with exact solutions. The "asymptotic range ratio" `GCI_32 / (r^p GCI_21)` is not offered
+//! either. With the order fitted to the same three values, this ratio is identically `u1 / u2`,
+//! which is close to 1 even if the values do not converge.
 
 use std::fmt;
 
@@ -83,8 +84,8 @@ impl Richardson {
     }
 }
 
-/// Classifies two changes. The ratio for order zero, `ln r32 / ln r21`, separates convergence from
-/// divergence. This ratio is one if both refinements are equal.
+/// Classifies the changes between three values. The ratio for order zero, `ln r32 / ln r21`,
+/// separates convergence from divergence. This ratio is one if both refinements are equal.
 fn classify(changes: [f64; 2], ratio: f64, rates: [f64; 2]) -> RichardsonClass {
     let shrinks = rates.iter().all(|rate| rate.is_finite() && *rate > 0.0);
     if !(shrinks && changes.iter().all(|change| change.is_finite())) {

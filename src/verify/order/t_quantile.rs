@@ -10,7 +10,7 @@
 //!                 + (1 3 ... (nu-3)) / (2 4 ... (nu-2)) cos^(nu-2) theta)
 //! ```
 //!
-//! The sum is finite. It is inverted by bisection in `theta`.
+//! The sum has finitely many terms. `A(t|nu)` is inverted by bisection in `theta`.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 

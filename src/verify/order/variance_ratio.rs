@@ -32,7 +32,7 @@ pub(crate) fn regularised(x: f64, nu: usize, d: usize) -> f64 {
     value
 }
 
-/// Returns the smallest positive parameter that differs from `n/2` by an integer.
+/// Returns the smallest positive number that differs from `n/2` by an integer.
 fn start(n: usize) -> f64 {
     if n.is_multiple_of(2) { 1.0 } else { 0.5 }
 }

@@ -95,7 +95,7 @@ impl Window {
 }
 
 /// Returns the asymptotic window among the points before `end` (the beginning of a floor, if one is
-/// known). `None` if there are too few points or if no line passes through them.
+/// known). `None` if there are too few points or if no line can be fitted to them.
 pub(crate) fn asymptotic(points: &[LogPoint], end: usize, formal_order: f64) -> Option<Window> {
     if end < FEWEST_LEVELS {
         return None;
@@ -119,8 +119,8 @@ fn shorter_ranges(range: &Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Whether departures, listed from the window outwards, are all material and to one side, and the
-/// last one is the largest.
+/// Whether all departures, listed from the window outwards, are larger than [`MATERIAL`] and to one
+/// side, with the last one as the largest.
 fn is_departing(outward: &[f64]) -> bool {
     let Some(last) = outward.last() else {
         return true;

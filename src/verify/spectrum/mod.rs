@@ -3,7 +3,7 @@
 //! | module | content |
 //! |---|---|
 //! | [`recurrence`](Recurrence) | trace and determinant of a step, computed from a series |
-//! | [`wave`](run_wave) | the run of a subject, whose particle velocities form the series |
+//! | [`wave`](run_wave) | the run of a solver, whose particle velocities form the series |
 //! | [`study`](SpectrumStudy) | the rows of a report |
 //! | [`expectation`](SpectrumExpectation) | expectations of suites |
 

@@ -1,13 +1,13 @@
 //! Computes the trace and determinant of a linear step from a series of its states.
 //!
-//! The grid state of a Fourier mode of a linear scheme is two numbers, which a step multiplies by a
-//! 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional of the state satisfies
-//! `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a constant part that the grid
-//! does not resolve, so the fit includes a constant.
+//! On the grid, the state of a Fourier mode of a linear scheme consists of two numbers. A step
+//! multiplies this vector by a 2 x 2 matrix. By the Cayley-Hamilton theorem each linear functional
+//! of the state satisfies `y(k+2) = tr y(k+1) - det y(k)`. Particle velocities also have a constant
+//! part that the grid does not resolve, so the fit includes a constant.
 
 use std::f64::consts::TAU;
 
-/// Minimum number of members of a series: four equations for three unknowns.
+/// Minimum number of values in a series: six values give four equations for three unknowns.
 const FEWEST: usize = 6;
 
 /// A recurrence `y(k+2) = tr y(k+1) - det y(k) + constant`.
@@ -92,7 +92,7 @@ impl Recurrence {
     }
 
     /// Returns the relative error of the phase speed of a wave whose length is `cells` cells, at
-    /// the Courant number `courant`. `None` if the wave has no phase.
+    /// the Courant number `courant`. `None` if the wave is overdamped and has no phase.
     pub fn phase_error(&self, cells: f64, courant: f64) -> Option<f64> {
         Some(self.angle()? / (TAU / cells * courant) - 1.0)
     }
@@ -147,7 +147,7 @@ mod tests {
         assert_relative_eq!(log_kept, 40.0 * libm::log(r), max_relative = 1e-12);
     }
 
-    /// The eigenvalues 0.5 and 0.6 have no phase. The larger one determines the damping.
+    /// Real eigenvalues, here 0.5 and 0.6, have no phase. The larger one determines the damping.
     #[test]
     fn an_overdamped_wave_has_no_phase() {
         let found = Recurrence::new(1.1, 0.3);

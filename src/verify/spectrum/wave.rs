@@ -1,4 +1,4 @@
-//! Runs a subject with one wave and fits the recurrence of its particle velocities.
+//! Runs a solver with one wave and fits the recurrence of its particle velocities.
 
 use super::recurrence::Recurrence;
 use crate::subject::{Samples, Subject};
@@ -82,8 +82,8 @@ mod tests {
     use crate::subject::{Failure, RunCounters};
     use approx::assert_relative_eq;
 
-    /// Two points a quarter of a wavelength apart. The velocity at a crest follows a recurrence.
-    /// The other velocity has no effect.
+    /// Two points a quarter of a wavelength apart. The velocity at the crest follows a recurrence.
+    /// The velocity at the other point has no effect.
     struct Scripted {
         velocity: [f64; 2],
         step: u64,

@@ -1,7 +1,8 @@
-//! The amplification matrix: one step of a frozen subject as a matrix.
+//! The amplification matrix: one step of a solver as a matrix, with particles that keep their
+//! position on the grid.
 //!
 //! Near a state of rest the step is linear in small perturbations, `s(n+1) = A s(n)`. Column j of A
-//! is computed by running the subject from a state whose entry j is perturbed. Central differences
+//! is computed by running the solver from a state whose entry j is perturbed. Central differences
 //! eliminate quadratic terms (volume times stress). Entries are scaled by their natural sizes,
 //! which does not change eigenvalues.
 
@@ -25,18 +26,19 @@ pub enum AmplificationError {
     /// The unperturbed state changes in a step.
     #[error("the body does not stay at rest by itself")]
     NotAtRest,
-    /// A step of the subject failed.
+    /// A step of the solver failed.
     #[error("{0}")]
     Failed(Failure),
 }
 
 /// Computes the amplification matrix of one step, or of several consecutive steps with the lengths
-/// `dt` (s). `subject` must be frozen and at rest. `speed` (m/s) and `modulus` (Pa) are the natural
-/// sizes of speed and stress. An entry that is constant and affects no other entry, such as the
-/// volume of a particle without stress, has no row; its eigenvalue is one.
+/// `dt` (s). `subject` must be at rest, and its particles must not move relative to the grid.
+/// `speed` (m/s) and `modulus` (Pa) are the natural sizes of speed and stress. An entry that is
+/// constant and affects no other entry, such as the volume of a particle without stress, has no
+/// row; its eigenvalue is one.
 ///
 /// # Errors
-/// If the subject is not at rest or a step fails.
+/// If the body is not at rest, or if a step fails.
 pub fn amplification(
     subject: &mut dyn Perturbable,
     dt: &[f64],
@@ -131,8 +133,8 @@ mod tests {
         amplification(&mut Linear { state: vec![0.0; 3], third }, &[1.0], 10.0, 40.0)
     }
 
-    /// In natural sizes, one unit of b equals four units of a. An entry that affects only itself
-    /// has no row.
+    /// Relative to their natural sizes, one unit of b equals four units of a. An entry that affects
+    /// only itself has no row.
     #[test]
     fn amplification_matrix_of_a_linear_step_is_exact() {
         let found = matrix(|c| c).unwrap();

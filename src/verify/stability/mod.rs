@@ -4,9 +4,9 @@
 //! |---|---|
 //! | [`trial_result`](Trial) | verdict and measured values of one run |
 //! | [`trial`](trial()) | one run: energy relative to its initial value, J, largest speed |
-//! | [`amplification`](amplification()) | one step as a matrix, by running the subject itself |
+//! | [`amplification`](amplification()) | matrix of one step, from runs of perturbed states |
 //! | [`radius`](spectral_radius) | the largest eigenvalue of the amplification matrix |
-//! | [`limit`](stability_limit()) | smallest value of a parameter that is not stable |
+//! | [`limit`](stability_limit()) | smallest unstable value of a parameter |
 //! | [`expectation`](StabilityExpectation) | expectations of suites |
 //! | [`outcome`](StabilityStudy) | the rows of a report |
 

@@ -12,7 +12,7 @@ use crate::verify::study_results::StudyResults;
 pub struct StabilityStudy {
     /// Name of the swept parameter.
     pub swept: String,
-    /// Name of the parameter whose limit is sought, if any.
+    /// Name of the parameter whose stability limit the study searches for, if any.
     pub sought: Option<String>,
     /// Measured values that tables show.
     pub figures: Vec<RunFigure>,
@@ -36,7 +36,8 @@ pub struct StabilityRow {
 /// Predicted and observed stability limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Critical {
-    /// Prediction from the amplification matrix of a frozen configuration.
+    /// Prediction from the matrix that describes one step for small perturbations, with particles
+    /// that keep their position on the grid.
     pub predicted: Option<Prediction>,
     /// Runs below and above the prediction, each with its parameter value divided by the
     /// prediction.
@@ -50,7 +51,8 @@ pub struct Critical {
 pub struct Prediction {
     /// Parameter value at which the spectral radius exceeds one.
     pub limit: StabilityLimit,
-    /// Real part and magnitude of the imaginary part of the eigenvalue that leaves the unit circle.
+    /// Eigenvalue that leaves the unit circle at the limit: the real part, and the magnitude of the
+    /// imaginary part.
     pub leaves: Option<(f64, f64)>,
 }
 
@@ -70,7 +72,7 @@ impl StudyResults for StabilityStudy {
 }
 
 impl StabilityStudy {
-    /// Summarises the verdicts of the rows, or the limit that is sought.
+    /// Summarises the verdicts of the rows, or the stability limits.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");

@@ -7,8 +7,8 @@ use nalgebra::linalg::Schur;
 /// the matrix.
 const PATIENCE: usize = 1_000;
 
-/// An entry below the diagonal counts as zero below this fraction of its diagonal neighbours. Much
-/// smaller thresholds are never reached because of rounding errors.
+/// An entry below the diagonal counts as zero if it is less than this fraction of its diagonal
+/// neighbours. Rounding errors would prevent convergence with a much smaller threshold.
 const SMALL: f64 = 1e-13;
 
 /// Number of times that the matrix is squared: powers up to 2^30.
@@ -20,15 +20,16 @@ pub struct Radius {
     /// Modulus of the largest eigenvalue; infinite if an entry of the matrix is not finite.
     pub radius: f64,
     /// Real part and magnitude of the imaginary part of the largest eigenvalue, if it was computed.
-    /// At -1 the mode changes its sign in every step; a complex eigenvalue is a slower oscillation.
+    /// If the eigenvalue is -1, the mode changes its sign in every step. A complex eigenvalue means
+    /// a slower oscillation.
     pub eigenvalue: Option<(f64, f64)>,
 }
 
 /// Computes the spectral radius from the real Schur form of `A + s I` with s = |A|. Without this
 /// shift the QR algorithm does not converge for many amplification matrices: `nalgebra` compares an
-/// entry with its diagonal neighbours, and filters (PIC, MUSL) have defective zero eigenvalues with
-/// rounding errors on the diagonal. If the algorithm does not converge even with the shift, the
-/// radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
+/// entry with its diagonal neighbours, and filters (PIC, MUSL) have multiple zero eigenvalues with
+/// too few eigenvectors, and rounding errors on the diagonal. If the algorithm does not converge
+/// even with the shift, the radius is computed from Gelfand's formula, `|A^k|^(1/k)` with k = 2^30.
 pub fn spectral_radius(matrix: &DMatrix<f64>) -> Radius {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return Radius { radius: f64::INFINITY, eigenvalue: None };
@@ -110,7 +111,7 @@ mod tests {
         assert!(spectral_radius(&two([f64::NAN, 0.0, 0.0, 1.0])).radius.is_infinite());
     }
 
-    /// The matrix is a cyclic shift. QR without exceptional shifts does not converge for it.
+    /// The matrix is a cyclic shift, for which QR without exceptional shifts does not converge.
     #[test]
     fn a_shift_has_radius_one() {
         let shift = DMatrix::from_fn(7, 7, |i, j| f64::from(u8::from(i == (j + 1) % 7)));

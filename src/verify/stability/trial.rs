@@ -1,4 +1,4 @@
-//! Runs a subject and observes whether its energy grows.
+//! Runs a solver and observes whether the energy grows.
 //!
 //! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
 //! uniaxial strain. The second term is the strain energy in 1-D at small strain; otherwise it only
@@ -251,7 +251,7 @@ mod tests {
     use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
     use approx::assert_relative_eq;
 
-    /// A subject with one label of mass 2 under a stress of 1, and a given kinetic energy (J) for
+    /// A solver with one point of mass 2 under a stress of 1, and a given kinetic energy (J) for
     /// each step.
     struct Scripted {
         kinetic: Vec<f64>,
@@ -281,7 +281,7 @@ mod tests {
         }
     }
 
-    /// Runs a scripted subject. With a modulus of 1/2 its stress stores 1 J.
+    /// Runs a scripted solver. With a modulus of 1/2 the stress stores 1 J.
     fn watched(kinetic: &[f64], centred: bool) -> Trial {
         let mut subject = Scripted { kinetic: kinetic.to_vec(), step: 0 };
         let scales = Scales {

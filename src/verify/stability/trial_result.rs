@@ -13,7 +13,7 @@ named! {
         BoundedGrowth = "bounded_growth",
         /// The energy exceeded the bound for unstable runs.
         Unstable = "unstable",
-        /// The subject failed, or a measured value is not finite.
+        /// The solver failed, or a measured value is not finite.
         Failed = "failed",
     }
 }
@@ -39,11 +39,11 @@ pub struct Scales {
     pub stable_below: f64,
     /// Energy, relative to its initial value, above which a run is unstable and ends.
     pub unstable_above: f64,
-    /// Whether the kinetic energy excludes the energy of the centre of mass. The common velocity of
-    /// a free body does not indicate growth.
+    /// Whether the kinetic energy excludes the energy of the centre of mass, because the common
+    /// velocity of a free body says nothing about growth.
     pub centred: bool,
-    /// Whether every check measures the part of the velocities that lies in the null space of the
-    /// map to the grid.
+    /// Whether every check measures the part of the particle velocities that gives no momentum to
+    /// any node (the null space of the map to the grid).
     pub null_space: bool,
 }
 
@@ -78,8 +78,8 @@ pub struct Trial {
     /// Difference between the largest and the smallest mean normal stress at the end, relative to
     /// the largest magnitude.
     pub stress_spread: f64,
-    /// Pressure differences between neighbouring particles at the end, relative to the mean size of
-    /// the pressure.
+    /// Root mean square of the pressure differences between neighbouring particles at the end,
+    /// relative to the mean size of the pressure.
     pub checkerboard: f64,
     /// Largest stress at the end, divided by the modulus.
     pub stress: f64,

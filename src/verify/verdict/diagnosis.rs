@@ -149,7 +149,7 @@ impl Cause<'_> {
 }
 
 impl Diagnosis {
-    /// Whether the case has the theoretical order. There is then nothing to explain.
+    /// Whether the case has the theoretical order, so that there is nothing to explain.
     pub fn is_sound(&self) -> bool {
         self.judgement.verdict == Verdict::Converging
     }
@@ -176,7 +176,8 @@ impl Diagnosis {
         let coarse = self.finding(CoarseLevels);
         let mut causes: Vec<_> = coarse.map(Cause::Known).into_iter().collect();
         if let Some((run, evidence)) = restored {
-            // Finer cells have the same effect as omitting coarse ones.
+            // A run with finer cells reveals no other cause, because finer cells have the same
+            // effect as omitting coarse levels.
             let is_nearer = coarse
                 .is_none_or(|coarse| !run.is_finer && self.off(run.order) < self.off(coarse.order));
             causes.insert(if is_nearer { 0 } else { causes.len() }, Cause::Run(run, evidence));
@@ -293,7 +294,7 @@ mod tests {
 
     use Verdict::{Converging, TooLow};
 
-    /// 2.05 is nearer to 2 than 1.7; 2.4 is not.
+    /// A change of the order from 1.7 to 2.05 brings it nearer to 2, but a change to 2.4 does not.
     #[test]
     fn the_order_that_is_nearer_to_theory_is_restored() {
         let to = |value| (Converging, order(value, 0.05), 0.9);

@@ -23,7 +23,8 @@ const FEWEST_OF_TREND: usize = 3;
 /// Minimum order before a floor, well above the order of a flat series.
 const LEAST_FALL: f64 = 2.5 * FLAT_ORDER;
 
-/// Minimum mean factor between successive errors of an oscillation, larger than noise on a floor.
+/// Minimum mean factor between successive errors of an oscillation. The factor is larger than that
+/// of noise on a floor.
 const LEAST_SWING: f64 = 1.5;
 
 /// Minimum ratio of total rise to total fall in an oscillation, or of total fall to total rise. A
@@ -40,8 +41,8 @@ const TURNS: usize = 3;
 /// The first level is returned if the line through all points has an order below -0.2, with a
 /// confidence interval that excludes zero. Otherwise the divergent part begins at the smallest
 /// error, has at least three levels, and grows at least twofold. It must also meet one of three
-/// conditions: it ends at twice the first error of the series or more, rises over its last two
-/// pairs, or has a line with an order below -0.2, as above.
+/// conditions: the last error is at least twice the first error of the series, the error rises over
+/// the last two pairs, or the line through the part has an order below -0.2, as above.
 pub(crate) fn divergence(points: &[LogPoint]) -> Option<usize> {
     if points.len() < FEWEST_LEVELS {
         return None;

@@ -10,8 +10,8 @@ use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::Axis;
 
 /// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
-/// is the cause. The axis then causes half of the error if its order is one, and a third if its
-/// order is two.
+/// is the cause. A decrease by a quarter means that the axis causes half of the error if its order
+/// is one, and a third if its order is two.
 const LEAST_FALL: f64 = 0.25;
 
 named! {

@@ -24,11 +24,11 @@ use crate::verify::order::level::{Level, arrange};
 use crate::verify::order::window;
 use crate::verify::order::window::{FEWEST_LEVELS, Window};
 
-/// Maximum half-width of the interval of a settled order: half of 0.5, the typical distance between
-/// the orders of two methods.
+/// Maximum half-width of the interval of a settled order. The orders of two methods typically
+/// differ by 0.5, which is twice this value.
 pub(crate) const SETTLED: f64 = 0.25;
 
-/// Maximum half-width relative to the order, for high orders. At order 2 the half-width equals
+/// Maximum half-width relative to the order, for orders above 2. At order 2 the half-width equals
 /// [`SETTLED`].
 const SETTLED_FRACTION: f64 = SETTLED / 2.0;
 
@@ -239,7 +239,8 @@ fn settled(
     (verdict, Reason::Against { verdict, range, overlaps })
 }
 
-/// Computes the change of the order along the window; `None` unless it is significant and material.
+/// Computes the change of the order along the window; `None` unless the change is statistically
+/// significant and larger than [`DRIFT`].
 fn drift(window: &Window, points: &[LogPoint]) -> Option<f64> {
     let drift = window.line.drift(points)?;
     (drift.p_value < DRIFT_RISK && drift.change.abs() > DRIFT).then_some(drift.change)

@@ -78,7 +78,8 @@ impl<'a> ProgramBuilder<'a> {
     }
 
     /// Compiles a node and its children. A loop processes chains of left operands, which may be as
-    /// long as the source. The nesting depth that the parser accepts limits the recursion.
+    /// long as the source. All other operands are compiled by recursion, whose depth the parser
+    /// limits.
     fn compile(
         &mut self,
         frame: &mut Frame<'a>,

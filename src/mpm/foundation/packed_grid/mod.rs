@@ -18,7 +18,7 @@
 //! always form a box. The margin of other axes is zero, and is read only by functions with weight
 //! zero.
 //!
-//! After P2G, the field is unpacked to the columns of the grid ([`Columns`]).
+//! After P2G, the nodal values are copied from this field to the arrays of the grid ([`Columns`]).
 
 mod node;
 
@@ -52,7 +52,7 @@ fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
 }
 
 impl<N: PackedNode> PackedField<N> {
-    /// Gives the field the shape of `grid`. The values are undefined.
+    /// Gives the field the shape of `grid`. The values of the nodes are undefined afterwards.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::new(grid);
         self.nodes.resize(layout.strides[3], N::default());
@@ -121,7 +121,7 @@ impl PackedField<Node4> {
             } else {
                 values.for_each(|(Node4(here), value)| *here = lanes(value));
             }
-            // Functions of weight zero may read these nodes, so NaN from an earlier pass must be
+            // Functions with weight zero may read these nodes, so NaN from an earlier pass must be
             // removed.
             beyond.fill(Node4::default());
         });
@@ -133,11 +133,12 @@ impl PackedField<Node4> {
     }
 }
 
-/// Number of nodes unpacked at a time in 1-D: few enough for all columns to stay in the cache.
+/// Number of nodes that are copied at a time in 1-D: few enough for all arrays to stay in the
+/// cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
-/// Columns into which a packed field is unpacked, for all nodes or for some layers of nodes. A
-/// layer is perpendicular to the last axis.
+/// Arrays of the grid to which the values of a packed field are copied, for all nodes or for some
+/// layers of nodes. A layer is perpendicular to the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// Nodal mass, from the last of the four lanes.
@@ -147,7 +148,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// Nodal force, from the lanes after the momentum, or from the first lanes if there is no
     /// momentum.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
-    /// Number of grid nodes before the first node of these columns.
+    /// Number of grid nodes before the first node of these arrays.
     pub(in crate::mpm) before: usize,
 }
 
@@ -168,7 +169,7 @@ impl<const D: usize> Columns<'_, D> {
         Columns { mass, momentum, force, before: *before }
     }
 
-    /// Splits the columns at the first node of grid layer `layer`.
+    /// Splits the arrays at the first node of grid layer `layer`.
     pub(in crate::mpm) fn split_at(self, grid: &Grid<D>, layer: usize) -> (Self, Self) {
         let before = self.before;
         let from = layer.min(grid.counts[D - 1]) * nodes_of_layer(grid);
@@ -182,7 +183,7 @@ impl<const D: usize> Columns<'_, D> {
         )
     }
 
-    /// Unpacks these layers, which must be within the columns.
+    /// Copies these layers, which must be within the arrays, from the packed field.
     pub(in crate::mpm) fn unpack<N: PackedNode>(
         &mut self,
         grid: &Grid<D>,
@@ -208,7 +209,7 @@ impl<const D: usize> Columns<'_, D> {
         }
     }
 
-    /// Unpacks all layers on several threads.
+    /// Copies all layers on several threads.
     pub(in crate::mpm) fn unpack_all<N: PackedNode>(
         mut self,
         grid: &Grid<D>,
@@ -234,7 +235,7 @@ impl<const D: usize> Columns<'_, D> {
         );
     }
 
-    /// Unpacks `count` nodes of a row, starting at `index` in the field, to grid nodes starting at
+    /// Copies `count` nodes of a row, starting at `index` in the field, to grid nodes starting at
     /// number `to`.
     fn unpack_row<N: PackedNode>(
         &mut self,

@@ -1,5 +1,5 @@
-//! Nodes of packed fields, each as large as a register, and views of a field or of consecutive
-//! layers.
+//! Nodes of packed fields (nodal values in the order of registers), and views of a field or of
+//! consecutive layers of nodes.
 
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};

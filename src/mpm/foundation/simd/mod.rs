@@ -248,7 +248,8 @@ macro_rules! registers {
 
             #[inline(always)]
             fn are_in(self, low: f64, high: f64) -> bool {
-                // Each mask is checked separately, because a combined check would not be inlined.
+                // Each comparison is checked separately, because a combined check would not be
+                // inlined.
                 self.simd_ge(low).all_true() && self.simd_lt(high).all_true()
             }
 
@@ -290,8 +291,8 @@ sums!(fearless_simd::f64x8<fearless_simd::x86::Avx512>);
 const ROOT_OF_HALF: u64 = 0x3fe6_a09e << 32;
 const ONE: u64 = 0x3ff0_0000 << 32;
 const MANTISSA: u64 = (1 << 52) - 1;
-/// Bits of 2^52. In this number the last bit of the mantissa has the value one, so the mantissa
-/// holds an integer that is added to 2^52.
+/// Bits of 2^52. The last bit of the mantissa of this number has the value one, so an integer in
+/// the mantissa is added to 2^52.
 const COUNTING: u64 = 0x4330_0000 << 32;
 
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;

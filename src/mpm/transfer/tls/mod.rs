@@ -2,7 +2,7 @@
 //!
 //! In each cell a linear Taylor polynomial is fitted to the particle data. Nodal mass, momentum and
 //! internal force are integrated from the polynomial by Gauss quadrature (Wobbes, Moeller, Galavi &
-//! Vuik 2019, IJNME 117). At a node between two full cells, the internal force of a uniform stress
+//! Vuik 2019, IJNME 117). For a uniform stress, the internal force at a node between two full cells
 //! is zero, for any number of particles in each cell. The fits of mass and momentum density
 //! conserve the sums in every cell; the fit of the stress is unconstrained. Velocities are
 //! transferred back as in FLIP.
@@ -23,7 +23,7 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Debug, Clone, Default)]
 pub struct Tls<const D: usize> {
     quadrature: QuadraturePoints<D>,
-    /// The quadrature points as particles for the kernel.
+    /// The quadrature points, stored as particles, which the kernel requires.
     points: Option<Particles<D>>,
 }
 

@@ -1,6 +1,6 @@
 //! Quadrature points: the Gauss points of full cells, and the particles in cells at the boundary of
-//! the body. In a boundary cell, a polynomial fitted to the particles would extend outside the
-//! body.
+//! the body. Gauss points are not used in boundary cells, because a polynomial fitted to the
+//! particles would extend outside the body.
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -130,7 +130,7 @@ impl<const D: usize> QuadraturePoints<D> {
         self.first.fill(0);
         for ((cell, inside), x) in self.cell.iter_mut().zip(&mut self.x).zip(&particles.x) {
             *inside = Vector::from_fn(|axis, _| {
-                // Positions on axes without periodicity are not changed, not even by rounding.
+                // Positions on axes that are not periodic are not changed, not even by rounding.
                 let turns = if grid.periodic[axis] { grid.turns(x, axis) } else { 0.0 };
                 x[axis] - turns * grid.cells[axis] as f64 * grid.h
             });

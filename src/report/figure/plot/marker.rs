@@ -1,4 +1,4 @@
-//! Draws markers. The outline identifies the series; the filling shows whether the level counts for
+//! Draws markers. The shape identifies the series. The filling shows whether the level counts for
 //! the order.
 
 use super::style::{MarkerShape, PAPER};

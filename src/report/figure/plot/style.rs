@@ -56,9 +56,9 @@ const SERIES: [(&str, &str); 7] = [
     ("#000000", "#ffffff"),
 ];
 
-/// Returns the style sheet of the dark theme, for readers who prefer it. Elements have light
-/// colours as attributes, so figures do not change in print or in programs without `light-dark()`.
-/// Colours outside the palette, such as those of map fields, do not change.
+/// Returns the style sheet of the dark theme, for readers who prefer it. Elements have the colours
+/// of the light theme as attributes, so figures do not change in print or in programs without
+/// `light-dark()`. Colours outside the palette, such as those of map fields, do not change.
 pub(crate) fn style_sheet() -> String {
     let rule = |(light, dark): &(&str, &str)| {
         let colour = format!("light-dark({light},{dark})");

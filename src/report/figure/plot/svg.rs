@@ -57,7 +57,7 @@ impl SvgElement {
         Self::new(name).set("points", &list)
     }
 
-    /// Creates a text anchored at `at`; `anchor` is `start`, `middle` or `end`.
+    /// Creates a text anchored at the position `at`; `anchor` is `start`, `middle` or `end`.
     pub(crate) fn text(at: Pt, anchor: &str, text: &str) -> Self {
         Self::new("text").at("x", at.0).at("y", at.1).set("text-anchor", anchor).content(text)
     }

@@ -61,7 +61,7 @@ fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
     let step = digit * libm::pow(10.0, power);
     let decimals = (-power).max(0.0) as usize;
     let minor = step / parts as f64;
-    // Ends of the axis have ticks even if rounding puts these just outside.
+    // The tolerance keeps ticks at the ends of the axis if rounding places them just outside.
     let first = libm::ceil(lo / minor - 1e-6) as i64;
     let last = libm::floor(hi / minor + 1e-6) as i64;
     (first..=last)
@@ -128,7 +128,8 @@ fn log_ticks(
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
         for &digit in digits {
             let at = scale.fraction_of_working(f64::from(power) + libm::log10(f64::from(digit)));
-            // Ends of the axis have ticks even if rounding puts these just outside.
+            // The tolerance keeps ticks at the ends of the axis if rounding places them just
+            // outside.
             if (-1e-9..=1.0 + 1e-9).contains(&at) {
                 let label = label(digit, power);
                 ticks.push(Tick { at, label });

@@ -78,8 +78,8 @@ impl TriangleRow {
     /// Returns the fraction of the frame that must be empty below the data, so that triangles do
     /// not touch `paths` (px). `plot` is drawn with `pad` at the ends of its vertical axis.
     ///
-    /// A taller strip compresses the data and makes the triangles flatter. A triangle that is too
-    /// narrow at first may then be drawn, so the heights of all triangles count.
+    /// A taller strip compresses the data and makes the triangles flatter. A triangle that was too
+    /// narrow may then be drawn, so the computation includes the heights of all triangles.
     pub(crate) fn strip(&self, plot: &Plot, paths: &[Vec<Pt>], pad: Pad) -> f64 {
         let highest = self.triangles.iter().map(|t| t.rise).fold(0.0, f64::max);
         let left = plot.frame.right() - self.widest - CLEAR;
@@ -89,7 +89,7 @@ impl TriangleRow {
             return pad.lo;
         }
         let needed = (GAP + CAPTION + highest + CLEAR) / FRAME_HEIGHT;
-        // `share` is the height of the lowest data as a fraction of the range of all data.
+        // `share` is the height of the lowest data, as a fraction of the range of all data.
         let height = (plot.frame.bottom() - lowest) / FRAME_HEIGHT;
         let share = (height - pad.lo) / (1.0 - pad.lo - pad.hi);
         let rest = 1.0 - share;

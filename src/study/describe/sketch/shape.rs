@@ -18,7 +18,7 @@ pub(super) fn rims(view: &View, body: &Scene) -> Vec<Vec<Pt>> {
         let (left, right) = (body.from[0], body.to[0]);
         return vec![vec![(left, low), (right, low), (right, high), (left, high)]];
     };
-    // A rim ends where it started; the next point starts another rim.
+    // A rim is complete when it returns to its first point. The next point then starts another rim.
     let tolerance = ROUNDING * (body.to[0] - body.from[0]);
     let mut rims: Vec<Vec<Pt>> = vec![Vec::new()];
     for point in outline.trace() {

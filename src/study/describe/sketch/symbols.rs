@@ -8,7 +8,8 @@ use crate::report::figure::plot::svg::{Pt, SvgElement};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 
-/// Distance (px) between hatches or rollers along a face; `ARROW_STEP` is the distance of arrows.
+/// Distance (px) between hatches or rollers along a face; `ARROW_STEP` is the distance between
+/// arrows.
 const STEP: f64 = 9.0;
 const ARROW_STEP: f64 = 26.0;
 
@@ -97,8 +98,8 @@ fn traction(view: &View, load: &ListedLoad, face: &SceneFace, share: f64, t: f64
     (component(0), component(1))
 }
 
-/// Returns the ends of a face (m) along the other axis. If the body has an outline, these are the
-/// ends of the part of its rim that lies on the face.
+/// Returns the ends of a face (m) along the other axis. A body that is not a box may touch only a
+/// part of the face; the ends are then those of this part.
 fn ends(view: &View, face: &SceneFace, x: f64) -> [f64; 2] {
     let (scene, other) = (&view.scene, 1 - face.axis);
     if scene.mapped.is_some() {
@@ -137,7 +138,7 @@ pub(super) fn draw(view: &View, number: usize, face: &SceneFace) -> SvgElement {
             group.add(&edge.line(REACH, 1.5, INK));
         }
         "friction" => {
-            // Drawn next to the body, because the body can separate from the wall.
+            // The wall is drawn next to the body, because the body can separate from it.
             group.add(&edge.line(3.0, 1.5, INK));
             edge.hatching(3.0, &mut group);
         }

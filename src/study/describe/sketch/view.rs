@@ -1,4 +1,4 @@
-//! The plane region that a sketch shows, and its map to the canvas.
+//! The plane region that a sketch shows, and the map from this region to the canvas.
 
 use crate::report::figure::plot::style::WIDTH;
 use crate::report::figure::plot::svg::Pt;
@@ -15,7 +15,7 @@ const HIGHEST: f64 = 260.0;
 /// Minimum height of the grid on the canvas (px); a bar has this height.
 const LOWEST: f64 = 34.0;
 
-/// The grid of the coarsest level in the plane of the first two axes, and its scene.
+/// The scene, and the grid of the coarsest level in the plane of the first two axes.
 pub(super) struct View {
     pub(super) scene: Scene,
     pub(super) from: [f64; 2],
@@ -52,8 +52,8 @@ impl View {
         [self.to[0] - self.from[0], self.to[1] - self.from[1]]
     }
 
-    /// Returns the scale (px/m) along each axis. The second scale is larger for bodies that would
-    /// otherwise be too flat.
+    /// Returns the scale (px/m) along each axis. The second scale is larger than the first for
+    /// bodies that would otherwise be too flat.
     pub(super) fn scale(&self) -> [f64; 2] {
         let size = self.size();
         let equal = f64::min((WIDTH - 2.0 * MARGIN) / size[0], HIGHEST / size[1]);

@@ -180,8 +180,8 @@ pub(crate) fn check_drift(
     Err(diagnostic.with_help("restrict this expectation to MPM cases"))
 }
 
-/// Refuses a suite to which one of the entries applies. An entry is whether it applies, the place
-/// in the file, and the text for the `diagnostic`.
+/// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is true
+/// if it applies, the place in the file, and the text for the `diagnostic`.
 ///
 /// # Errors
 /// The diagnostic of the first entry that applies.

@@ -92,7 +92,8 @@ fn vacant(
     Err(evaluator.diagnostic(path, &message).with_label(label))
 }
 
-/// Returns the name (`nodes` or `particles`) and the number if a number exceeds [`MOST`].
+/// If there are more nodes or particles than [`MOST`], returns the word `nodes` or `particles` and
+/// their number.
 pub(crate) fn too_large(scene: &Scene, level: LevelPlan) -> Option<(&'static str, f64)> {
     let amounts = [("nodes", nodes(scene, level.h)), ("particles", particles(scene, level))];
     amounts.into_iter().find(|(_, amount)| *amount > MOST || amount.is_nan())

@@ -117,7 +117,8 @@ fn stored_energy(
     Ok(())
 }
 
-/// Refuses the energy as measured sum for methods whose force is not the derivative of an energy.
+/// Refuses the energy as measured sum for methods whose internal force is not the derivative of an
+/// energy.
 fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let is_averaged = |method: &MethodSpec| match method {
         MethodSpec::Mpm { volume: Some(volume), .. } => {

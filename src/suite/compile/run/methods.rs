@@ -252,7 +252,7 @@ fn tell_apart(drafts: &mut [MethodDraft]) {
 }
 
 /// Adds settings to equal names, and returns whether a name has changed. A new name may equal the
-/// name of another method, so the caller repeats this.
+/// name of another method, so the caller repeats the call until no name changes.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -278,7 +278,7 @@ fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
 }
 
-/// Whether a grid period differs from the length of the reference body.
+/// Whether the period of the grid differs from the length of the undeformed body.
 fn stretched(plan: &ConvergencePlan) -> bool {
     let scene = &plan.scene;
     let apart = |face: &SceneFace| {

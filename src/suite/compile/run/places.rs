@@ -7,8 +7,8 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-/// Maximum offset of a particle from its lattice point, as a share of the particle spacing: half
-/// the distance to its neighbour.
+/// Maximum offset of a particle from its lattice point, as a fraction of the particle spacing. At
+/// this offset, the particle is halfway to the next lattice point.
 const MOST: f64 = 0.5;
 
 /// Maximum random offset, as a share of the spacing, if a face carries a load. The particle layer

@@ -1,5 +1,5 @@
 //! Compiles the refinement plan. The refined key is the one with a list of values. Time steps are
-//! stated, or are a share of the stable time step.
+//! stated in the suite, or are a fraction of the stable time step.
 
 use crate::exact::formula::Formula;
 use crate::suite::compile::check::size::LevelPaths;
@@ -177,7 +177,7 @@ fn steps(
     let at_run = Path::top("run").then("dt");
     let at_refine = Path::top("refine").then("dt");
     if spec.run.load_steps.is_some() {
-        // A load step advances time by one unit.
+        // For load steps, the length of a step is one.
         let value = evaluator.formula(&at_run, &NumberText::Number(1.0), &["h"])?;
         return Ok(vec![Located { value, at: Path::top("run").then("load_steps") }]);
     }

@@ -23,7 +23,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect` to one expectation for each of the `rows`, which contain
+/// Compiles entry `i` of `expect` to one expectation for each of the `rows`, each given by its
 /// parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
@@ -44,7 +44,7 @@ pub(crate) fn rows(
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
-    // This evaluation, with the parameter values of the suite, marks the parameters as used.
+    // This evaluation, with the parameter values of the suite, also marks the parameters as used.
     row(evaluator, &path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
@@ -185,8 +185,8 @@ fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f6
 /// Maximum number of rows for which the values of a formula are written out.
 const MOST_VALUES: usize = 3;
 
-/// Returns a bound in words. A formula with one value for all rows is followed by this value; a
-/// formula with few values is replaced by them.
+/// Returns a bound in words. If a formula has the same value for all rows, the value follows the
+/// formula. If it has a few values, they replace the formula.
 fn with_values(formula: &str, values: &[f64], rows: &[Vec<(&str, f64)>]) -> String {
     if formula.parse::<f64>().is_ok() || values.len() != rows.len() {
         return formula.to_owned();

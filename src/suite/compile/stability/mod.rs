@@ -30,7 +30,7 @@ pub(crate) fn plan(
 ) -> Result<StabilityPlan, Diagnostic> {
     few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
-    // This evaluation, with the parameter values of the suite, marks the parameters as used.
+    // This evaluation, with the parameter values of the suite, also marks the parameters as used.
     let base = setup(evaluator, spec)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;

@@ -15,7 +15,7 @@ use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
 use crate::verify::Scales;
 
-/// Default initial perturbation amplitude for a run with frozen particles.
+/// Default initial perturbation amplitude for a run in which the particles do not move.
 const PERTURBATION: f64 = 1e-9;
 
 pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
@@ -181,8 +181,8 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
 }
 
-/// Refuses a frozen run of bodies that have an initial stress or motion, carry loads, or are in
-/// contact.
+/// Refuses a run without particle motion for bodies that have an initial stress or motion, carry
+/// loads, or are in contact.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -205,8 +205,8 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     ))
 }
 
-/// Default maximum energy of a stable run, relative to the initial energy. Just below its stability
-/// limit, a leapfrog scheme exchanges much energy between velocities and stresses.
+/// Default maximum energy of a stable run, relative to the initial energy. The maximum is large,
+/// because just below the stability limit of a leapfrog scheme the energy oscillates strongly.
 const STABLE_BELOW: f64 = 1e3;
 
 /// Default energy, relative to the initial energy, above which a run is unstable.

@@ -72,7 +72,7 @@ pub(crate) fn judged_box(
 }
 
 /// Returns `exact` without the faces whose condition the motion violates, so that the check of the
-/// solution skips them. `survey` is that of `exact`.
+/// solution skips them. `survey` must have been computed from `exact`.
 ///
 /// # Errors
 /// A diagnostic about a box that an elastic wave from such a face reaches before the end of the

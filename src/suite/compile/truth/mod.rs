@@ -59,7 +59,8 @@ pub(crate) fn exact(
 }
 
 /// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
-/// conditions. `survey` is that of a single body; several bodies are surveyed here.
+/// conditions. `survey` contains sampled positions and the largest terms of a single body. For
+/// several bodies, these are computed here.
 pub(crate) fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -110,7 +111,7 @@ fn solution(
     Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
-/// Returns the equation for checking a solution. A stated equation must be that of the material.
+/// Returns the equation for checking a solution. A stated equation must agree with the material.
 fn equation(
     evaluator: &Evaluator<'_>,
     path: &Path,
@@ -311,7 +312,7 @@ fn refuse_equilibrium_with(
         let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
         return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
     }
-    // This refuses formulas that contain t.
+    // A formula that contains t is refused here.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
         evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;

@@ -40,7 +40,7 @@ pub(crate) fn linearised(
 }
 
 /// Returns the diagnostic about a violation in `problem`. The message includes the residual of the
-/// law if the suite states the key `linearised`, or could be corrected by it.
+/// law if the suite has the key `linearised`, or if this key could make the suite valid.
 pub(crate) fn violated(
     evaluator: &Evaluator<'_>,
     path: &Path,

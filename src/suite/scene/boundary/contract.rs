@@ -19,7 +19,7 @@ pub(crate) trait BoundaryKeys {
     }
 }
 
-/// A condition without parameters needs no separate type for its keys.
+/// A condition without parameters is also the type of its keys.
 impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(*self))

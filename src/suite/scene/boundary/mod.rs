@@ -1,7 +1,6 @@
 //! Boundary conditions on the faces of a body. A new condition needs a file in this folder, its
-//! `mod` line and a line in `conditions!` below. The condition on grid nodes is a file of the
-//! solver. Two conditions have no name in suites: a face without a stated condition is a
-//! [`FreeFace`], or a [`FaceAtRest`] if the body does not move.
+//! `mod` line and a line in `conditions!` below. Two conditions have no name in suites: a face
+//! without a stated condition is a [`FreeFace`], or a [`FaceAtRest`] if the body does not move.
 
 mod contract;
 mod fixed;

@@ -23,7 +23,7 @@ macro_rules! names {
     )+) => {
         named! {
             /// Names of loads and effects in suites. Effects on the same part of a scene are
-            /// applied in this order.
+            /// applied in the order of this list.
             pub enum EffectName {
                 $($(#[$meta])* $member = $text,)+
             }

@@ -229,8 +229,8 @@ impl LoadedSet {
     }
 }
 
-/// Refuses tractions and pressures on a set, because they are forces per area and a set has no
-/// area.
+/// Refuses tractions and pressures on a set of particles. They are forces per area, and a set has
+/// no area.
 fn refuse_surface_load(
     evaluator: &Evaluator<'_>,
     path: &Path,

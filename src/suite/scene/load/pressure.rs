@@ -120,8 +120,8 @@ impl SceneLoad for PressureLoad {
         (0..values.len() - 1).map(component).collect()
     }
 
-    /// Returns the pressure as a tension, because in uniaxial strain the area of a face is
-    /// constant.
+    /// Returns minus the pressure. In uniaxial strain the area of a face is constant, so the
+    /// tension per reference area is the same.
     fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))

@@ -68,7 +68,7 @@ fn paths(value: &Value, path: &mut Vec<Step>, all: &mut Vec<Vec<Step>>) {
     }
 }
 
-/// Whether the message is about valid YAML that suites may not use.
+/// Whether the message refuses valid YAML that suites may not use.
 fn refused_on_purpose(message: &str) -> bool {
     ["not supported", "second document", "not allowed", "tab used"]
         .iter()
@@ -100,8 +100,7 @@ proptest! {
         if let Ok(value) = serde_yaml::from_str::<Value>(&text) {
             match Source::from_text("any.yaml", text.as_str()) {
                 Err(diagnostic) => prop_assert!(refused_on_purpose(diagnostic.message()), "{diagnostic}"),
-                // `read` stops at a list or map as a key, so the keys after this key cannot be
-                // located.
+                // `read` stops at a key that is a list or a map, so later keys cannot be located.
                 Ok(source) if read::<Value>(&source).is_err() => {}
                 Ok(source) => {
                     let mut all = Vec::new();

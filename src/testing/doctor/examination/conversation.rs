@@ -126,7 +126,7 @@ fn grouped_under_acceleration(
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // Other examinations report a run that fails.
+    // A failed run is not reported here, because other examinations report it.
     if stepwise.failure.is_some() {
         return Ok(None);
     }
@@ -188,7 +188,7 @@ fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
     };
     let ratio = distance(half) / distance(whole);
     // For half the step length, the ratio is 1/2 at constant speed and 1/4 at constant
-    // acceleration. The examination `translation` reports bodies that do not move.
+    // acceleration. Bodies that do not move are reported by the examination `translation`.
     if distance(whole) == 0.0 || ratio <= 0.75 {
         return None;
     }

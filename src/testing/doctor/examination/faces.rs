@@ -80,7 +80,8 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
         most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
-        // The stress of a fluid is not proportional to an elastic modulus.
+        // The stress check needs a law whose stress is proportional to an elastic modulus, unlike
+        // that of a fluid.
         if ELASTIC.contains(&scene.law) {
             most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }

@@ -265,8 +265,8 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     }
     let (_, found, _) = line(&x, &v);
     let share = found / slope;
-    // The range is wide because basis functions smooth a linear field near the edge of the body,
-    // also with APIC and PIC.
+    // The accepted range is wide, because basis functions smooth a linear field near the edge of
+    // the body, also with APIC and PIC.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;

@@ -49,8 +49,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     kinds.sort_unstable();
     kinds.dedup();
     let mut scenes: Vec<BoxScene> = kinds.iter().map(|kind| scene(*kind)).collect();
-    // In a body that starts undeformed, F and the velocity gradient commute. One law therefore also
-    // runs from a deformed start.
+    // In a body that starts undeformed, F and the velocity gradient commute, which hides errors in
+    // the order of products. One law therefore also runs from a deformed start.
     let elastic = FINITE.map(|law| (first.dimension, law));
     let mut elastic = elastic.into_iter().filter(|(d, law)| *d > 1 && *law != "linear_elastic");
     scenes.extend(elastic.find_map(|kind| patient.able(&[kind.0], &[kind.1], &deformed).ok()));
@@ -71,7 +71,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             off.map(|off| format!("relative error of {column} {}", shown(off)))
         });
         measured.push(format!("{name}: {}", texts.collect::<Vec<_>>().join(", ")));
-        // The examination `start` reports initial deformations that are ignored.
+        // Ignored initial deformations are reported by the examination `start`.
         if !scene.displacement.is_zero() && !starts_deformed(course, scene) {
             continue;
         }
@@ -83,7 +83,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             of_law.push(of_stress(&name, column, &stress, gradient, scene)?);
         }
     }
-    // Findings on F replace findings on the stress, which follow from a wrong F.
+    // A wrong F also causes a wrong stress, so findings on F replace findings on the stress.
     let mut findings: Vec<SolverFinding> = Vec::new();
     for finding in if of_f.is_empty() { of_law } else { of_f } {
         if findings.iter().all(|known| known.name != finding.name) {
@@ -189,7 +189,7 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {
-            // The points are symmetric about the centre, so the axes are independent.
+            // The points are symmetric about the centre, so the fit can treat each axis separately.
             let slope: f64 = points.iter().map(|(x, u)| x[j] * u[i]).sum();
             let squares: f64 = points.iter().map(|(x, _)| x[j] * x[j]).sum();
             f[i * d + j] = f64::from(u8::from(i == j)) + slope / squares;

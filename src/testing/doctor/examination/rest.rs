@@ -39,7 +39,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut findings = Vec::new();
     if !(way <= tolerance && speed <= tolerance) {
         let claims_double = patient.solver.precision() == Precision::Double;
-        // Any acceleration by a defect causes far larger motion in one step.
+        // Smaller motions are rounding errors of single precision, because an acceleration due to a
+        // defect causes far larger motion in one step.
         let is_noise = claims_double && way.max(speed) <= 1e-5;
         findings.push(if is_noise { single(way, speed) } else { cause(&course) });
     } else if let Some(failure) = &course.failure {

@@ -4,8 +4,8 @@
 //! The body is so heavy that no wave moves during the run. It therefore follows `v = L (X - X_c)`,
 //! and its deformation gradient grows from I to `I + L` in one second. The built-in solver computes
 //! the expected stress in the middle of the body in a Total Lagrangian run, which represents the
-//! motion exactly. The measured motion determines the path, because averaging (PIC) and basis
-//! functions on a fixed grid change it.
+//! motion exactly. The path is taken from the measured motion, which differs from the prescribed
+//! one if velocities are averaged (PIC) or if basis functions are fixed to the grid.
 
 use super::laws::deformation_gradient;
 use super::stress::inside;
@@ -33,8 +33,8 @@ const NEAR: f64 = 0.025;
 /// a rotation in their first step.
 const NEAR_WITH_ROTATION: f64 = 0.1;
 
-/// Maximum ratio (smaller to larger) of the errors with one and with 20 steps, for which the stress
-/// depends on the number of steps.
+/// The stress is said to depend on the number of steps if the errors with one and with 20 steps
+/// differ so much that the smaller one is at most this fraction of the larger one.
 const STEP_RATIO: f64 = 0.3;
 
 /// Strength of a soil, as a fraction of Young's modulus. The soil yields at a tenth of the final
@@ -94,7 +94,7 @@ impl Leg {
         error(&moved, &self.expected)
     }
 
-    /// Whether the measured stress agrees with the expected stress of `other`, which has another
+    /// Whether the measured stress agrees with the expected stress of `other`, a scene with another
     /// law or other parameters.
     fn is_that_of(&self, other: &BoxScene) -> Result<bool, Hindrance> {
         Ok(error(&self.stress, &expected(other)?) <= NEAR)
@@ -224,7 +224,8 @@ fn expected(scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     in_middle(&scene.built_in(METHOD)?, scene)
 }
 
-/// Returns the first finding on a law. Later paths are examined only if simpler ones are right.
+/// Returns the first finding on a law. A path is examined only if the stresses on all simpler paths
+/// are correct.
 fn finding(legs: &Legs) -> Result<Option<SolverFinding>, Hindrance> {
     let Legs { compression, one_step, extension, shear, rotation } = legs;
     let face_is_right = shear.as_ref().is_some_and(|leg| !leg.is_wrong());

@@ -1,8 +1,9 @@
 //! Examination of a body that starts deformed and stressed, and is released.
 //!
-//! The displacement of the body is a simple shear, so F and the stress are uniform. Until waves
-//! arrive from the free faces, the initial first Piola-Kirchhoff stress changes the momentum of one
-//! half by `dP_j/dt = -P_ji A` through the reference plane with normal i.
+//! The displacement of the body is a simple shear, so F and the stress are uniform. A reference
+//! plane of area A with normal i divides the body into two halves. Until waves arrive from the free
+//! faces, component j of the momentum of the upper half changes at the rate `-P_ji A`, where P is
+//! the initial first Piola-Kirchhoff stress.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
@@ -21,12 +22,12 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Initial shear. A shear of one maps a square lattice of particles to a square lattice. Otherwise
-/// cells would have unequal numbers of particles, which reduces the force by a tenth with linear
+/// Initial shear. A shear of one maps the square lattice of particles to a square lattice, so all
+/// cells have equally many particles. Unequal numbers would reduce the force by a tenth with linear
 /// functions.
 const SHEAR: f64 = 1.0;
 
-/// Initial stretch in one dimension.
+/// Initial displacement gradient of a one-dimensional body.
 const STRETCH: f64 = 0.05;
 
 /// Maximum relative error of the force. The value allows for approaching waves and small changes of
@@ -106,7 +107,8 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // P = J sigma F^-T: its first column is sigma times the first column of F's cofactors.
+        // With P = J sigma F^-T, the first column of P is sigma times the first column of the
+        // cofactors of F.
         let cofactor: Vec<f64> = (0..d)
             .map(|k| {
                 let mut replaced = f.to_vec();
@@ -144,7 +146,8 @@ impl Forces {
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
-    // The motion in the first step is much smaller than the initial displacement.
+    // A wrong start is detected after the first step, because the motion in this step is much
+    // smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let before: Vec<[f64; 3]> = course.points(displacement, 0).map(|(_, u)| u).collect();
     let pairs = course.points(displacement, 1).zip(before);

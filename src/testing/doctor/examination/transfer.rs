@@ -1,17 +1,17 @@
 //! Examination of the velocity transfer between particles and grid, using a stress-free body that
 //! rotates or stretches.
 //!
-//! Here the velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform
-//! velocity is transferred exactly by all weights that sum to one.) The moment `M = sum m (X - C) x
-//! v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this velocity is
-//! transferred.
+//! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform velocity
+//! would reveal nothing, because all weights that sum to one transfer it exactly.) The moment `M =
+//! sum m (X - C) x v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this
+//! velocity is transferred.
 //!
-//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. Here d is the number
-//! of axes along which v varies, and beta is the share of PIC. D is the second moment of the
-//! weights along an axis: 1/4 h2 for quadratic and 1/3 h2 for cubic B-splines. An affine transfer
-//! (APIC) loses nothing if its affine matrix is correct (Jiang et al. 2015, eq. 8 to 11). If the
-//! matrix is wrong by the factor a, the transfer loses `1 - a` times as much as PIC. If the matrix
-//! is transposed, the transfer loses twice as much of a rotation as PIC.
+//! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. In this formula, d is
+//! the number of axes along which v varies, beta is the share of PIC in a blend with FLIP, and D is
+//! the second moment of the weights along an axis: 1/4 h2 for quadratic and 1/3 h2 for cubic
+//! B-splines. An affine transfer (APIC) loses nothing if its affine matrix is correct (Jiang et al.
+//! 2015, eq. 8 to 11). If the matrix is wrong by the factor a, the loss is `1 - a` times that of
+//! PIC. If the matrix is transposed, the loss of a rotation is twice that of PIC.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;

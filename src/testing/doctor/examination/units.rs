@@ -15,7 +15,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// A power of two, so scaling does not even change rounding errors.
+/// Factor for other units. It is a power of two, so scaling does not even change rounding errors.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 

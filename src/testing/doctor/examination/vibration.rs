@@ -2,9 +2,10 @@
 //!
 //! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy must
 //! not exceed its initial value by much. This holds for schemes that compute the strain from the
-//! velocity after the forces (USL, MUSL), or the forces from the stress after the strain (USF). If
-//! a scheme computes both from the beginning of the step, as in forward Euler, each step multiplies
-//! the amplitude of a mode of frequency w by `sqrt(1 + w2 dt2)`.
+//! updated velocities (USL, MUSL), or the forces from the updated stress (USF). If a scheme
+//! computes strain and forces from the state at the beginning of the step, as in forward Euler,
+//! each step multiplies the amplitude of a mode with the angular frequency w by
+//! `sqrt(1 + w^2 dt^2)`.
 
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;

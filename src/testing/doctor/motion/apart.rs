@@ -8,7 +8,8 @@ use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
-/// Points up to this distance (cells) from the edge of the body use nodes outside the body.
+/// Basis functions at points up to this distance (cells) from the edge of the body use nodes
+/// outside the body.
 const RIM: f64 = 1.6;
 
 /// Returns a cause that is recognised even if the error is small: a position limit, nodes with
@@ -55,9 +56,9 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
         return Ok(None);
     }
     let again = UniformMotion { course, scene: &halved, ..*motion };
-    // The losses at the end of the first step are compared, before they saturate. With half the
-    // step length, drag causes the same loss in this time, and wrong weights twice the loss. The
-    // limit for the ratio is the geometric mean of 1 and 2.
+    // Losses are compared after the time of the first step, because later losses saturate. In two
+    // steps of half the length, drag causes the same loss, and wrong weights cause twice the loss.
+    // The limit for the ratio is the geometric mean of 1 and 2.
     let (once, twice) = (lost(motion, 1), lost(&again, 2));
     let is_noise = !(once.1 * scene.steps as f64 > motion.patient.rounding());
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
@@ -164,7 +165,7 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let first = (1..=course.last()).find(crosses)?;
     let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
-    // Two correct steps show that only the cell change causes the error.
+    // If two steps before the cell change are correct, only the cell change causes the error.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }

@@ -125,8 +125,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     if !(log_off <= 0.1 * logs[logs.len() - 1].abs() || off <= 0.1 * error) {
         return Ok(None);
     }
-    // With half the step length, the rate of a loss per unit time is the same, and that of a loss
-    // per step doubles.
+    // A second run with half the step length distinguishes two kinds of loss: a loss per unit time
+    // has the same rate, and a loss per step has twice the rate.
     let scene = motion.scene;
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;

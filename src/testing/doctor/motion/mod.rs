@@ -53,8 +53,7 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
     if as_one { Ok(as_one::unknown(motion)) } else { apart::cause(motion) }
 }
 
-/// Returns the finding for errors that are too large for double precision but not for single
-/// precision.
+/// Returns the finding for errors that single precision can explain, but double precision cannot.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
     SolverFinding::defect(
         "single-precision",

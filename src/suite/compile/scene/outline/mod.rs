@@ -1,4 +1,4 @@
-//! Compiles the shape of a body: a box or another outline.
+//! Compiles the shape of a body: a box or another shape.
 
 pub(crate) mod polygon;
 
@@ -131,8 +131,8 @@ pub(crate) fn corners(
             let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
             return Err(diagnostic.with_label("expected a number above that of `from`"));
         }
-        // Second derivatives contain squares of the length, and volumes contain cubes; both must be
-        // finite.
+        // The length is limited because second derivatives contain its square and volumes contain
+        // its cube; both must be finite.
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));

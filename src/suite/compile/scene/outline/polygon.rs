@@ -61,7 +61,7 @@ fn corners(
     Ok(corners)
 }
 
-/// Compiles the quadrilateral in `spec` at `path`, and its outline.
+/// Compiles the quadrilateral in `spec` at `path`. Also returns its shape as an `Outline`.
 pub(super) fn quadrilateral(
     evaluator: &Evaluator<'_>,
     path: &Path,

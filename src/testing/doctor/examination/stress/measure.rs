@@ -19,7 +19,7 @@ const TUBE: f64 = 2.0;
 /// reach the tube.
 pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
 
-/// Number of steps, small because averaging (PIC) spreads momentum in each step.
+/// Number of steps. The number is small, because averaging (PIC) spreads momentum in each step.
 pub(in crate::testing::doctor) const STEPS: u64 = 6;
 
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
@@ -41,7 +41,8 @@ pub(super) struct MeasuredModuli {
 
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
-    // With a cell of 0.15 m and these particle numbers, each defect causes another factor.
+    // With a cell of 0.15 m and these particle numbers, each kind of defect changes the moduli by a
+    // different factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -146,7 +147,7 @@ pub(in crate::testing::doctor) fn impulses(
     (0..=course.last()).map(impulse).collect()
 }
 
-/// Maximum relative error of a column, large because the column may be one step old.
+/// Maximum relative error of a column. The limit is large, because the column may be one step old.
 pub(super) const NEAR: f64 = 0.2;
 
 /// Returns the growth of the column `stress` along the stretch, relative to its expected growth;

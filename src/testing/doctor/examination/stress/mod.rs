@@ -2,10 +2,10 @@
 //! through the middle.
 //!
 //! With an initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
-//! the free faces. Momentum is transferred from one half to the other by `dP_j/dt = -sigma_ij A`
-//! through the middle plane with normal i. The transfer is measured in a tube, which consists of
-//! the points near axis i. It is computed from velocities alone, and is exact for any basis
-//! functions.
+//! the free faces. The middle plane with normal i has the area A. Through this plane the upper half
+//! of the body gains the momentum `-sigma_ij A` per unit time, and the lower half loses it. The
+//! transfer is measured in a tube, which consists of the points near axis i. It is computed from
+//! velocities alone, and is exact for any basis functions.
 //!
 //! ```text
 //! measure   the scene, stresses from momentum, and the columns `stress` and `deformation_gradient`
@@ -107,7 +107,8 @@ fn examine_scene(
     let (mut course, mut measured) = measure(patient, &scene, averages)?;
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
-    // Waves are faster than expected and have arrived: repeat with a shorter run.
+    // Such a stiff body has waves faster than expected, which have already arrived, so a shorter
+    // run is needed.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;
@@ -130,7 +131,7 @@ fn examine_scene(
     Ok((examined, measured.averaged_share))
 }
 
-/// Names of findings that viscosity can also cause.
+/// Names of findings whose measured values viscosity can also cause.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
 fn viscosity(measured: &MeasuredModuli) -> SolverFinding {

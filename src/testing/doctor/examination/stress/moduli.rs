@@ -11,8 +11,8 @@ const NEAR: f64 = 0.03;
 /// Value added to [`NEAR`] if averaging transfers as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
-/// A defect: its name, the moduli that it causes (longitudinal, lateral, shear), its cause, and the
-/// code to check.
+/// A defect: its name, the measured moduli that it would cause (longitudinal, lateral, shear), its
+/// cause, and the code to check.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
 pub(super) fn cause(

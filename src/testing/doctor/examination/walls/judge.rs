@@ -32,7 +32,7 @@ const SMOOTH: f64 = 0.2;
 const WEIGHT: f64 = 0.3;
 
 /// The wall force under gravity may be too large by this share of the weight of a cell, because
-/// averaging (PIC) increases it.
+/// averaging (PIC) increases the force.
 const CARRIED: f64 = 0.4;
 
 /// Maximum error of displacements in a uniform stretch. Quadratic functions that are modified at
@@ -81,7 +81,8 @@ fn first_kind(
 }
 
 /// Returns a finding if two walls that should exert equal forces do not. These are walls on
-/// opposite faces with equal conditions, and two runs with different conditions on the same face.
+/// opposite faces with equal conditions, and the same wall in two runs with different tangential
+/// conditions.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -215,9 +216,10 @@ fn of_wall(wall: &Wall) -> Option<SolverFinding> {
 /// Returns a finding if a body sinks into the wall under gravity.
 fn of_sinking(wall: &Wall, seen: &str) -> Option<SolverFinding> {
     let [sinking, halved] = wall.sinking?;
-    // Averaging (PIC) also makes the body sink, but more with smaller steps.
+    // Averaging (PIC) also makes the body sink, but the body then sinks further with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall fixes its nodes correctly but does not carry their weight (half a cell).
+    // The wall fixes its nodes correctly, but its force lacks the weight of these nodes (half a
+    // cell).
     let is_missing =
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     if sinks_by_steps || is_missing {

@@ -1,4 +1,4 @@
-//! Measures wall forces, and motions near walls, from the momentum of each half of a bar.
+//! Measures wall forces from the momentum of each half of a bar, and motions near walls.
 
 use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor};
@@ -199,7 +199,7 @@ fn stretch_errors(
             let error = (-end.sign() * u[axis] - strain * depth) / (strain * H);
             (depth <= 2.0 * H).then_some(error)
         });
-        // NaN propagates.
+        // The result is NaN if an error is NaN.
         errors.fold(0.0, |largest: f64, error| {
             if largest.is_nan() || error.abs() <= largest.abs() { largest } else { error }
         })
@@ -257,8 +257,9 @@ impl BarEnd {
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Returns the gain of the velocity component `along` of this half since the start, times the
-    /// length of the half. This is the impulse of the wall divided by the mass per length (m2/s).
+    /// Returns the gain of velocity of this half since the start, in the direction `along`, times
+    /// the length of the half. This is the impulse of the wall divided by the mass per length
+    /// (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let weights = &course.states[0].weight;
@@ -309,8 +310,8 @@ impl BarEnd {
         Some(mean[self.axis * (d + 1)])
     }
 
-    /// Returns the displacement (m) along the axis at the wall at the end. The displacement is
-    /// extrapolated by a line through the points less than two cells from the wall.
+    /// Returns the displacement (m) along the axis at the wall at the end. The displacement at the
+    /// wall is extrapolated by a line through the points less than two cells from the wall.
     fn at_wall(self, course: &Course, scene: &BoxScene) -> f64 {
         let (mut depth, mut out) = (Vec::new(), Vec::new());
         for (label, u) in course.points(displacement, course.last()) {
