@@ -229,8 +229,8 @@ mod tests {
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
-    /// Creates squares at rest, each with its own velocity gradient (1/s), so that a batch has small
-    /// and large strains.
+    /// Creates squares at rest, each with its own velocity gradient (1/s), so that a batch has
+    /// small and large strains.
     fn squares(total: usize) -> Particles<2> {
         let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
         let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);

@@ -22,10 +22,10 @@ const SMALL_SQUARE: f64 = 1.0 / 64.0;
 const TERMS: usize = 18;
 
 /// Coefficients of a power series, from the constant on.
-pub(super) type Series = [f64; TERMS];
+pub(super) type Coefficients = [f64; TERMS];
 
 /// Series of `ln(1 + x)/2`: the coefficients are `(-1)^(k + 1)/(2 k)`.
-pub(super) const HALF_LOG: Series = {
+pub(super) const HALF_LOG: Coefficients = {
     let mut series = [0.0; TERMS];
     let mut k = 1;
     while k < TERMS {
@@ -36,7 +36,7 @@ pub(super) const HALF_LOG: Series = {
 };
 
 /// Series of `1/sqrt(1 + x)`: the coefficients have the ratios `-(2 k - 1)/(2 k)`.
-const INVERSE_ROOT: Series = {
+const INVERSE_ROOT: Coefficients = {
     let mut series = [1.0; TERMS];
     let mut k = 1;
     while k < TERMS {
@@ -48,7 +48,7 @@ const INVERSE_ROOT: Series = {
 
 /// Series of `1 + x - sqrt(1 + x)`: the coefficients of the root have the ratios
 /// `-(2 k - 3)/(2 k)`.
-const MINUS_ROOT: Series = {
+const MINUS_ROOT: Coefficients = {
     let mut series = [-1.0; TERMS];
     let mut k = 1;
     while k < TERMS {
@@ -108,7 +108,7 @@ impl<const D: usize> PowerSeries<D> {
 
     /// Returns the sum of a series, valid for small matrices.
     #[inline(always)]
-    pub(super) fn sum(&self, series: &Series) -> MatrixBatch<D> {
+    pub(super) fn sum(&self, series: &Coefficients) -> MatrixBatch<D> {
         let [i1, i2, i3] = &self.invariants;
         let [mut a, mut b, mut c] = [F64Batch::ZERO; 3];
         for coefficient in series.iter().rev() {
@@ -173,7 +173,7 @@ impl<const D: usize> SquaredStretch<D> {
     #[inline(always)]
     fn function(
         &self,
-        series: &Series,
+        series: &Coefficients,
         of_squares: impl Fn(&F64Batch) -> F64Batch,
     ) -> MatrixBatch<D> {
         let mut values = self.small.sum(series);
