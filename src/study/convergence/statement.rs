@@ -142,9 +142,10 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     });
     if study.steps == StepKind::Time {
         // A run can be compared with a reference run only at instants that both have in common.
-        let between = match study.cases.iter().any(|case| case.against.is_computed()) {
-            true => ", or of steps between instants if compared with another run",
-            false => "",
+        let between = if study.cases.iter().any(|case| case.against.is_computed()) {
+            ", or of steps between instants if compared with another run"
+        } else {
+            ""
         };
         push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps{between}"));
         push(rows, "instants", &format!("{instants}"));
