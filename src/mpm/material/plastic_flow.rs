@@ -8,9 +8,9 @@
 //! The plastic flow is stored as `Cp^-1` in `be = F Cp^-1 F^T`. The trial state is computed from
 //! the total F and not from increments, so rounding errors of an elastic state do not accumulate.
 //!
-//! A body with the initial stress S0 starts with the elastic strain `eps0`, `S0 = K tr(eps0) I + 2
-//! mu dev(eps0)`, that is `Cp^-1 = exp(2 eps0)` at F = I. The yield condition therefore limits the
-//! total stress, and S0 must satisfy this condition.
+//! A body with the initial stress S0 starts with the elastic strain `eps0`,
+//! `S0 = K tr(eps0) I + 2 mu dev(eps0)`, that is `Cp^-1 = exp(2 eps0)` at F = I. The yield
+//! condition therefore limits the total stress, and S0 must satisfy this condition.
 //!
 //! Plane and uniaxial strain have out-of-plane elastic strain, so the state is 3-D in any
 //! dimension.
@@ -211,53 +211,68 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
     }
 
-    /// Computes the stress of a batch of particles (Pa) as that of an elastic state, without the
-    /// axes of the trial strain. Returns J, and whether the state of a particle is certainly
+    /// Computes the Cauchy stress of a batch of particles (Pa) as that of an elastic state from the
+    /// logarithms of [`small_trial`]. Also returns whether the state of a particle is certainly
     /// elastic. The stress of any other particle is not valid.
-    ///
-    /// With `H = F - I` and `P = Cp^-1 - I`, `be - I = P + W + W^T + H W` with `W = H^T + P H^T`.
-    /// Before any plastic flow P is zero, so small strains suffer no cancellation.
-    fn elastic<const D: usize>(
-        &self,
-        def_grad: &[Matrix<D>],
-        flowed: &[Flowed],
-        sigma: &mut [Matrix<D>],
-    ) -> (F64Batch, [bool; BATCH]) {
+    fn elastic(&self, trial: &SmallTrial) -> (MatrixBatch<3>, [bool; BATCH]) {
         let LogElasticity { bulk, mu, .. } = *self.surface.elasticity();
         vectorized(
             #[inline(always)]
             || {
-                let (mut f, mut metric) = (MatrixBatch::<3>::identity(), MatrixBatch::identity());
-                let (mut j, mut strain_before) = (F64Batch([1.0; BATCH]), F64Batch::ZERO);
-                for (lane, (own, flowed)) in def_grad.iter().zip(flowed).enumerate() {
-                    f.set(lane, own);
-                    metric.set(lane, &flowed.inverse_metric);
-                    strain_before.0[lane % BATCH] = flowed.strain;
-                    j.0[lane % BATCH] = det(own);
-                }
-                let (h, p) = (f.minus_identity(), metric.minus_identity());
-                let w = h.transpose().plus(&p.times(&h.transpose()));
-                let small = PowerSeries::new(p.plus(&excess(&h, &w)));
-                let mut stresses = small.sum(&HALF_LOG);
-                let mut inside = [false; BATCH];
+                let (mut stresses, mut inside) = (trial.strain, trial.is_small);
                 for lane in 0..BATCH {
                     let mut strain = stresses.get::<3>(lane);
                     let mean = (strain[(0, 0)] + strain[(1, 1)] + strain[(2, 2)]) / 3.0;
                     for i in 0..3 {
                         strain[(i, i)] -= mean;
                     }
-                    let is_elastic = self.surface.encloses(mean, &strain, strain_before.get(lane));
-                    inside[lane] = small.is_small(lane) & is_elastic;
-                    let own = j.get(lane);
+                    inside[lane] &= self.surface.encloses(mean, &strain, trial.flowed.get(lane));
+                    let own = trial.j.get(lane);
                     stresses.set(lane, &linear(3.0 * bulk * mean / own, 2.0 * mu / own, &strain));
                 }
-                for (lane, sigma) in sigma.iter_mut().enumerate() {
-                    *sigma = stresses.get(lane);
-                }
-                (j, inside)
+                (stresses, inside)
             },
         )
     }
+}
+
+/// Trial states of a batch of particles, without the axes of the strain.
+struct SmallTrial {
+    /// Trial strain `ln(be)/2`, valid where `is_small`.
+    strain: MatrixBatch<3>,
+    is_small: [bool; BATCH],
+    /// Volume ratio J.
+    j: F64Batch,
+    /// Accumulated plastic strain.
+    flowed: F64Batch,
+}
+
+/// Computes the trial strains of a batch of particles by the power series of the logarithm.
+///
+/// With `H = F - I` and `P = Cp^-1 - I`, `be - I = P + W + W^T + H W` with `W = H^T + P H^T`.
+/// Before any plastic flow P is zero, so small strains suffer no cancellation.
+fn small_trial<const D: usize>(def_grad: &[Matrix<D>], flowed: &[Flowed]) -> SmallTrial {
+    vectorized(
+        #[inline(always)]
+        || {
+            let (mut f, mut metric) = (MatrixBatch::<3>::identity(), MatrixBatch::identity());
+            let (mut j, mut before) = (F64Batch([1.0; BATCH]), F64Batch::ZERO);
+            for (lane, (own, flowed)) in def_grad.iter().zip(flowed).enumerate() {
+                f.set(lane, own);
+                metric.set(lane, &flowed.inverse_metric);
+                before.0[lane % BATCH] = flowed.strain;
+                j.0[lane % BATCH] = det(own);
+            }
+            let (h, p) = (f.minus_identity(), metric.minus_identity());
+            let w = h.transpose().plus(&p.times(&h.transpose()));
+            let small = PowerSeries::new(p.plus(&excess(&h, &w)));
+            let mut is_small = [false; BATCH];
+            for lane in 0..BATCH {
+                is_small[lane] = small.is_small(lane);
+            }
+            SmallTrial { strain: small.sum(&HALF_LOG), is_small, j, flowed: before }
+        },
+    )
 }
 
 /// Returns the squared length of a symmetric matrix.
@@ -366,9 +381,13 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
             let volumes = vol.chunks_mut(BATCH).zip(vol0.chunks(BATCH));
             let results = volumes.zip(sigma.chunks_mut(BATCH));
             for ((def_grad, flowed), ((vol, vol0), sigma)) in columns.zip(results) {
-                let (j, inside) = self.elastic(def_grad, flowed, sigma);
-                for ((vol, vol0), j) in vol.iter_mut().zip(vol0).zip(&j.0) {
-                    *vol = j * vol0;
+                let small = small_trial(def_grad, flowed);
+                let (stresses, inside) = self.elastic(&small);
+                let j = small.j;
+                let results = vol.iter_mut().zip(vol0).zip(&mut *sigma).enumerate();
+                for (lane, ((vol, vol0), sigma)) in results {
+                    *vol = j.get(lane) * vol0;
+                    *sigma = stresses.get(lane);
                 }
                 if inside[..def_grad.len()].iter().all(|inside| *inside) {
                     continue;
@@ -549,11 +568,12 @@ mod tests {
             law.update(&mut StressUpdate::new(SLOW, &mut body));
             assert!(law.flowed[0].strain > 1e-3);
             let f = Matrix::identity() * 1e-4 + first * (1.0 - 1e-3);
-            let mut sigma = [Matrix::zeros()];
-            let (j, inside) = law.elastic(&[f], &law.flowed, &mut sigma);
-            assert!(inside[0] && j.get(0) == det(&f));
-            let expected = law.response(0, &f).unwrap().kirchhoff;
-            assert_relative_eq!(sigma[0] * det(&f), expected, epsilon = 1e-12 * expected.norm());
+            let trial = small_trial(&[f], &law.flowed);
+            let (sigma, inside) = law.elastic(&trial);
+            assert!(inside[0] && trial.j.get(0) == det(&f));
+            let (tau, expected) =
+                (sigma.get::<D>(0) * det(&f), law.response(0, &f).unwrap().kirchhoff);
+            assert_relative_eq!(tau, expected, epsilon = 1e-12 * expected.norm());
         }
         of::<2, _>(J2::new(1e4, 0.3, 30.0, 20.0));
         of::<3, _>(J2::new(1e4, 0.3, 30.0, 20.0));

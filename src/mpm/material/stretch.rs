@@ -99,11 +99,7 @@ impl<const D: usize> PowerSeries<D> {
 
     #[inline(always)]
     pub(super) fn all_small(&self) -> bool {
-        let mut large = 0;
-        for lane in 0..BATCH {
-            large |= u64::from(!self.is_small(lane));
-        }
-        large == 0
+        (0..BATCH).fold(true, |all, lane| all & self.is_small(lane))
     }
 
     /// Returns the sum of a series, valid for small matrices.
@@ -163,8 +159,7 @@ impl<const D: usize> SquaredStretch<D> {
     #[inline(always)]
     pub(super) fn new(f: &MatrixBatch<D>, h: &MatrixBatch<D>) -> Self {
         let small = PowerSeries::new(excess(h, &h.transpose()));
-        let large =
-            if small.all_small() { None } else { Some(spectral_batch(f.times(&f.transpose()))) };
+        let large = if small.all_small() { None } else { Some(decomposed(f)) };
         Self { small, large }
     }
 
@@ -174,11 +169,11 @@ impl<const D: usize> SquaredStretch<D> {
     fn function(
         &self,
         series: &Coefficients,
-        of_squares: impl Fn(&F64Batch) -> F64Batch,
+        of_squares: fn(&F64Batch) -> F64Batch,
     ) -> MatrixBatch<D> {
         let mut values = self.small.sum(series);
         if let Some((squares, axes)) = &self.large {
-            let of_large = assembled_batch(&squares.map(of_squares), axes);
+            let of_large = at_eigenvalues(squares, axes, of_squares);
             for j in 0..D {
                 for i in 0..D {
                     for lane in 0..BATCH {
@@ -199,22 +194,43 @@ impl<const D: usize> SquaredStretch<D> {
 
     #[inline(always)]
     pub(super) fn inverse_root(&self) -> MatrixBatch<D> {
-        self.function(
-            &INVERSE_ROOT,
-            #[inline(always)]
-            |squares| F64Batch(squares.0.map(|square| 1.0 / square.sqrt())),
-        )
+        self.function(&INVERSE_ROOT, |squares| {
+            F64Batch(squares.0.map(|square| 1.0 / square.sqrt()))
+        })
     }
 
     /// Returns the squared stretch minus the stretch.
     #[inline(always)]
     pub(super) fn minus_root(&self) -> MatrixBatch<D> {
-        self.function(
-            &MINUS_ROOT,
-            #[inline(always)]
-            |squares| F64Batch(squares.0.map(|square| square - square.sqrt())),
-        )
+        self.function(&MINUS_ROOT, |squares| {
+            F64Batch(squares.0.map(|square| square - square.sqrt()))
+        })
     }
+}
+
+/// Computes eigenvalues and axes of `F F^T`. This function and [`at_eigenvalues`] are compiled once
+/// per dimension, not once per law.
+#[cold]
+#[inline(never)]
+fn decomposed<const D: usize>(f: &MatrixBatch<D>) -> (VectorBatch<D>, MatrixBatch<D>) {
+    vectorized(
+        #[inline(always)]
+        || spectral_batch(f.times(&f.transpose())),
+    )
+}
+
+/// Returns the matrices with the eigenvalues `of_squares(squares)` along `axes`.
+#[cold]
+#[inline(never)]
+fn at_eigenvalues<const D: usize>(
+    squares: &VectorBatch<D>,
+    axes: &MatrixBatch<D>,
+    of_squares: fn(&F64Batch) -> F64Batch,
+) -> MatrixBatch<D> {
+    vectorized(
+        #[inline(always)]
+        || assembled_batch(&squares.map(of_squares), axes),
+    )
 }
 
 /// Decomposes the steps `I + grad v dt = v R` of a batch of particles. Returns the stresses

@@ -67,17 +67,17 @@ impl<const D: usize> StressResponse<D> {
     pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
         let mut space = Matrix::<3>::zeros();
         space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
-        let turning = dh;
-        let dh = self.axes.transpose() * space * self.axes;
-        let along = self.modulus * dh.diagonal();
+        let in_axes = self.axes.transpose() * space * self.axes;
+        let along = self.modulus * in_axes.diagonal();
         let change = Matrix::<3>::from_fn(|a, b| {
             if a == b {
                 return along[a];
             }
-            self.slope(a, b) * (dh[(a, b)] * self.squares[b] + self.squares[a] * dh[(b, a)])
+            let shear = in_axes[(a, b)] * self.squares[b] + self.squares[a] * in_axes[(b, a)];
+            self.slope(a, b) * shear
         });
-        let turned = turning * self.initial;
-        in_body(&(self.axes * change * self.axes.transpose())) + turned + turned.transpose()
+        let initial = dh * self.initial;
+        in_body(&(self.axes * change * self.axes.transpose())) + initial + initial.transpose()
     }
 
     /// Returns `(tau_a - tau_b)/(b_a - b_b)` (Pa), or its limit for nearly equal values.
