@@ -78,7 +78,7 @@ pub use gradient::{
 };
 pub use judge_plan::{JudgePlan, LevelRun, LevelSizes};
 pub use order::fit::Interval;
-pub(crate) use order::format_number::{format_number, rounded};
+pub(crate) use order::format_number::{format_number, rounded, tuple};
 pub use order::hypothesis::OrderHypothesis;
 pub use order::level::{Axis, Level, observed_order};
 pub use order::limit_estimate::{

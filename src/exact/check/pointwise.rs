@@ -183,7 +183,7 @@ pub(crate) fn start_of_yielding(problem: &Problem, survey: &Survey) -> Result<()
             let allowed = problem.tolerance * survey.largest.stress;
             let name = "the lateral initial stresses yy and zz differ".to_owned();
             event.judge(allowed, name, (stress[1][1], stress[2][2]), "Pa")?;
-        } else if let Some(u) = now.u.iter().find(|u| !(u.abs() <= 0.0)) {
+        } else if let Some(u) = now.u.iter().find(|u| **u != 0.0) {
             let name = "a body that yields has an initial stress, and is not at rest".to_owned();
             return Err(event.violation(name, None, *u, None, "m"));
         }

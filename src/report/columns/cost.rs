@@ -165,7 +165,7 @@ fn differing(name: &str, observed: f64, expected: f64) -> String {
 }
 
 /// Formats the work. If the coarsest level is already accurate enough, its work is an upper bound.
-pub(crate) fn reach_text(reach: Reach) -> String {
+fn reach_text(reach: Reach) -> String {
     match reach {
         Reach::At { work, .. } => short(work),
         Reach::Already { work, .. } => format!("<={}", short(work)),

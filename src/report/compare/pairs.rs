@@ -216,8 +216,8 @@ fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(R
 }
 
 /// Names of the rows about levels and outputs in the description of a problem. Differences in these
-/// rows are not changes of the problem. Older documents have `--full adds` instead of `further
-/// levels`. Names read from snapshots have only one word.
+/// rows are not changes of the problem. Older documents have `--full adds` instead of
+/// `further levels`. Names read from snapshots have only one word.
 const OF_LEVELS: [&str; 11] = [
     "cells",
     "dt",

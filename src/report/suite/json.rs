@@ -41,12 +41,12 @@
 //! `null` marks a missing value. Numbers that are not finite are the strings `"nan"`, `"inf"`,
 //! `"-inf"`.
 //!
-//! Internal-force studies have no levels; their `forces` are a list of `{"position", "n_left",
-//! "n_right", "force", "predicted"}`. Stability studies have no levels either; their `stability` is
-//! `{"swept", "sought", "rows"}`. Each row contains the `value` of the swept parameter. It also
-//! contains either the `run`, with its verdict and measured values, or the stability limit of the
-//! parameter named in `sought`: `predicted`, `observed` (each with `at`, or `above` or `below` the
-//! range) and the runs that `confirmed` it.
+//! Internal-force studies have no levels; their `forces` are a list of
+//! `{"position", "n_left", "n_right", "force", "predicted"}`. Stability studies have no levels
+//! either; their `stability` is `{"swept", "sought", "rows"}`. Each row contains the `value` of the
+//! swept parameter. It also contains either the `run`, with its verdict and measured values, or the
+//! stability limit of the parameter named in `sought`: `predicted`, `observed` (each with `at`, or
+//! `above` or `below` the range) and the runs that `confirmed` it.
 //!
 //! `axis` is the refined axis (`space`, `time`, `particles`) and `spacing` the spacing on this
 //! axis. There is no formal order for `particles`. `energy_rate` is d ln E/dt (1/s), followed by

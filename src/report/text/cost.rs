@@ -43,12 +43,12 @@ pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option
     let best = |(k, target): (usize, &f64)| {
         let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
         let row = ranking.rows.iter().find(reached)?;
-        let work = columns::reach_text(row.reaches[k]).replace("<=", "");
-        let coarsest = match row.reaches[k] {
-            Reach::Already { .. } => " on its coarsest level",
-            _ => "",
+        let (work, level) = match row.reaches[k] {
+            Reach::At { work, .. } => (work, ""),
+            Reach::Already { work, .. } => (work, " on its coarsest level"),
+            Reach::Never => return None,
         };
-        Some(format!("{target:e}: {}{coarsest}, {work} {TRANSFERS}", row.method.name))
+        Some(format!("{target:e}: {}{level}, {} {TRANSFERS}", row.method.name, short(work)))
     };
     let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
     let errors = relative(ranking, study);

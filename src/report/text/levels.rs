@@ -38,13 +38,13 @@ fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 /// crossings, or if the cases have a single level, because the table of the finest levels then
 /// shows the crossings.
 fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
-    let crossed = |study: &Convergence| -> Vec<Option<u64>> {
-        study.levels.iter().map(|level| level.run.counters.crossings).collect()
+    let crossings = |level: &LevelOutcome| level.run.counters.crossings;
+    let first = |study: &Convergence| {
+        study.levels.iter().position(|level| crossings(level).unwrap_or(0) > 0)
     };
-    let counts = |study: &Convergence| crossed(study).iter().any(Option::is_some);
-    let first =
-        |study: &Convergence| crossed(study).iter().position(|count| count.unwrap_or(0) > 0);
-    let is_listed = |(_, study): &&NamedStudy<'_>| study.levels.len() > 1 && counts(study);
+    let is_listed = |(_, study): &&NamedStudy<'_>| {
+        study.levels.len() > 1 && study.levels.iter().any(|level| crossings(level).is_some())
+    };
     let listed: Vec<NamedStudy<'_>> = studies.iter().filter(is_listed).copied().collect();
     if listed.iter().all(|(_, study)| first(study).is_none()) {
         return;

@@ -31,8 +31,8 @@ pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, Strin
     changed.flat_map(|((key, before), (_, after))| [(key, before), ("  becomes", after)]).collect()
 }
 
-/// Lists how many particles each part of a step visits: `p2g mass, p2g momentum x 2, p2g point
-/// force at 4 of 20 particles`.
+/// Lists how many particles each part of a step visits:
+/// `p2g mass, p2g momentum x 2, p2g point force at 4 of 20 particles`.
 fn visits(profile: &Profile) -> String {
     let particles = profile.particles as u64;
     let part = |&(name, visited): &(&str, u64)| match visited.checked_div(particles) {

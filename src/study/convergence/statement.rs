@@ -9,7 +9,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::numbers::with_unit;
-use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind};
+use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind, tuple};
 
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
@@ -171,11 +171,8 @@ fn placed(scatter: &LatticeOffsets) -> String {
         return "equally spaced".to_owned();
     }
     let shares: Vec<String> = shift.iter().map(|share| shown(*share)).collect();
-    let shifted = match &shares[..] {
-        [] => None,
-        [only] => Some(format!("shifted by {only} times their spacing")),
-        all => Some(format!("shifted by ({}) times their spacing", all.join(", "))),
-    };
+    let shifted =
+        (!shares.is_empty()).then(|| format!("shifted by {} times their spacing", tuple(&shares)));
     let perturbed = (*perturb > 0.0).then(|| {
         let most = shown(*perturb);
         format!("moved at random by up to {most} times their spacing (seed {seed})")

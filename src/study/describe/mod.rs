@@ -2,7 +2,7 @@
 
 pub mod sketch;
 
-use crate::exact::formula::Formula;
+use crate::exact::formula::{Expr, Formula};
 use crate::mpm::{MaterialParameter, MaterialPlan, Matrix};
 use crate::study::setup::dispatch;
 use crate::subject::{PlaneState, Profile};
@@ -12,7 +12,7 @@ use crate::suite::model::stability::StabilityPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::{sources, unit_after};
-use crate::verify::rounded;
+use crate::verify::{rounded, tuple};
 
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
@@ -53,8 +53,8 @@ fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
 
 /// Whether a formula contains the name of one of the parameters.
 fn reads(text: &str, parameters: &[(String, Option<&'static str>)]) -> bool {
-    let mut names = text.split(|c: char| !c.is_alphanumeric() && c != '_');
-    names.any(|name| parameters.iter().any(|(parameter, _)| parameter == name))
+    let is_parameter = |name: &str| parameters.iter().any(|(parameter, _)| parameter == name);
+    Expr::parse(text).is_ok_and(|expr| expr.names().iter().any(|(name, _)| is_parameter(name)))
 }
 
 pub(crate) type Rows = Vec<(String, String)>;
@@ -68,8 +68,7 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
 
 /// Formats a position, such as `0.5` in one dimension or `(0, 0.5)`.
 fn corner(c: &[f64]) -> String {
-    let coordinates = c.iter().map(|x| stated(*x)).collect::<Vec<_>>().join(", ");
-    if c.len() == 1 { coordinates } else { format!("({coordinates})") }
+    tuple(&c.iter().map(|x| stated(*x)).collect::<Vec<_>>())
 }
 
 /// Formats a number with at most six significant digits.

@@ -4,6 +4,7 @@
 //! the faces. Errors in a box that no wave has reached do not depend on the faces.
 
 use crate::subject::Samples;
+use crate::verify::tuple;
 
 /// A closed box of reference positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,10 +51,8 @@ impl JudgedBox {
 
     /// Formats the corners for a sentence, in metres.
     pub fn words(&self) -> String {
-        let corner = |corner: &[f64]| {
-            let texts: Vec<String> = corner.iter().map(ToString::to_string).collect();
-            if let [only] = &texts[..] { only.clone() } else { format!("({})", texts.join(", ")) }
-        };
+        let corner =
+            |corner: &[f64]| tuple(&corner.iter().map(ToString::to_string).collect::<Vec<_>>());
         format!("{} to {} m", corner(&self.from), corner(&self.to))
     }
 }

@@ -25,6 +25,12 @@ pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
+/// Formats a scalar or a vector: `0.5` or `(0, 0.5)`.
+pub(crate) fn tuple(components: &[impl AsRef<str>]) -> String {
+    let texts: Vec<&str> = components.iter().map(AsRef::as_ref).collect();
+    if let [only] = texts[..] { only.to_owned() } else { format!("({})", texts.join(", ")) }
+}
+
 /// Formats an order with its interval, such as `2.003 [1.991, 2.015]`.
 pub(crate) fn order(order: &Interval) -> String {
     let Interval { value, low, high } = order;
