@@ -22,8 +22,8 @@ macro_rules! with_dimension {
 }
 pub(crate) use with_dimension;
 
-/// Declares the trait `$every` for types that implement `$contract<D>` in every dimension. A `dyn
-/// $every` object converts to a `dyn $contract<D>` object for any D.
+/// Declares the trait `$every` for types that implement `$contract<D>` in every dimension. A
+/// `dyn $every` object converts to a `dyn $contract<D>` object for any D.
 macro_rules! in_every_dimension {
     ($(#[$meta:meta])* $every:ident: $contract:ident) => {
         $(#[$meta])*

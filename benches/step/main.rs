@@ -1,9 +1,9 @@
 //! Time of whole steps, as users experience it.
 //!
 //! An identifier has the form `step/3d/quadratic_bspline/mls/usl/neo_hookean/1e4`, and any part of
-//! it selects benchmarks: `cargo bench --bench step -- 3d/quadratic_bspline`. `cargo bench --bench
-//! scaling` uses a million particles and more, and `cargo bench --bench ratio` compares with plain
-//! loops. Each method first makes one step to check conservation of momentum.
+//! it selects benchmarks: `cargo bench --bench step -- 3d/quadratic_bspline`.
+//! `cargo bench --bench scaling` uses a million particles and more, and `cargo bench --bench ratio`
+//! compares with plain loops. Each method first makes one step to check conservation of momentum.
 //!
 //! The short profile varies the transfer and the scheme, and then the law of one method.
 //! `MPM_BENCH=full` measures every basis, transfer, scheme and law, also with 1e2 and 1e5

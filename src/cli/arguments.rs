@@ -29,8 +29,8 @@ pub(super) struct SolverArgs {
 #[derive(Debug, Args)]
 pub(super) struct SolversArgs {
     /// Run this program on the suites instead of their methods: a command with its arguments that
-    /// speaks the protocol of docs/protocol.md; repeatable if each has a name (`'mine=python
-    /// mpm.py'`)
+    /// speaks the protocol of docs/protocol.md; repeatable if each has a name
+    /// (`'mine=python mpm.py'`)
     #[arg(long, value_name = "[NAME=]COMMAND")]
     pub(super) solver: Vec<SolverCommand>,
     /// Also run the methods of the suites, in the same report

@@ -180,8 +180,8 @@ fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusa
     rows.collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Formats the limit and its interval, rounded to two digits of the half-width, such as `1.2346 +-
-/// 1.2e-3, 95 %: [1.2334, 1.2358]`.
+/// Formats the limit and its interval, rounded to two digits of the half-width, such as
+/// `1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]`.
 fn limit_shown(limit: &Interval) -> String {
     let half_width = limit.half_width();
     let size = limit.value.abs().max(half_width);

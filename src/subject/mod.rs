@@ -36,8 +36,8 @@ pub trait Subject {
     /// Returns the counters of the run so far.
     fn counters(&self) -> RunCounters;
 
-    /// Returns the names of the passes of a step in order, for reports, such as `P2G(mass,
-    /// momentum)`; empty by default.
+    /// Returns the names of the passes of a step in order, for reports, such as
+    /// `P2G(mass, momentum)`; empty by default.
     fn passes(&self) -> Vec<String> {
         Vec::new()
     }

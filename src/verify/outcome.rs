@@ -225,8 +225,8 @@ impl CaseOutcome {
         }
     }
 
-    /// Converts the outcome to that of a case that the author of its solver excludes from `run
-    /// --gate`.
+    /// Converts the outcome to that of a case that the author of its solver excludes from
+    /// `run --gate`.
     #[must_use]
     pub(crate) fn excepted(self, reason: String) -> Self {
         let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));

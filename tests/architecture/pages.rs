@@ -133,8 +133,8 @@ pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
 /// Page that quotes constants of the judge.
 pub(crate) const JUDGE: &str = "docs/judge.md";
 
-/// Number of rows of a page that quote a constant, and wrong rows: `| \`src/FILE\` \`NAME\` |
-/// \`VALUE\` | ... |`.
+/// Number of rows of a page that quote a constant, and wrong rows:
+/// `| \`src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
 pub(crate) fn constants<'a>(page: &'a str, files: &[(String, String)]) -> (usize, Vec<&'a str>) {
     let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| `src/")).collect();
     let is_right = |row: &&str| {

@@ -2,9 +2,9 @@
 //!
 //! Waves behind a sudden load have kinks, where `u_X` jumps. The pointwise equation holds on both
 //! sides for any speed of the front, and only the weak form constrains this speed. For any smooth
-//! `phi` that vanishes on the boundary of a patch, `int int (rho0 u_t phi_t - P : grad phi + rho0 b
-//! phi) dX dt = 0`. For a body of revolution, dX is replaced by `R dX`, and `P_tT phi` is
-//! subtracted in the radial component.
+//! `phi` that vanishes on the boundary of a patch,
+//! `int int (rho0 u_t phi_t - P : grad phi + rho0 b phi) dX dt = 0`. For a body of revolution, dX
+//! is replaced by `R dX`, and `P_tT phi` is subtracted in the radial component.
 //!
 //! If the motion does not vary along an axis, it is evaluated once for all raster points that
 //! differ only along this axis.

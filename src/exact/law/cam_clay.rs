@@ -33,8 +33,8 @@ pub struct CamClayLaw {
     initial_pressure: f64,
     /// Mean stress at yield (Pa) in compression and in extension.
     yields: [f64; 2],
-    /// Roots of C, starting with the ratio of the K0 line, each with the coefficient of `ln|eta -
-    /// root|` in `ln p`.
+    /// Roots of C, starting with the ratio of the K0 line, each with the coefficient of
+    /// `ln|eta - root|` in `ln p`.
     poles: [[f64; 2]; 3],
     /// Coefficients of `ln(M^2 + eta^2)` and of `atan(eta/M)` in `ln p`.
     conjugate: [f64; 2],

@@ -1,15 +1,15 @@
 //! Drucker-Prager plasticity in uniaxial strain under monotonic loading.
 //!
-//! With the axial and the lateral stress a and l, and `s = -1` where a is the smallest stress, `s =
-//! 1` where it is the largest, the yield condition is
+//! With the axial and the lateral stress a and l, and `s = -1` where a is the smallest stress,
+//! `s = 1` where it is the largest, the yield condition is
 //!
 //! ```text
 //! s (a - l)/sqrt(3) + eta (a + 2 l)/3 <= k
 //! ```
 //!
 //! With `A = 2 mu/sqrt(3)`, a unit of flow reduces a by `K etab + s A` and l by `K etab - s A/2`.
-//! The left side decreases by `D = mu + K eta etab`, so after yield, with `M = lambda + 2 mu`, `d
-//! a/de = M - (K eta + s A)(K etab + s A)/D`.
+//! The left side decreases by `D = mu + K eta etab`, so after yield, with `M = lambda + 2 mu`,
+//! `d a/de = M - (K eta + s A)(K etab + s A)/D`.
 
 use super::contract::Lame;
 use super::uniaxial_flow::{UniaxialLaw, UniaxialPlasticity, UniaxialYield};

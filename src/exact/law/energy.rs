@@ -44,8 +44,8 @@ pub(super) fn assert_stress_is_derivative_from(
     }
 }
 
-/// Asserts that `stretches` along the axes cause the stresses P `along` the axes, and that `P(Q F)
-/// = Q P(F)` for a rotation by `angle` about the third axis.
+/// Asserts that `stretches` along the axes cause the stresses P `along` the axes, and that
+/// `P(Q F) = Q P(F)` for a rotation by `angle` about the third axis.
 pub(super) fn assert_stress_along_axes(
     law: &impl ConstitutiveLaw,
     stretches: [f64; 3],

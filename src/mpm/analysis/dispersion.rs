@@ -175,8 +175,8 @@ impl WaveStep {
         let slope = self.slope();
         let root = (slope * slope - 4.0 * square * lost).sqrt();
         let end = (slope + root) / (2.0 * square);
-        // The second root follows from the product of the roots, lost/square, because `slope -
-        // root` would suffer from cancellation.
+        // The second root follows from the product of the roots, lost/square, because
+        // `slope - root` would suffer from cancellation.
         let start = lost / (square * end);
         (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
     }

@@ -13,11 +13,11 @@
 //! grad N_i = 2^-D sum_c S_i(x_c) R^-T s_c
 //! ```
 //!
-//! In 2-D these are the formulas of the paper. In 1-D the formulas are `(S_i(x + l) + S_i(x -
-//! l))/2` and `(S_i(x + l) - S_i(x - l))/(2l)`. The gradient is the same as in contiguous-particle
-//! GIMP, but the weight differs. `grad N_i` is the average of a gradient, not the gradient of the
-//! average `N_i`. `N_i` and `grad N_i` reproduce linear fields: `sum_i x_i N_i = x`, `sum_i x_i (x)
-//! grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
+//! In 2-D these are the formulas of the paper. In 1-D the formulas are
+//! `(S_i(x + l) + S_i(x - l))/2` and `(S_i(x + l) - S_i(x - l))/(2l)`. The gradient is the same as
+//! in contiguous-particle GIMP, but the weight differs. `grad N_i` is the average of a gradient,
+//! not the gradient of the average `N_i`. `N_i` and `grad N_i` reproduce linear fields:
+//! `sum_i x_i N_i = x`, `sum_i x_i (x) grad N_i = R (2^-D sum_c s_c s_c^T) R^-1 = I`.
 //!
 //! A domain that extends through a wall is compressed along the axis until it ends at the wall,
 //! similar to the truncated domain of GIMP. The whole domain is compressed by an affine map, so the
@@ -240,8 +240,8 @@ mod tests {
     }
 
     /// The corners of the domain are at 0.8 and 1.4 cells, where the slopes of the middle hat
-    /// function cancel. The weight of the middle node therefore has the derivative zero, but `grad
-    /// N` of this node is not zero.
+    /// function cancel. The weight of the middle node therefore has the derivative zero, but
+    /// `grad N` of this node is not zero.
     #[test]
     fn gradient_is_not_the_gradient_of_the_weight() {
         let (x, domain) = (Vector::<1>::new(0.55), Matrix::<1>::new(0.15));

@@ -175,8 +175,9 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         NodeTerm { value: Some(value), flux: None, ..term }
     }
 
-    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) receives `first_i weight_jk +
-    /// row_jk weight_i`. This requires two products and two sums for any number of axes.
+    /// Adds the term of particle `lane` to its nodes. Node (i, j, k) receives
+    /// `first_i weight_jk + row_jk weight_i`. This requires two products and two sums for any
+    /// number of axes.
     #[inline(always)]
     fn add<S: Simd, N: PackedNode>(
         &self,

@@ -3,12 +3,12 @@
 //! `dv/dt = -alpha(t) v` for every material point. Once per step, after G2P, the particle
 //! velocities are multiplied by the exact factor `exp(-alpha dt)`.
 //!
-//! Damping of particles is stable for every alpha, dt, scheme and transfer. Unlike a force `-alpha
-//! m_i v_i` on the nodes, it also damps the part of the particle velocities that FLIP retains
-//! although the grid does not resolve it (the null space). Strain and positions are affected in the
-//! same step with MUSL, and in the next step with USF and USL, so the damping is of first order in
-//! time. The affine velocity of APIC is not multiplied by the factor, because it is computed from
-//! damped velocities.
+//! Damping of particles is stable for every alpha, dt, scheme and transfer. Unlike a force
+//! `-alpha m_i v_i` on the nodes, it also damps the part of the particle velocities that FLIP
+//! retains although the grid does not resolve it (the null space). Strain and positions are
+//! affected in the same step with MUSL, and in the next step with USF and USL, so the damping is of
+//! first order in time. The affine velocity of APIC is not multiplied by the factor, because it is
+//! computed from damped velocities.
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;

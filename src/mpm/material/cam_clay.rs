@@ -7,11 +7,11 @@
 //! with a constant r, so Poisson's ratio is constant. The elastic law is in rate form and has no
 //! energy.
 //!
-//! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by `I + grad v
-//! dt`, whose polar decomposition is `v R`: R rotates the stress, and `ln v` is the strain
-//! increment. The integration of a pure rotation is exact. In general, the result agrees with the
-//! Jaumann rate to second order in the step. The return mapping is implicit. It is exact at a
-//! constant stress ratio, and of first order in the step otherwise.
+//! The state is the Kirchhoff stress and `pc`. A step multiplies the deformation by
+//! `I + grad v dt`, whose polar decomposition is `v R`: R rotates the stress, and `ln v` is the
+//! strain increment. The integration of a pure rotation is exact. In general, the result agrees
+//! with the Jaumann rate to second order in the step. The return mapping is implicit. It is exact
+//! at a constant stress ratio, and of first order in the step otherwise.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
 use super::spectral::MatrixBatch;
@@ -144,9 +144,9 @@ impl CamClay {
     /// deviator and the preconsolidation pressure (Pa).
     ///
     /// The unknown is `m = q/(M p)`. On the surface `pc = p (1 + m^2)`, and pc gives the plastic
-    /// compaction x. The remaining equation is the flow rule, `6 G x m/M = (q_trial - q) (1 -
-    /// m^2)`. The root lies between the critical state, m = 1, and the yield surface before the
-    /// step.
+    /// compaction x. The remaining equation is the flow rule,
+    /// `6 G x m/M = (q_trial - q) (1 - m^2)`. The root lies between the critical state, m = 1, and
+    /// the yield surface before the step.
     fn returned(&self, trial: &ClayTrial) -> (f64, Matrix<3>, f64) {
         let Self { slope, swelling, hardening, ratio, .. } = *self;
         // ln(p/pc) of the trial state.

@@ -1,11 +1,12 @@
 //! Linear elasticity with the Green-Naghdi rate.
 //!
-//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress `tau = J
-//! sigma`, with `Omega = R_dot R^T` and the polar decomposition `F = R U` (Green & Naghdi 1965;
-//! Johnson & Bammann 1984). The state is the stress `R^T tau R`, whose rate is `lambda tr(D) I + 2
-//! mu D` with `D = sym(U_dot U^-1)`. A step from U to U' adds `sym(ln(U' U^-1))` to the integral of
-//! D. The integration of a pure rotation is exact; in general, the order in the time step is 2. The
-//! work of the stress in a closed cycle of deformation is not zero, so the law has no energy.
+//! `tau_dot = lambda tr(d) I + 2 mu d + Omega tau - tau Omega` for the Kirchhoff stress
+//! `tau = J sigma`, with `Omega = R_dot R^T` and the polar decomposition `F = R U` (Green & Naghdi
+//! 1965; Johnson & Bammann 1984). The state is the stress `R^T tau R`, whose rate is
+//! `lambda tr(D) I + 2 mu D` with `D = sym(U_dot U^-1)`. A step from U to U' adds
+//! `sym(ln(U' U^-1))` to the integral of D. The integration of a pure rotation is exact; in
+//! general, the order in the time step is 2. The work of the stress in a closed cycle of
+//! deformation is not zero, so the law has no energy.
 
 use super::contract::{Material, MaterialProperties, rate_form_averages_no_volume};
 use super::hyperelastic::linear;

@@ -99,8 +99,9 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Uniaxial strain is elastic up to `Y/(2 mu)`. After yield without hardening, `d tau_1 = K d
-    /// eps` and `tau_1 - tau_2 = Y`. Unloading is elastic until yield in the opposite direction.
+    /// Uniaxial strain is elastic up to `Y/(2 mu)`. After yield without hardening,
+    /// `d tau_1 = K d eps` and `tau_1 - tau_2 = Y`. Unloading is elastic until yield in the
+    /// opposite direction.
     #[rstest]
     fn uniaxial_strain_matches_the_closed_form(#[values(0.0, 40.0)] hardening: f64) {
         pull::<1>(hardening);

@@ -138,9 +138,9 @@ impl<const D: usize> Material<D> for LinearElastic {
         Some(Box::new(RatePlaneStress::new(self.lambda, self.mu, plate)))
     }
 
-    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with `eps = ln
-    /// J`, and the work per reference volume is `M (eps e^eps - e^eps + 1)`. In 2-D and 3-D the
-    /// work depends on the path, so there is no energy.
+    /// Returns the work of the stress in 1-D. The rate integrates to `sigma = M eps` with
+    /// `eps = ln J`, and the work per reference volume is `M (eps e^eps - e^eps + 1)`. In 2-D and
+    /// 3-D the work depends on the path, so there is no energy.
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let modulus = self.lambda + 2.0 * self.mu;
         let stored = |(sigma, vol0): (&Matrix<D>, &f64)| {

@@ -2,8 +2,8 @@
 //! consistent tangent.
 //!
 //! Let `grad u` be the gradient of the nodal displacement increments u at a particle, with respect
-//! to positions at the start of the step. With `F' = (I + grad u) F` and `grad' N = (I + grad u)^-T
-//! grad N`,
+//! to positions at the start of the step. With `F' = (I + grad u) F` and
+//! `grad' N = (I + grad u)^-T grad N`,
 //!
 //! ```text
 //! r_i          = sum_p V0 tau(F') grad' N_i - f_ext_i

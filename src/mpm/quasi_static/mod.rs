@@ -10,10 +10,10 @@
 //! 3. move the particles, `x += sum_i u_i N_i`, update F, the state of the law and the domains, and
 //!    reset the grid.
 //!
-//! A body with the initial stress S0 is held at the start by the forces `f_0 = sum_p V0 S0 F^T
-//! grad N_i`, which do not depend on the deformation. These forces are removed while the load
-//! grows, so the right side of step 2 is `(k/N) f_ext_i + (1 - k/N) f_0_i`. If S0 balances the full
-//! load, the body remains at rest.
+//! A body with the initial stress S0 is held at the start by the forces
+//! `f_0 = sum_p V0 S0 F^T grad N_i`, which do not depend on the deformation. These forces are
+//! removed while the load grows, so the right side of step 2 is `(k/N) f_ext_i + (1 - k/N) f_0_i`.
+//! If S0 balances the full load, the body remains at rest.
 //!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
 //! transfer. If Newton's method does not converge, the load step is not divided, and the run fails.

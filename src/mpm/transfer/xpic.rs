@@ -1,10 +1,10 @@
 //! XPIC(m): PIC with a filter that preserves modes that the grid can represent.
 //!
-//! With S the map from grid to particles and S+ its lumped counterpart from particles to grid, `V
-//! <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21). XPIC(1) is PIC.
-//! One step removes the part of the velocities in the null space of S+, and multiplies a mode of S
-//! S+ with the eigenvalue l by 1 - (1 - l)^m. The filter ignores walls, which affect particles only
-//! through the accelerations.
+//! With S the map from grid to particles and S+ its lumped counterpart from particles to grid,
+//! `V <- (I - (I - S S+)^m) V + S a dt` (Hammerquist & Nairn 2017, CMAME 318, eq. 21). XPIC(1) is
+//! PIC. One step removes the part of the velocities in the null space of S+, and multiplies a mode
+//! of S S+ with the eigenvalue l by 1 - (1 - l)^m. The filter ignores walls, which affect particles
+//! only through the accelerations.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::foundation::algebra::Vector;

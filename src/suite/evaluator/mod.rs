@@ -26,8 +26,8 @@ pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
 /// A number, a formula of the preceding parameters, or a table.
 pub(crate) type ParameterSpec = NumberOr<TableSpec>;
 
-/// Table of values that depend on another parameter or on a variable of formulas, such as `{by: t,
-/// table: [[0, 0], [0.1, 1]]}`.
+/// Table of values that depend on another parameter or on a variable of formulas, such as
+/// `{by: t, table: [[0, 0], [0.1, 1]]}`.
 #[derive(Debug, Clone, Deserialize)]
 #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

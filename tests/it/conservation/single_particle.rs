@@ -78,9 +78,9 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(500) })]
 
     /// The affine field stores the effect of the force. Let `s = C^2 / (xi (1 - xi))`, and g be the
-    /// velocity gradient times dt, in units of 1/E. USL and MUSL: `g <- g - s sigma`, then `sigma
-    /// <- sigma + g`; USF in the opposite order. These are leapfrogs, in a fixed frame (sigma is
-    /// tiny).
+    /// velocity gradient times dt, in units of 1/E. USL and MUSL: `g <- g - s sigma`, then
+    /// `sigma <- sigma + g`; USF in the opposite order. These are leapfrogs, in a fixed frame
+    /// (sigma is tiny).
     #[test]
     fn apic_follows_the_recursion_of_an_oscillator(
         xi in 0.05..0.95_f64,

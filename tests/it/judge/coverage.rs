@@ -138,9 +138,9 @@ fn the_interval_of_the_judge_covers_the_true_order_in_95_per_cent_of_many(
 }
 
 /// Computes the probability that the interval of a regression over `levels` equal steps of `ln h`
-/// covers the slope, for normal noise with correlated neighbours. It is the probability of `e' C e
-/// >= 0` with `C = t^2/(n - 2) M - x x'/x'x`, where M is the projection on residuals and x the
-/// centred `ln h` (Imhof 1961, Biometrika 48, eq. 3.2).
+/// covers the slope, for normal noise with correlated neighbours. It is the probability of
+/// `e' C e >= 0` with `C = t^2/(n - 2) M - x x'/x'x`, where M is the projection on residuals and x
+/// the centred `ln h` (Imhof 1961, Biometrika 48, eq. 3.2).
 fn coverage_by_theory(levels: usize, correlation: f64) -> f64 {
     let n = levels as f64;
     let x = DVector::from_fn(levels, |k, _| k as f64 - (n - 1.0) / 2.0);

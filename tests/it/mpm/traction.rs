@@ -25,8 +25,8 @@ fn total_force_on_the_grid_is_exact() {
 }
 
 /// A shear traction `Y` acts along the right face of a plate, which is stretched to twice its
-/// length. The force is 2. The face is at x = 2, so the moment about the origin is `2 int Y dY =
-/// 4`.
+/// length. The force is 2. The face is at x = 2, so the moment about the origin is
+/// `2 int Y dY = 4`.
 #[rstest]
 fn moment_is_exact_at_the_surface(
     #[values(

@@ -2,8 +2,8 @@
 //! rotates or stretches.
 //!
 //! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform velocity
-//! would reveal nothing, because all weights that sum to one transfer it exactly.) The moment `M =
-//! sum m (X - C) x v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this
+//! would reveal nothing, because all weights that sum to one transfer it exactly.) The moment
+//! `M = sum m (X - C) x v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this
 //! velocity is transferred.
 //!
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. In this formula, d is
