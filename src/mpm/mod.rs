@@ -67,7 +67,8 @@ pub use scheme::{SchemeName, Stage};
 pub use seeding::Fragment;
 pub use seeding::quadrilateral::Quadrilateral;
 pub use step::combination::{
-    CombinationError, combine, combine_across, combine_bodies, combine_precision, combine_volume,
+    CombinationError, combine, combine_across, combine_basis, combine_bodies, combine_precision,
+    combine_volume,
 };
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;

@@ -6,6 +6,7 @@
 
 use super::contract::Material;
 use super::stress_update::StressUpdate;
+use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
@@ -117,6 +118,10 @@ impl<const D: usize> Material<D> for Axisymmetric {
             particles.vol[p] *= particles.across[p];
         }
         self.in_space(particles, |law, space| law.start_deformed(space))
+    }
+
+    fn response(&self, p: usize, f: &Matrix<3>) -> Option<StressResponse> {
+        self.law.response(p, f)
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

@@ -223,10 +223,10 @@ pub trait Material<const D: usize>: Send {
         Ok(false)
     }
 
-    /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the deformation
+    /// Returns the Kirchhoff stress and consistent tangent of particle `p` at the 3-D deformation
     /// gradient `f`, for a step from the stored state of the law. The stored state is not changed.
     /// `None` if the law has no tangent.
-    fn response(&self, _p: usize, _f: &Matrix<D>) -> Option<StressResponse<D>> {
+    fn response(&self, _p: usize, _f: &Matrix<3>) -> Option<StressResponse> {
         None
     }
 

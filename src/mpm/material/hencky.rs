@@ -98,7 +98,7 @@ impl<const D: usize> Material<D> for Hencky {
         Some(stored_energy(particles, |f| self.density(f)))
     }
 
-    fn response(&self, _: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+    fn response(&self, _: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let modulus = isotropic_modulus(self.lambda, self.mu);
         Some(StressResponse::new(f, &Matrix::identity(), |strain| (modulus * strain, modulus)))
     }

@@ -134,7 +134,7 @@ impl<const D: usize> Material<D> for NeoHookean {
     }
 
     /// Uses `tau_A = lambda ln J + mu (b_A - 1)`.
-    fn response(&self, _: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+    fn response(&self, _: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let Self { lambda, mu } = *self;
         let principal = |strain: &Vector<3>| {
             let squares = strain.map(|strain| libm::exp(2.0 * strain));

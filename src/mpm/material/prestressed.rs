@@ -88,10 +88,14 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         Ok(())
     }
 
-    fn response(&self, p: usize, f: &Matrix<D>) -> Option<StressResponse<D>> {
+    fn response(&self, p: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let response = self.law.response(p, f)?;
         Some(match self.stress.get(p) {
-            Some(s0) => response.with_initial(f * s0 * f.transpose()),
+            Some(s0) => {
+                let mut initial = Matrix::<3>::zeros();
+                initial.fixed_view_mut::<D, D>(0, 0).copy_from(s0);
+                response.with_initial(f * initial * f.transpose())
+            }
             None => response,
         })
     }

@@ -103,8 +103,8 @@ impl<const D: usize> Specimen<D> {
         other
     }
 
-    /// Returns stress and tangent at this F, for a step from the current state.
-    pub(super) fn response(&self, f: &Matrix<D>) -> Option<StressResponse<D>> {
+    /// Returns stress and tangent at this 3-D F, for a step from the current state.
+    pub(super) fn response(&self, f: &Matrix<3>) -> Option<StressResponse> {
         self.0.response(0, f)
     }
 

@@ -22,14 +22,14 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 /// is inversely proportional to the difference.
 const EQUAL: f64 = 1e-5;
 
-/// Kirchhoff stress of a particle, with its derivative with respect to the deformation. The state
-/// is 3-D in any dimension; `D` is the dimension of the body.
+/// Kirchhoff stress of a particle, with its derivative with respect to the deformation. Both are
+/// 3-D for a body of any dimension.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StressResponse<const D: usize> {
+pub struct StressResponse {
     /// Kirchhoff stress `tau = J sigma` (Pa).
-    pub kirchhoff: Matrix<D>,
+    pub kirchhoff: Matrix<3>,
     /// Part of this stress from an initial stress (Pa), `F S0 F^T`.
-    initial: Matrix<D>,
+    initial: Matrix<3>,
     /// Principal values of the tensor `b`.
     squares: Vector<3>,
     /// Axes of the tensor `b`, as columns.
@@ -41,33 +41,30 @@ pub struct StressResponse<const D: usize> {
     modulus: Matrix<3>,
 }
 
-impl<const D: usize> StressResponse<D> {
+impl StressResponse {
     /// Computes stress and tangent of a law at `F` for the tensor `G`. `principal` returns the
     /// principal stresses (Pa) and their derivatives for given principal logarithmic strains.
     pub(super) fn new(
-        f: &Matrix<D>,
+        f: &Matrix<3>,
         metric: &Matrix<3>,
         principal: impl FnOnce(&Vector<3>) -> (Vector<3>, Matrix<3>),
     ) -> Self {
-        let f = in_space(f);
         let (squares, axes) = spectral(&(f * metric * f.transpose()));
         let (stresses, modulus) = principal(&half_log(&squares));
-        let kirchhoff = in_body(&assembled(&stresses, &axes));
+        let kirchhoff = assembled(&stresses, &axes);
         Self { kirchhoff, initial: Matrix::zeros(), squares, axes, stresses, modulus }
     }
 
     /// Adds the stress `initial = F S0 F^T` (Pa). A change `dF = dh F` changes this stress by
     /// `dh initial + initial dh^T`.
-    pub(super) fn with_initial(self, initial: Matrix<D>) -> Self {
+    pub(super) fn with_initial(self, initial: Matrix<3>) -> Self {
         Self { kirchhoff: self.kirchhoff + initial, initial, ..self }
     }
 
     /// Returns the change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the
     /// deformation gradient.
-    pub fn tangent(&self, dh: &Matrix<D>) -> Matrix<D> {
-        let mut space = Matrix::<3>::zeros();
-        space.fixed_view_mut::<D, D>(0, 0).copy_from(dh);
-        let in_axes = self.axes.transpose() * space * self.axes;
+    pub fn tangent(&self, dh: &Matrix<3>) -> Matrix<3> {
+        let in_axes = self.axes.transpose() * dh * self.axes;
         let along = self.modulus * in_axes.diagonal();
         let change = Matrix::<3>::from_fn(|a, b| {
             if a == b {
@@ -77,7 +74,7 @@ impl<const D: usize> StressResponse<D> {
             self.slope(a, b) * shear
         });
         let initial = dh * self.initial;
-        in_body(&(self.axes * change * self.axes.transpose())) + initial + initial.transpose()
+        self.axes * change * self.axes.transpose() + initial + initial.transpose()
     }
 
     /// Returns `(tau_a - tau_b)/(b_a - b_b)` (Pa), or its limit for nearly equal values.
@@ -93,11 +90,12 @@ impl<const D: usize> StressResponse<D> {
 }
 
 /// Extends F to three dimensions, with unit stretch along the missing axes.
-pub(super) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
+pub(in crate::mpm) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
     Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
 }
 
-fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
+/// Returns the components of a 3-D tensor along the axes of a body in `D` dimensions.
+pub(in crate::mpm) fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }
 
@@ -121,17 +119,17 @@ mod tests {
 
     /// Returns the largest difference between the tangent and central differences, relative to the
     /// tangent, at `f` after the deformation `before`.
-    fn difference<const D: usize>(plan: MaterialPlan, before: &Matrix<D>, f: &Matrix<D>) -> f64 {
+    fn difference<const D: usize>(plan: MaterialPlan, before: &Matrix<D>, f: &Matrix<3>) -> f64 {
         let mut specimen = Specimen::<D>::new(plan);
         specimen.deform(before, SLOW);
-        let response = |f: &Matrix<D>| specimen.response(f).expect("a law with a tangent");
+        let response = |f: &Matrix<3>| specimen.response(f).expect("a law with a tangent");
         let (at, step) = (response(f), 1e-5);
         // The minimum size avoids a division by zero at the apex of a cone, where the tangent is
         // zero.
         let (mut largest, mut size) = (0.0_f64, 1e-3 * plan.properties().wave_modulus(1.0));
-        for k in 0..D * D {
-            let mut dh = Matrix::<D>::zeros();
-            dh[(k / D, k % D)] = 1.0;
+        for k in 0..9 {
+            let mut dh = Matrix::<3>::zeros();
+            dh[(k / 3, k % 3)] = 1.0;
             let stress = |step: f64| response(&((Matrix::identity() + dh * step) * f)).kirchhoff;
             // A difference of fourth order is used, because the error of a second-order difference
             // would be 1e-10 of the modulus.
@@ -152,7 +150,7 @@ mod tests {
             // principal values.
             let f = identity * 0.97 + scattered::<D>(size, seed);
             let before = identity + scattered::<D>(0.5 * size, seed + 0.7);
-            let error = difference(plan, &before, &f);
+            let error = difference(plan, &before, &in_space(&f));
             assert!(error <= 1e-7, "{} in {D}-D, size {size}: {error:.1e}", plan.name());
         }
     }
@@ -194,7 +192,7 @@ mod tests {
             for strain in strains {
                 let stretch = Vector::<3>::from(strain).map(libm::exp);
                 let f = Matrix::<3>::from_diagonal(&stretch) + scattered::<3>(1e-3, 0.3);
-                let error = difference(plan, &Matrix::identity(), &f);
+                let error = difference(plan, &Matrix::<3>::identity(), &f);
                 assert!(error <= 1e-7, "{strain:?}, {friction_angle}: {error:.1e}");
             }
         }

@@ -12,6 +12,17 @@
 //!
 //! where subscripts after a comma are derivatives with respect to positions at the end of the step,
 //! and `d tau_ac = c_acbd d(grad' u)_bd` (Charlton, Coombs & Augarde 2017, Comput. Struct. 190).
+//!
+//! In a body of revolution, `grad u` has the hoop component `sum_i N_i u_ir/r` with the radius r of
+//! the particle at the start of the step. The radius at the end is `r' = r (1 + sum_i N_i u_ir/r)`.
+//! Volumes are per radian, and the radial components have additional terms:
+//!
+//! ```text
+//! r_ir           += sum_p V0 tau_33 N_i/r'
+//! d r_ia/du_jr   += sum_p V0 c_ac33 N_i,c N_j/r'
+//! d r_ir/du_jb   += sum_p V0 c_33bd N_i/r' N_j,d
+//! d r_ir/du_jr   += sum_p V0 (c_3333 - tau_33) N_i/r' N_j/r'
+//! ```
 
 use super::banded::BandedSystem;
 use crate::mpm::boundary::Boundary;
@@ -19,7 +30,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::material::{Material, StressResponse};
+use crate::mpm::material::{Material, StressResponse, in_body, in_space};
 use crate::subject::{Failure, Site};
 use std::array;
 
@@ -37,6 +48,8 @@ pub(super) struct NodeFunction<const D: usize> {
     pub(super) weight: f64,
     /// Gradient of the function (1/m).
     pub(super) gradient: Vector<D>,
+    /// Function over the radius of the particle, N_i/r (1/m); zero except in a body of revolution.
+    pub(super) hoop: f64,
 }
 
 /// Basis functions of all particles at the start of a step, and the unknowns of the step.
@@ -61,14 +74,16 @@ pub(super) struct Iterate<const D: usize> {
     pub(super) residual: Vec<Vector<D>>,
     /// Norm of the residual over the unknowns (N).
     pub(super) norm: f64,
-    responses: Vec<StressResponse<D>>,
-    /// Matrix `(I + grad u)^-T` at each particle, by which gradients are multiplied.
-    push: Vec<Matrix<D>>,
+    responses: Vec<StressResponse>,
+    /// Matrix `(I + grad u)^-T` at each particle, by which gradients are multiplied. The hoop
+    /// component is `r/r'`.
+    push: Vec<Matrix<3>>,
 }
 
 impl<const D: usize> StepEquations<D> {
     /// Creates the equations for `particles` at the start of a step. Fails if no component is free,
-    /// or if the tangent does not fit into memory.
+    /// if the tangent does not fit into memory, or if a particle of a body of revolution is on the
+    /// axis, where the hoop strain is undefined.
     pub(super) fn new(
         grid: &Grid<D>,
         particles: &Particles<D>,
@@ -76,9 +91,18 @@ impl<const D: usize> StepEquations<D> {
         boundary: &[Box<dyn Boundary<D>>],
     ) -> Result<Self, Failure> {
         let (mut functions, mut ends) = (Vec::new(), Vec::with_capacity(particles.len()));
+        let is_revolved = !particles.stress_across.is_empty();
         for p in 0..particles.len() {
+            let radius = if is_revolved { particles.x[p][0] } else { f64::INFINITY };
+            if !(radius > 0.0) {
+                return Err(Failure::NonFinite {
+                    quantity: "hoop strain",
+                    site: Site::Particle(p),
+                });
+            }
             kernel.functions(grid, particles, p, &mut |node, weight, gradient| {
-                functions.push(NodeFunction { node, weight, gradient: *gradient });
+                let (gradient, hoop) = (*gradient, weight / radius);
+                functions.push(NodeFunction { node, weight, gradient, hoop });
             });
             ends.push(functions.len());
         }
@@ -127,12 +151,17 @@ impl<const D: usize> StepEquations<D> {
         self.functions.len() as u64
     }
 
-    /// Returns `I + grad u` at particle `p`.
-    pub(super) fn stretch(&self, p: usize, increment: &[Vector<D>]) -> Matrix<D> {
-        let gradient = |sum: Matrix<D>, function: &NodeFunction<D>| {
-            sum + dyad(&increment[function.node], &function.gradient)
-        };
-        self.functions_of(p).iter().fold(Matrix::identity(), gradient)
+    /// Returns `I + grad u` at particle `p` in 3-D. The hoop component of a body of revolution is
+    /// `r'/r`.
+    pub(super) fn stretch(&self, p: usize, increment: &[Vector<D>]) -> Matrix<3> {
+        let (mut stretch, mut hoop) = (Matrix::<D>::identity(), 0.0);
+        for function in self.functions_of(p) {
+            stretch += dyad(&increment[function.node], &function.gradient);
+            hoop += increment[function.node][0] * function.hoop;
+        }
+        let mut stretch = in_space(&stretch);
+        stretch[(2, 2)] += hoop;
+        stretch
     }
 
     /// Returns the norm of a nodal field over the unknowns.
@@ -190,20 +219,27 @@ impl<const D: usize> StepEquations<D> {
         let (mut responses, mut push) = (Vec::new(), Vec::new());
         for (p, (f, vol0)) in particles.def_grad.iter().zip(&particles.vol0).enumerate() {
             let (stretch, site) = (self.stretch(p, &increment), Site::Particle(p));
-            let j = det(&stretch);
+            let f = total(f, particles.across.get(p));
+            // A particle beyond the axis has a negative hoop stretch. The determinant is positive
+            // if such a particle is also inverted in the plane.
+            let is_beyond = D == 2 && stretch[(2, 2)] <= 0.0;
+            let j = if is_beyond { stretch[(2, 2)] } else { det(&stretch) };
             if !j.is_finite() {
                 return Err(Failure::NonFinite { quantity: "J", site });
             }
             let inverse = stretch.try_inverse().filter(|_| j > 0.0);
-            let inverse = inverse.ok_or(Failure::Inverted { site, j: j * det(f) })?;
+            let inverse = inverse.ok_or(Failure::Inverted { site, j: j * det(&f) })?;
             let response = material.response(p, &(stretch * f));
             let response = response.ok_or_else(|| Failure::Solve(NO_TANGENT.to_owned()))?;
             if !response.kirchhoff.iter().all(|stress| stress.is_finite()) {
                 return Err(Failure::NonFinite { quantity: "stress", site });
             }
             let flux = response.kirchhoff * inverse.transpose() * *vol0;
+            let (in_plane, hoop_flux) = (in_body::<D>(&flux), flux[(2, 2)]);
             for function in self.functions_of(p) {
-                residual[function.node] += flux * function.gradient;
+                let force = &mut residual[function.node];
+                *force += in_plane * function.gradient;
+                force[0] += hoop_flux * function.hoop;
             }
             responses.push(response);
             push.push(inverse.transpose());
@@ -233,25 +269,33 @@ impl<const D: usize> StepEquations<D> {
 
     fn add_stiffness(&self, p: usize, vol0: f64, iterate: &Iterate<D>, tangent: &mut BandedSystem) {
         let (response, push) = (&iterate.responses[p], &iterate.push[p]);
+        let (tau, tau_hoop) = (in_body::<D>(&response.kirchhoff), response.kirchhoff[(2, 2)]);
         let functions = self.functions_of(p);
-        let gradients: Vec<Vector<D>> =
-            functions.iter().map(|function| push * function.gradient).collect();
-        // Changes of the stress due to each component of the displacement gradient.
-        let changes: [[Matrix<D>; D]; D] = array::from_fn(|b| {
-            array::from_fn(|d| {
-                let mut direction = Matrix::<D>::zeros();
-                direction[(b, d)] = 1.0;
-                response.tangent(&direction)
-            })
-        });
-        for (j, of_j) in functions.iter().zip(&gradients) {
-            let pull = response.kirchhoff * of_j;
+        let (push_in_plane, push_hoop) = (in_body::<D>(push), push[(2, 2)]);
+        let pushed = |function: &NodeFunction<D>| {
+            (push_in_plane * function.gradient, push_hoop * function.hoop)
+        };
+        let pushed: Vec<(Vector<D>, f64)> = functions.iter().map(pushed).collect();
+        // Change of the stress due to a component of the displacement gradient.
+        let change_by = |b: usize, d: usize| {
+            let mut direction = Matrix::<3>::zeros();
+            direction[(b, d)] = 1.0;
+            response.tangent(&direction)
+        };
+        let changes: [[Matrix<3>; D]; D] = array::from_fn(|b| array::from_fn(|d| change_by(b, d)));
+        let change_by_hoop = change_by(2, 2);
+        for (j, (of_j, hoop_j)) in functions.iter().zip(&pushed) {
+            let pull = tau * of_j;
             for b in 0..D {
                 let Some(column) = self.unknowns[j.node][b] else { continue };
-                let change =
-                    (1..D).fold(changes[b][0] * of_j[0], |sum, d| sum + changes[b][d] * of_j[d]);
-                for (i, of_i) in functions.iter().zip(&gradients) {
-                    let force = (change * of_i - pull * of_i[b]) * vol0;
+                let hoop_j = if b == 0 { *hoop_j } else { 0.0 };
+                let start = change_by_hoop * hoop_j;
+                let change = (0..D).fold(start, |sum, d| sum + changes[b][d] * of_j[d]);
+                let in_plane = in_body::<D>(&change);
+                let change_hoop = change[(2, 2)] - tau_hoop * hoop_j;
+                for (i, (of_i, hoop_i)) in functions.iter().zip(&pushed) {
+                    let mut force = (in_plane * of_i - pull * of_i[b]) * vol0;
+                    force[0] += change_hoop * hoop_i * vol0;
                     for a in 0..D {
                         if let Some(row) = self.unknowns[i.node][a] {
                             tangent.add(row, column, force[a]);
@@ -272,6 +316,15 @@ impl<const D: usize> StepEquations<D> {
         };
         (0..self.ends.len()).map(width).max().unwrap_or(0)
     }
+}
+
+/// Returns F in 3-D. `across` is F_33 of a body of revolution.
+fn total<const D: usize>(f: &Matrix<D>, across: Option<&f64>) -> Matrix<3> {
+    let mut f = in_space(f);
+    if let Some(across) = across {
+        f[(2, 2)] = *across;
+    }
+    f
 }
 
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
@@ -303,11 +356,13 @@ mod tests {
     use super::*;
     use crate::mpm::boundary::{Fixed, Side};
     use crate::mpm::foundation::particles::Block;
-    use crate::mpm::material::{DruckerPrager, Hencky, StressUpdate};
+    use crate::mpm::material::{MaterialPlan, StressUpdate};
+    use crate::subject::PlaneState;
     use rstest::rstest;
 
-    /// Returns the bilinear functions of the nodes around a particle in a grid of four cells.
-    fn bilinear(grid: &Grid<2>, x: &Vector<2>) -> Vec<NodeFunction<2>> {
+    /// Returns the bilinear functions of the nodes around a particle in a grid of four cells. The
+    /// radius is infinite in the plane.
+    fn bilinear(grid: &Grid<2>, x: &Vector<2>, radius: f64) -> Vec<NodeFunction<2>> {
         let hat = |axis: usize, i: usize| {
             let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
             let slope = if s < 0.0 { 1.0 } else { -1.0 };
@@ -317,31 +372,64 @@ mod tests {
             let [(along, slope), (across, slope_across)] =
                 [0, 1].map(|axis| hat(axis, grid.index_on_axis(node, axis)));
             let gradient = Vector::<2>::new(slope * across, along * slope_across);
-            NodeFunction { node, weight: along * across, gradient }
+            let weight = along * across;
+            NodeFunction { node, weight, gradient, hoop: weight / radius }
         };
         (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
     }
 
-    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
-    #[rstest]
-    #[case::elastic(Box::new(Hencky::new(100.0, 0.3)))]
-    #[case::plastic(Box::new(DruckerPrager::new(100.0, 0.3, 0.3, 0.1, 4.0)))]
-    fn tangent_agrees_with_central_differences(#[case] mut law: Box<dyn Material<2>>) {
+    const HENCKY: MaterialPlan = MaterialPlan::Hencky { young: 100.0, poisson: 0.3 };
+    const SOIL: MaterialPlan = MaterialPlan::DruckerPrager {
+        young: 100.0,
+        poisson: 0.3,
+        friction: 0.3,
+        dilation: 0.1,
+        strength: 4.0,
+    };
+
+    /// A square of 16 particles in four cells, after an irregular deformation.
+    struct Square {
+        grid: Grid<2>,
+        particles: Particles<2>,
+        law: Box<dyn Material<2>>,
+        boundary: Vec<Box<dyn Boundary<2>>>,
+        equations: StepEquations<2>,
+    }
+
+    fn square(plan: MaterialPlan, plane: PlaneState) -> Square {
         let grid = Grid::<2>::new(Vector::zeros(), 0.5, [2, 2], [false; 2], [3, 3]);
         let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
         let mut particles = Particles::fill(&block, 0.5, 2);
+        let is_revolved = plane == PlaneState::Axisymmetric;
+        if is_revolved {
+            particles.revolve();
+        }
         particles.track_deformation();
         for (p, f) in particles.def_grad.iter_mut().enumerate() {
             f[(0, 1)] = 0.05 * libm::sin(p as f64);
         }
+        for (p, across) in particles.across.iter_mut().enumerate() {
+            *across += 0.04 * libm::cos(p as f64);
+        }
+        let mut law = plan.in_plane::<2>(plane).unwrap();
         law.update(&mut StressUpdate::new(0.0, &mut particles));
         let (mut functions, mut ends) = (Vec::new(), Vec::new());
         for x in &particles.x {
-            functions.extend(bilinear(&grid, x));
+            functions.extend(bilinear(&grid, x, if is_revolved { x[0] } else { f64::INFINITY }));
             ends.push(functions.len());
         }
         let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 0, Side::Low))];
         let equations = StepEquations::of_functions(&grid, functions, ends, &boundary).unwrap();
+        Square { grid, particles, law, boundary, equations }
+    }
+
+    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
+    #[rstest]
+    fn tangent_agrees_with_central_differences(
+        #[values(HENCKY, SOIL)] plan: MaterialPlan,
+        #[values(PlaneState::Strain, PlaneState::Axisymmetric)] plane: PlaneState,
+    ) {
+        let Square { grid, particles, law, boundary, equations } = square(plan, plane);
         let noise = |i: usize, axis: usize| 0.05 * libm::sin(1.0 + 3.0 * i as f64 + axis as f64);
         let mut increment: Vec<Vector<2>> =
             (0..grid.nodes()).map(|i| Vector::from_fn(|axis, _| noise(i, axis))).collect();
@@ -369,5 +457,26 @@ mod tests {
             .collect();
         let error = equations.norm(&difference) / at.norm;
         assert!(error <= 1e-7, "{error:.1e}");
+    }
+
+    /// The first increment moves all particles beyond the axis. The second one also inverts them in
+    /// the plane, so that J is positive.
+    #[rstest]
+    #[case::beyond(0.0)]
+    #[case::beyond_and_inverted(-2.5)]
+    fn particle_beyond_the_axis_is_inverted(#[case] slope: f64) {
+        let Square { grid, particles, law, equations, .. } =
+            square(HENCKY, PlaneState::Axisymmetric);
+        let increment = |i: usize| {
+            let z = 0.5 * grid.index_on_axis(i, 1) as f64;
+            Vector::<2>::new(-2.0, slope * z)
+        };
+        let increment = (0..grid.nodes()).map(increment).collect();
+        let load = vec![Vector::zeros(); grid.nodes()];
+        let failure = equations.iterate(&particles, law.as_ref(), &load, increment).err();
+        let Some(Failure::Inverted { site: Site::Particle(0), j }) = failure else {
+            panic!("{failure:?}")
+        };
+        assert!(j < 0.0, "{j}");
     }
 }

@@ -15,6 +15,9 @@
 //! removed while the load grows, so the right side of step 2 is `(k/N) f_ext_i + (1 - k/N) f_0_i`.
 //! If S0 balances the full load, the body remains at rest.
 //!
+//! In a body of revolution, the hoop stretch F_33 is updated with the displacement at the particle,
+//! `F_33 += sum_i N_i u_ir/R`, so it remains r/R.
+//!
 //! The particles store only F, the state of the law and positions: there is no velocity and no
 //! transfer. If Newton's method does not converge, the load step is not divided, and the run fails.
 
@@ -29,7 +32,7 @@ use super::foundation::algebra::{Matrix, Vector};
 use super::foundation::grid::Grid;
 use super::foundation::particles::Particles;
 use super::kernel::contract::{Kernel, Tally};
-use super::material::{Material, StressUpdate};
+use super::material::{Material, StressUpdate, in_body};
 use super::step::cell_tracker::CellTracker;
 use super::step::initial;
 use super::step::observables::wall_reaction;
@@ -146,7 +149,11 @@ impl<const D: usize> QuasiStatic<D> {
     ) -> Result<(), Failure> {
         let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut self.setup;
         for p in 0..particles.len() {
-            particles.def_grad[p] = balance.stretch(p, increment) * particles.def_grad[p];
+            let stretch = balance.stretch(p, increment);
+            particles.def_grad[p] = in_body::<D>(&stretch) * particles.def_grad[p];
+            if let Some(across) = particles.across.get_mut(p) {
+                *across *= stretch[(2, 2)];
+            }
             for function in balance.functions_of(p) {
                 particles.x[p] += increment[function.node] * function.weight;
             }

@@ -131,6 +131,21 @@ pub fn combine_precision(precision: Precision, bodies: usize) -> Result<(), Comb
     ))
 }
 
+/// Rejects a basis that is invalid for this out-of-plane state.
+///
+/// # Errors
+/// One line with the basis and the reason.
+pub fn combine_basis(plane: PlaneState, basis: BasisName) -> Result<(), CombinationError> {
+    if plane != PlaneState::Axisymmetric || domain(basis) == Domain::Point {
+        return Ok(());
+    }
+    let (b, p) = (basis.name(), plane.name());
+    Err(refusal!(
+        "the basis `{b}` is not supported in `plane: {p}`: its functions are means over domains in \
+         the plane, not around the axis (Nairn & Guilkey 2015)"
+    ))
+}
+
 /// Rejects a basis or a transfer that is invalid for this out-of-plane state.
 ///
 /// # Errors
@@ -140,13 +155,8 @@ pub fn combine_across(
     basis: BasisName,
     transfer: TransferChoice,
 ) -> Result<(), CombinationError> {
-    let (b, t, p) = (basis.name(), transfer.name(), plane.name());
-    if plane == PlaneState::Axisymmetric && domain(basis) != Domain::Point {
-        return Err(refusal!(
-            "the basis `{b}` is not supported in `plane: {p}`: its functions are means over \
-             domains in the plane, not around the axis (Nairn & Guilkey 2015)"
-        ));
-    }
+    combine_basis(plane, basis)?;
+    let (t, p) = (transfer.name(), plane.name());
     if plane == PlaneState::Strain || transfer.kind() != TransferKind::Cells {
         return Ok(());
     }

@@ -111,9 +111,14 @@ pub(crate) fn quasi_static<const D: usize>(
 ) -> Result<QuasiStatic<D>, SubjectError> {
     let body = Body::of(plan, &plan.scene);
     let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
+    if plan.scene.plane == PlaneState::Axisymmetric {
+        particles.revolve();
+    }
     let effects = effects_of(&body, &grid, basis, &mut particles)?;
     let boundary = boundary(&plan.scene, &grid, basis);
-    let material = body.initial.stressed(plan.scene.material.build(), &mut particles)?;
+    let law = plan.scene.material.in_plane(plan.scene.plane);
+    let law = law.ok_or("a law not supported in its plane")?;
+    let material = body.initial.stressed(law, &mut particles)?;
     Ok(QuasiStatic::new(QuasiStaticSetup {
         grid,
         particles,

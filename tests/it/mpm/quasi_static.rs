@@ -6,7 +6,7 @@ use mpm_verify::mpm::{
     BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Particles, Placement,
     Quadrilateral, QuasiStatic, QuasiStaticSetup, Roller, Side, Traction, Vector, kernel,
 };
-use mpm_verify::subject::{Failure, Subject};
+use mpm_verify::subject::{Failure, PlaneState, Site, Subject};
 use rstest::rstest;
 
 /// A column along the first axis under its own weight, with a fixed bottom and between rollers.
@@ -132,6 +132,17 @@ fn newton_exponent(residuals: &[f64]) -> Option<f64> {
     let falls = above.windows(2).all(|pair| pair[1] < pair[0]);
     let [.., a, b, c] = above[..] else { return None };
     falls.then(|| libm::log(c / b) / libm::log(b / a))
+}
+
+/// Returns the largest Newton exponent of three consecutive falling residuals above rounding; 0 if
+/// there are none.
+fn largest_exponent(residuals: &[f64]) -> f64 {
+    let exponent = |three: &[f64]| {
+        let [a, b, c] = *three else { return 0.0 };
+        let is_falling = a > b && b > c && c > 1e-12;
+        if is_falling { libm::log(c / b) / libm::log(b / a) } else { 0.0 }
+    };
+    residuals.windows(3).map(exponent).fold(0.0, f64::max)
 }
 
 #[rstest]
@@ -348,11 +359,72 @@ fn newton_converges_quadratically_in_two_dimensions(
     let mut solver = QuasiStatic::new(setup).unwrap();
     solver.step(1.0).unwrap();
     let residuals = solver.residuals();
-    let exponent = |three: &[f64]| {
-        let [a, b, c] = *three else { return 0.0 };
-        let is_falling = a > b && b > c && c > 1e-12;
-        if is_falling { libm::log(c / b) / libm::log(b / a) } else { 0.0 }
-    };
-    let largest = residuals.windows(3).map(exponent).fold(0.0, f64::max);
+    let largest = largest_exponent(residuals);
     assert!(residuals.len() <= 15 && largest >= 1.8, "{largest}: {residuals:?}");
+}
+
+/// Creates a ring of soil or rubber with radii from 1 m to 2 m on a fixed bottom, under its own
+/// weight and a pressure on its outer face.
+fn ring(material: MaterialPlan, basis: BasisName, cells: usize) -> QuasiStaticSetup<2> {
+    let (h, kernel) = (1.0 / cells as f64, kernel::<2>(basis));
+    let from = Vector::<2>::new(1.0, 0.0);
+    let grid = kernel.grid(from - Vector::<2>::new(h, 0.0), h, [cells + 2; 2], [false; 2]);
+    let block = Block { from, to: Vector::<2>::new(2.0, 1.0), density: 1.0 };
+    let mut particles = Particles::fill(&block, h, 2);
+    particles.revolve();
+    let weight = |_: f64| Vector::<2>::new(0.0, -4.0);
+    let pressure = Box::new(|_: &Vector<2>, _| Vector::<2>::new(-3.0, 0.0));
+    let pressure = Traction::at(&particles, 0, Side::High, Placement::Surface, pressure);
+    let effects: Vec<Box<dyn Effect<2>>> =
+        vec![Box::new(Gravity(Box::new(weight))), Box::new(pressure)];
+    let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 1, Side::Low))];
+    let material = material.in_plane::<2>(PlaneState::Axisymmetric).unwrap();
+    QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps: 1 }
+}
+
+/// The tangent of a body of revolution is tested with shear next to a rough bottom, and with soil
+/// that yields.
+#[rstest]
+#[case::elastic(MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 })]
+#[case::yielding(MaterialPlan::DruckerPrager {
+    young: 100.0,
+    poisson: 0.25,
+    friction: 0.3,
+    dilation: 0.1,
+    strength: 3.0,
+})]
+fn newton_converges_quadratically_in_a_body_of_revolution(
+    #[values(BasisName::Linear, BasisName::QuadraticBSpline)] basis: BasisName,
+    #[case] material: MaterialPlan,
+) {
+    let mut solver = QuasiStatic::new(ring(material, basis, 4)).unwrap();
+    solver.step(1.0).unwrap();
+    let residuals = solver.residuals();
+    let largest = largest_exponent(residuals);
+    assert!(residuals.len() <= 10 && largest >= 1.8, "{largest}: {residuals:?}");
+}
+
+/// The hoop stretch F_33 of each particle must equal r/R after several load steps.
+#[test]
+fn hoop_stretch_is_the_ratio_of_radii() {
+    let material = MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 };
+    let setup =
+        QuasiStaticSetup { load_steps: 4, ..ring(material, BasisName::QuadraticBSpline, 4) };
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    (0..4).for_each(|_| solver.step(1.0).unwrap());
+    let Particles { x, x0, across, .. } = solver.particles();
+    for ((x, x0), across) in x.iter().zip(x0).zip(across) {
+        assert_relative_eq!(x[0] / x0[0], *across, max_relative = 1e-13);
+    }
+    assert!(across.iter().any(|across| *across < 0.97), "{across:?}");
+}
+
+#[test]
+fn particle_on_the_axis_is_refused() {
+    let material = MaterialPlan::NeoHookean { young: 100.0, poisson: 0.3 };
+    let mut setup = ring(material, BasisName::Linear, 2);
+    setup.grid = kernel::<2>(BasisName::Linear).grid(Vector::zeros(), 0.5, [5, 3], [false; 2]);
+    (setup.particles.x[3][0], setup.particles.x0[3][0]) = (0.0, 0.0);
+    let failure = QuasiStatic::new(setup).unwrap().step(1.0).unwrap_err();
+    assert_eq!(failure, Failure::NonFinite { quantity: "hoop strain", site: Site::Particle(3) });
 }

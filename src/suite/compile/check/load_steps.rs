@@ -92,9 +92,9 @@ pub(crate) fn refuse_unfit(
     let refused = [
         (!scene.bodies.is_empty(), "bodies", "load steps are supported for a single body only"),
         (
-            scene.plane != PlaneState::Strain,
+            scene.plane == PlaneState::Stress,
             "plane",
-            "load steps are supported in plane strain and 3-D only",
+            "load steps are not supported in plane stress, whose laws have no tangent",
         ),
         (
             !scene.initial_displacement.is_empty(),
@@ -143,8 +143,12 @@ pub(crate) fn refuse_unfit(
     }
 }
 
-/// Whether a face prevents rigid translation along an axis.
+/// Whether a face prevents rigid translation along an axis. A body of revolution has no rigid
+/// translation along its radius.
 fn is_held(scene: &Scene, axis: usize) -> bool {
+    if scene.plane == PlaneState::Axisymmetric && axis == 0 {
+        return true;
+    }
     let holds = |face: &SceneFace| {
         face.hold.holds_all_components() || (face.hold.is_held() && face.axis == axis)
     };

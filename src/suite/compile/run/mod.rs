@@ -7,7 +7,8 @@ pub(crate) mod reference;
 pub(crate) mod refine;
 
 use crate::mpm::{
-    FrameName, MassName, combine, combine_across, combine_bodies, combine_precision, combine_volume,
+    CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
+    combine_precision, combine_volume,
 };
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{is_truthless, law_of_bar};
@@ -179,6 +180,13 @@ fn combined(
     method: Method,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
+    let refuse = |reason: CombinationError| {
+        let help = "list compatible settings in separate entries of `methods`";
+        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
+    };
+    if let Method::QuasiStatic { basis, .. } = method {
+        return combine_basis(plan.scene.plane, basis).map_err(refuse);
+    }
     let Method::Mpm { basis, transfer, mass, frame, start, volume, precision, .. } = method else {
         return Ok(());
     };
@@ -194,10 +202,7 @@ fn combined(
         let material = &body.material;
         known = known.and_then(|()| combine_volume(volume, frame, material, dimension, plane));
     }
-    known.map_err(|reason| {
-        let help = "list compatible settings in separate entries of `methods`";
-        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
-    })
+    known.map_err(refuse)
 }
 
 /// Refuses too many combinations of list values, before they are computed.
