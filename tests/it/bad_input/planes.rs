@@ -128,6 +128,35 @@ fn a_tube_with(#[case] edit: (&str, &str)) {
     refused(TUBE, &edits, &["left is under pressure, traction in X", "this is not a solution"]);
 }
 
+const STEPS: &str = include_str!(
+    "../../../verification/axisymmetry-and-plane-stress/load-steps-cylinder-uniform.yaml"
+);
+
+#[rstest]
+#[case::domains_in_the_plane(
+    &[("- mpm: {basis: linear", "- ▸mpm: {basis: cpgimp")],
+    &["the basis `cpgimp` is not supported in `plane: axisymmetric`", "Nairn & Guilkey 2015"]
+)]
+#[case::an_axis_that_is_free(
+    &[("boundary: {left: roller, ", "▸boundary: {")],
+    &["the left face lies on the axis, but is free", "state `left: roller`"]
+)]
+#[case::nothing_along_its_axis(
+    &[("boundary: {left: roller, bottom: roller}", "boundary: {left: roller}"), ("  body:", "  ▸body:")],
+    &["nothing holds the body along Y"]
+)]
+#[case::plane_stress(
+    &[("plane: axisymmetric", "▸plane: stress")],
+    &["load steps are not supported in plane stress"]
+)]
+#[case::a_follower_load(
+    &[("traction: {on: right, value: [\"(mu*(a^2 - 1) + L)/a\", 0]", "pressure: ▸{on: right, value: 1")],
+    &["`pressure` is not supported in load steps: it is a follower load"]
+)]
+fn a_cylinder_in_load_steps_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(STEPS, edits, words);
+}
+
 #[rstest]
 #[case(BAR, 1)]
 #[case(CUBE, 3)]

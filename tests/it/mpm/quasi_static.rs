@@ -3,7 +3,7 @@
 use crate::common::interrupted::goes_on;
 use approx::assert_relative_eq;
 use mpm_verify::mpm::{
-    BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Particles, Placement,
+    BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Matrix, Particles, Placement,
     Quadrilateral, QuasiStatic, QuasiStaticSetup, Roller, Side, Traction, Vector, kernel,
 };
 use mpm_verify::subject::{Failure, PlaneState, Site, Subject};
@@ -427,4 +427,84 @@ fn particle_on_the_axis_is_refused() {
     (setup.particles.x[3][0], setup.particles.x0[3][0]) = (0.0, 0.0);
     let failure = QuasiStatic::new(setup).unwrap().step(1.0).unwrap_err();
     assert_eq!(failure, Failure::NonFinite { quantity: "hoop strain", site: Site::Particle(3) });
+}
+
+/// A neo-Hookean square starts stretched by F0 = diag(2, 1/2), and is then sheared on its fixed
+/// bottom by tractions that hold F = (2, 1/4; 0, 1/2). The increment (1, 1/2; 0, 1) does not
+/// commute with F0.
+#[test]
+fn deformation_gradient_has_the_increment_on_its_left() {
+    let (h, kernel) = (0.5, kernel::<2>(BasisName::Linear));
+    let grid = kernel.grid(Vector::<2>::new(0.0, 0.0), h, [6, 2], [false; 2]);
+    let to = Vector::from_element(1.0);
+    let block = Block { from: Vector::zeros(), to, density: 1.0 };
+    // In the stretched state, a cell has two particles along the first axis and eight along the
+    // second axis.
+    let mut particles = Particles::fill(&block, 0.25, 2);
+    let labels = particles.x0.clone();
+    let before = Matrix::<2>::new(2.0, 0.0, 0.0, 0.5);
+    particles.deform(|p| (before * labels[p] - labels[p], before));
+    let after = Matrix::<2>::new(2.0, 0.25, 0.0, 0.5);
+    let (young, poisson) = (100.0, 0.3);
+    let mu = 0.5 * young / (1.0 + poisson);
+    // J = 1, so P = mu (F - F^-T).
+    let piola = (after - after.try_inverse().unwrap().transpose()) * mu;
+    let faces = [(0, Side::Low), (0, Side::High), (1, Side::High)];
+    let traction = |(axis, side): (usize, Side)| -> Box<dyn Effect<2>> {
+        let sign = if side == Side::High { 1.0 } else { -1.0 };
+        let force = Box::new(move |_: &Vector<2>, _| piola.column(axis) * sign);
+        Box::new(Traction::at(&particles, axis, side, Placement::Surface, force))
+    };
+    let effects = faces.into_iter().map(traction).collect();
+    let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 1, Side::Low))];
+    let material = MaterialPlan::NeoHookean { young, poisson }.build();
+    let setup =
+        QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps: 1 };
+    let mut body = QuasiStatic::new(setup).unwrap();
+    body.step(1.0).unwrap();
+    for (f, (x, x0)) in body.particles().def_grad.iter().zip(body.particles().x.iter().zip(&labels))
+    {
+        assert_relative_eq!(*f, after, epsilon = 1e-9);
+        assert_relative_eq!(*x, after * x0, epsilon = 1e-9);
+    }
+}
+
+/// At strains of 4e-5 the equations are linear up to terms of this size, so the first correction
+/// must reduce the residual to 1e-4 of the load, and the second one to about the square of the
+/// strain. With an error of this size in the tangent, the second residual would be 3e-9. Rounding
+/// errors of the stress are 1e-16 over the strain, which is below the stopping criterion.
+#[rstest]
+fn newton_converges_quadratically_at_small_strains(
+    #[values(
+        MaterialPlan::NeoHookean { young: 1e6, poisson: 0.3 },
+        MaterialPlan::Hencky { young: 1e6, poisson: 0.3 },
+        MaterialPlan::J2 { young: 1e6, poisson: 0.3, r#yield: 1e3, hardening: 0.0 },
+        MaterialPlan::DruckerPrager {
+            young: 1e6,
+            poisson: 0.3,
+            friction: 0.3,
+            dilation: 0.1,
+            strength: 1e3,
+        },
+        MaterialPlan::MohrCoulomb {
+            young: 1e6,
+            poisson: 0.3,
+            friction_angle: 30.0,
+            dilation_angle: 10.0,
+            cohesion: 1e3,
+        }
+    )]
+    material: MaterialPlan,
+) {
+    let case = ColumnCase { material, gravity: 0.01, ..ColumnCase::hencky(10, 1) };
+    let mut setup = case.setup::<2>(BasisName::ContiguousGimp);
+    setup.boundary.push(Box::new(Fixed::face(&setup.grid, 1, Side::Low)));
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    solver.step(1.0).unwrap();
+    let residuals = solver.residuals();
+    assert!(residuals.len() <= 4 && residuals[1] <= 1e-4, "{residuals:?}");
+    assert!(residuals[2] <= 1e-9 && *residuals.last().unwrap() < 1e-10, "{residuals:?}");
+    let all = solver.particles().def_grad.iter();
+    let strain = all.map(|f| (f - Matrix::identity()).amax()).fold(0.0, f64::max);
+    assert!((1e-5..6e-5).contains(&strain), "{strain}");
 }
