@@ -264,6 +264,38 @@ fn column_is_the_same_in_any_dimension(#[values(1, 2)] load_steps: u64) {
     }
 }
 
+/// A ring between rollers has the uniaxial strain of a column. Its radial and hoop stresses are
+/// equal, so the radial forces of linear functions vanish, also where the soil yields.
+#[rstest]
+fn ring_between_rollers_is_a_column(#[values(1, 2)] load_steps: u64) {
+    let case = ColumnCase::drucker_prager(4, load_steps);
+    let (h, kernel) = (case.height / case.cells as f64, kernel::<2>(BasisName::Linear));
+    let from = Vector::<2>::new(2.0 * h, 0.0);
+    let grid = kernel.grid(from, h, [2, case.cells + 1], [false; 2]);
+    let to = Vector::<2>::new(4.0 * h, case.height);
+    let mut particles = Particles::fill(&Block { from, to, density: case.density }, h, 2);
+    particles.revolve();
+    let weight = move |_: f64| Vector::<2>::new(0.0, -case.gravity);
+    let effects: Vec<Box<dyn Effect<2>>> = vec![Box::new(Gravity(Box::new(weight)))];
+    let boundary: Vec<Box<dyn Boundary<2>>> = vec![
+        Box::new(Roller::face(&grid, 0, Side::Low)),
+        Box::new(Roller::face(&grid, 0, Side::High)),
+        Box::new(Fixed::face(&grid, 1, Side::Low)),
+    ];
+    let material = case.material.in_plane::<2>(PlaneState::Axisymmetric).unwrap();
+    let setup =
+        QuasiStaticSetup { grid, particles, kernel, material, effects, boundary, load_steps };
+    let mut ring = QuasiStatic::new(setup).unwrap();
+    case.run(&mut ring);
+    let Particles { x, x0, sigma, stress_across, .. } = ring.particles();
+    let top = x.iter().map(|x| x[1]).fold(0.0, f64::max);
+    assert_relative_eq!(top, height::<1>(case, BasisName::Linear), max_relative = 1e-10);
+    for (p, across) in stress_across.iter().enumerate() {
+        assert_relative_eq!(x[p][0], x0[p][0], max_relative = 1e-10);
+        assert_relative_eq!(sigma[p][(0, 0)], *across, max_relative = 1e-8);
+    }
+}
+
 /// The reaction of the bottom must equal the weight.
 #[test]
 fn reaction_is_the_weight() {
