@@ -14,12 +14,13 @@
 //! at a constant stress ratio, and of first order in the step otherwise.
 
 use super::contract::{Contradiction, Material, MaterialProperties, rate_form_averages_no_volume};
+use super::plastic_flow::{MARGIN, length_squared};
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::turned_by_steps;
 use crate::mpm::foundation::algebra::{Matrix, det};
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::BATCH;
+use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
 
 /// Modified Cam-clay at finite strain.
@@ -128,6 +129,52 @@ impl CamClay {
         Clay { tau: deviator - Matrix::from_diagonal_element(pressure), consolidation }
     }
 
+    /// Returns the stresses of a batch of particles after logarithmic `strains`, if all strain is
+    /// elastic. Also returns whether the state of a particle is certainly elastic. The stress of any
+    /// other particle is not valid.
+    fn elastic(
+        &self,
+        before: &[Clay],
+        turned: &MatrixBatch<3>,
+        strains: &MatrixBatch<3>,
+    ) -> (MatrixBatch<3>, [bool; BATCH]) {
+        vectorized(
+            #[inline(always)]
+            || {
+                let mut consolidation = [f64::NAN; BATCH];
+                for (lane, clay) in before.iter().enumerate() {
+                    consolidation[lane % BATCH] = clay.consolidation;
+                }
+                let (mut stresses, mut inside) = (MatrixBatch::ZERO, [false; BATCH]);
+                for lane in 0..BATCH {
+                    let (mut deviator, mut shear) = (turned.get::<3>(lane), strains.get::<3>(lane));
+                    let mean = (deviator[(0, 0)] + deviator[(1, 1)] + deviator[(2, 2)]) / 3.0;
+                    let swelling = (shear[(0, 0)] + shear[(1, 1)] + shear[(2, 2)]) / 3.0;
+                    let t = -3.0 * swelling / self.swelling;
+                    let growth = small_mean_growth(t);
+                    let modulus = -self.ratio / self.swelling * mean * growth;
+                    for i in 0..3 {
+                        deviator[(i, i)] -= mean;
+                        shear[(i, i)] -= swelling;
+                    }
+                    for (tau, e) in deviator.iter_mut().zip(&shear) {
+                        *tau += 2.0 * modulus * e;
+                    }
+                    let mean = mean * (1.0 + t * growth);
+                    let shear = 1.5 * length_squared(&deviator) / square(self.slope);
+                    let bound = -mean * consolidation[lane];
+                    inside[lane] = (t.abs() <= SMALL_GROWTH)
+                        & (shear + square(mean) <= (1.0 - MARGIN) * bound);
+                    for i in 0..3 {
+                        deviator[(i, i)] += mean;
+                    }
+                    stresses.set(lane, &deviator);
+                }
+                (stresses, inside)
+            },
+        )
+    }
+
     /// Returns the mean stress (Pa) and the stress deviator (Pa) after the elastic volume strain
     /// `compaction`, if all shear is elastic. Volume strain and shear strain grow in proportion, so
     /// the result is the exact integral of the rate form.
@@ -178,6 +225,20 @@ fn square(x: f64) -> f64 {
 /// Returns `(e^t - 1)/t`, the mean of `e^s` for s from 0 to t.
 fn mean_growth(t: f64) -> f64 {
     if t == 0.0 { 1.0 } else { libm::expm1(t) / t }
+}
+
+/// Largest argument of [`small_mean_growth`].
+const SMALL_GROWTH: f64 = 0.125;
+
+/// Returns `(e^t - 1)/t` for arguments up to [`SMALL_GROWTH`] as the sum of `t^k/(k + 1)!`. The
+/// first omitted term is below `0.125^10/11! = 3e-17`.
+#[inline(always)]
+fn small_mean_growth(t: f64) -> f64 {
+    let mut sum = 1.0;
+    for divisor in (2..=10).rev() {
+        sum = 1.0 + t / f64::from(divisor) * sum;
+    }
+    sum
 }
 
 /// Returns `sqrt(3/2) |s|` for a deviator s.
@@ -296,11 +357,16 @@ impl<const D: usize> Material<D> for CamClay {
                     tau.set(lane, &state.tau);
                 }
                 let (turned, strains) = turned_by_steps(grad_v, dt, &tau);
+                let (elastic, inside) = self.elastic(states, &turned, &strains);
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 let particles = grad_v.iter().zip(states).zip(results).enumerate();
                 for (lane, ((grad_v, state), ((vol, vol0), sigma))) in particles {
-                    let before = Clay { tau: turned.get(lane), ..*state };
-                    *state = self.after(&before, &strains.get(lane));
+                    if inside[lane % BATCH] {
+                        state.tau = elastic.get(lane);
+                    } else {
+                        let before = Clay { tau: turned.get(lane), ..*state };
+                        *state = self.after(&before, &strains.get(lane));
+                    }
                     *vol *= det(&(Matrix::<D>::identity() + grad_v * dt));
                     let inverse_j = vol0 / *vol;
                     *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] * inverse_j);
@@ -390,6 +456,34 @@ mod tests {
                 if elastic.abs() > 1e-4 && q > 1e-3 * p {
                     assert_abs_diff_eq!(direction, 0.0, epsilon = 1e-8);
                 }
+            }
+        }
+    }
+
+    proptest! {
+        /// The states of a batch that are certainly elastic are those of the return mapping.
+        #[test]
+        fn elastic_states_of_a_batch_are_inside_the_yield_surface(
+            strain in proptest::array::uniform6(-2e-3..2e-3_f64),
+            stress in proptest::array::uniform6(-40.0..40.0_f64),
+        ) {
+            let symmetric = |m: [f64; 6]| {
+                let [a, b, c, d, e, f] = m;
+                Matrix::<3>::new(a, d, e, d, b, f, e, f, c)
+            };
+            let law = clay(300.0);
+            let tau = symmetric(stress) - Matrix::from_diagonal_element(100.0);
+            let (before, strain) = (Clay { tau, consolidation: 300.0 }, symmetric(strain));
+            let (mut turned, mut strains) = (MatrixBatch::ZERO, MatrixBatch::ZERO);
+            turned.set(0, &tau);
+            strains.set(0, &strain);
+            let (elastic, inside) = law.elastic(&[before], &turned, &strains);
+            prop_assert_eq!(&inside[1..], &[false; BATCH - 1]);
+            let after = law.after(&before, &strain);
+            prop_assert!(!inside[0] || after.consolidation == 300.0);
+            prop_assert!(inside[0] || after.consolidation > 300.0 || strain.trace().abs() > 0.0025);
+            if inside[0] {
+                assert_abs_diff_eq!(elastic.get::<3>(0), after.tau, epsilon = 1e-12);
             }
         }
     }
