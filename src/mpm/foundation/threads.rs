@@ -1,8 +1,9 @@
 //! Splits work among threads by recursive halving. Each number is computed by one thread from the
 //! same inputs, so results do not depend on the number of threads.
 
-/// Maximum number of particles or nodes that one thread processes without a split.
-pub(in crate::mpm) const FEW: usize = 1 << 14;
+/// Maximum number of particles or nodes that one thread processes without a split. Unit tests are
+/// compiled without optimisation, so they split smaller bodies.
+pub(in crate::mpm) const FEW: usize = if cfg!(test) { 1 << 10 } else { 1 << 14 };
 
 /// Runs both closures, in parallel if there are several threads. With one thread, the closures are
 /// called directly, because rayon would wake another thread.

@@ -43,7 +43,7 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
 /// Extrapolates the results of [`follow`] to step length zero by Richardson's method in even powers
 /// of the step. Also returns the observed order of the first component.
 fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
-    let mut rows: Vec<Vector<3>> = (4..=9).map(|k| follow(plan, corners, 1 << k)).collect();
+    let mut rows: Vec<Vector<3>> = (3..=8).map(|k| follow(plan, corners, 1 << k)).collect();
     let change = |k: usize| rows[k + 1][0] - rows[k][0];
     let order = libm::log2(change(3) / change(4));
     for k in 1..rows.len() as i32 {
