@@ -334,7 +334,9 @@ impl<const D: usize> LedgerSolver<D> {
     }
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for LedgerSolver<D> {
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.ledger.step(&mut self.solver, dt)
     }
@@ -343,6 +345,7 @@ impl<const D: usize> Subject for LedgerSolver<D> {
         self.ledger.balance().copied()
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         self.solver.sample(samples);
     }
@@ -355,10 +358,12 @@ impl<const D: usize> Subject for LedgerSolver<D> {
         self.solver.passes()
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         self.solver.fields()
     }
 
+    #[inline(never)]
     fn totals(&self) -> Option<Totals> {
         self.solver.totals()
     }

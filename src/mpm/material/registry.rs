@@ -129,6 +129,8 @@ macro_rules! materials {
             }
 
             /// Builds the material for a stress-free body.
+            // Not inlined, so that tests and other crates link to the laws compiled here.
+            #[inline(never)]
             pub fn build<const D: usize>(&self) -> Box<dyn Material<D>> {
                 match *self {
                     $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+

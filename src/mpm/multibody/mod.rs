@@ -39,6 +39,7 @@ impl<const D: usize> Bodies<D> {
     ///
     /// # Errors
     /// Failures of [`Solver::new`], and [`Failure::Solve`] for bodies on different grids.
+    #[inline(never)]
     pub fn new(setups: Vec<Setup<D>>, friction: Option<f64>) -> Result<Self, Failure> {
         let mut solvers: Vec<Solver<D>> = Vec::new();
         for setup in setups {
@@ -113,7 +114,9 @@ fn particles<const D: usize>(solvers: &[Solver<D>]) -> usize {
     solvers.iter().map(|solver| solver.particles().len()).sum()
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for Bodies<D> {
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let StepSchedule { opening, passes } = self.schedule.clone();
         if self.solvers.iter().any(|solver| !solver.started) {
@@ -126,6 +129,7 @@ impl<const D: usize> Subject for Bodies<D> {
         Ok(())
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         for solver in &self.solvers {
@@ -137,10 +141,12 @@ impl<const D: usize> Subject for Bodies<D> {
         }
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         self.solvers.iter().flat_map(Subject::fields).collect()
     }
 
+    #[inline(never)]
     fn totals(&self) -> Option<Totals> {
         self.solvers.iter().filter_map(Solver::totals).reduce(Totals::plus)
     }
@@ -162,6 +168,7 @@ impl<const D: usize> Subject for Bodies<D> {
         self.schedule.texts(&state.unwrap_or_default())
     }
 
+    #[inline(never)]
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { solvers, coupling, schedule: _ } = self;
         checkpoint.visit(&mut solvers[..]);

@@ -82,6 +82,7 @@ impl<const D: usize> QuasiStatic<D> {
     /// # Errors
     /// [`Failure::NonFinite`] or [`Failure::LeftDomain`] for an invalid particle;
     /// [`Failure::Solve`] for a law without a consistent tangent.
+    #[inline(never)]
     pub fn new(mut setup: QuasiStaticSetup<D>) -> Result<Self, Failure> {
         let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut setup;
         particles.track_deformation();
@@ -175,9 +176,11 @@ impl<const D: usize> QuasiStatic<D> {
     }
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for QuasiStatic<D> {
     /// Performs one load step of length `dt`, which is 1/2 in a reference run with steps of half
     /// the length.
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.advanced += dt;
         self.load();
@@ -199,6 +202,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         self.advance(&balance, &iterate.increment)
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         self.setup.particles.sample(samples);
@@ -214,10 +218,12 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         passes.map(ToOwned::to_owned).to_vec()
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         vec![fields(&self.setup.grid, &self.setup.particles, &self.columns())]
     }
 
+    #[inline(never)]
     fn totals(&self) -> Option<Totals> {
         let QuasiStaticSetup { particles, material, .. } = &self.setup;
         let strain_energy = material.energy(particles);
@@ -233,6 +239,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         (self.advanced > 0.0).then_some(Reaction { time: self.advanced, force })
     }
 
+    #[inline(never)]
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { setup, advanced, transfers, min_j, cell_tracker, .. } = self;
         let QuasiStaticSetup { particles, material, effects, boundary, .. } = setup;

@@ -28,6 +28,7 @@ impl<const D: usize> HeatSolver<D> {
     /// # Errors
     /// [`Failure::NonFinite`] if the initial state of a particle is not finite;
     /// [`Failure::LeftDomain`] if a particle is outside the grid.
+    #[inline(never)]
     pub fn new(
         kernel: Box<dyn Kernel<D>>,
         mut grid: Grid<D>,
@@ -65,7 +66,9 @@ impl<const D: usize> HeatSolver<D> {
     }
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for HeatSolver<D> {
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let Self { grid, particles, kernel, effects, .. } = self;
         for effect in effects {
@@ -76,11 +79,13 @@ impl<const D: usize> Subject for HeatSolver<D> {
         Ok(())
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         self.particles.sample(samples);
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         vec![fields(&self.grid, &self.particles, &self.columns())]
     }
@@ -101,6 +106,7 @@ impl<const D: usize> Subject for HeatSolver<D> {
     }
 
     /// Excludes the masses of the grid, which do not change after the start.
+    #[inline(never)]
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
         checkpoint.visit(particles);

@@ -25,6 +25,7 @@ impl<const D: usize> SinglePrecision<D> {
     ///
     /// # Errors
     /// The errors of [`Solver::new`].
+    #[inline(never)]
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
         round_particles(&mut setup.particles);
         let mut solver = Solver::new(setup)?;
@@ -46,7 +47,9 @@ impl<const D: usize> SinglePrecision<D> {
     }
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for SinglePrecision<D> {
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         let StepSchedule { opening, passes } = self.0.schedule.clone();
         if !self.0.started {
@@ -61,6 +64,7 @@ impl<const D: usize> Subject for SinglePrecision<D> {
         Ok(())
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         self.0.sample(samples);
     }
@@ -73,10 +77,12 @@ impl<const D: usize> Subject for SinglePrecision<D> {
         self.0.passes()
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         self.0.fields()
     }
 
+    #[inline(never)]
     fn totals(&self) -> Option<Totals> {
         self.0.totals()
     }
@@ -85,6 +91,7 @@ impl<const D: usize> Subject for SinglePrecision<D> {
         Subject::reaction(&self.0, face)
     }
 
+    #[inline(never)]
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         self.0.checkpoint(checkpoint)
     }

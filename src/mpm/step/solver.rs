@@ -45,6 +45,7 @@ impl<const D: usize> Solver<D> {
     /// [`Failure::NonFinite`] if the initial state of a particle is not finite;
     /// [`Failure::LeftDomain`] if a particle starts outside the grid; [`Failure::Inverted`] or
     /// [`Failure::NotOfDeformation`] if the initial deformation is invalid.
+    #[inline(never)]
     pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
         let Setup { grid, particles, kernel, material, effects, volume, .. } = &mut setup;
         let mut volume_average = match volume {

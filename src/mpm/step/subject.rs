@@ -115,21 +115,26 @@ impl<const D: usize> Solver<D> {
     }
 }
 
+// Not inlined, so that tests and other crates link to the code compiled here.
 impl<const D: usize> Subject for Solver<D> {
+    #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.begin(dt, &mut |_, _| {})?;
         self.finish(dt, &mut |_, _| {})
     }
 
+    #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         self.setup.particles.sample(samples);
     }
 
+    #[inline(never)]
     fn fields(&self) -> Vec<BodyFields> {
         vec![fields(&self.setup.grid, &self.setup.particles, &self.columns())]
     }
 
+    #[inline(never)]
     fn totals(&self) -> Option<Totals> {
         let Setup { particles, transfer, material, .. } = &self.setup;
         // With averaged volume ratios, the internal force is not the derivative of the energy of F.
@@ -156,6 +161,7 @@ impl<const D: usize> Subject for Solver<D> {
         self.schedule.texts(&self.setup.state_passes())
     }
 
+    #[inline(never)]
     fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
         checkpoint.visit(self);
         true
