@@ -25,10 +25,6 @@ const REASONS: &[(&str, &str)] = &[
     ("stability.run.full_steps", "only for full runs, which are longer than those of the gate"),
     ("expect.drift.mass", "masses do not change: the drift is zero and meets any bound"),
     ("internal_force.expect.agrees_within", "linear functions meet the prediction to the last bit"),
-    (
-        "run.load_steps",
-        "it is a part of the names of cases, and the error hardly depends on it: src/mpm/quasi_static",
-    ),
     ("spectrum.cells_per_wavelength", "the prediction is that of the same wave"),
     ("spectrum.particles.cells", "waves do not depend on the length of a periodic row"),
     ("spectrum.particles.ppc", "the prediction is that of the same particles"),
@@ -99,7 +95,6 @@ const REASONS: &[(&str, &str)] = &[
     ("stability.show: external_force", "shown wherever it is expected"),
     ("stability.show: grid_to_particle", "shown wherever it is expected"),
     ("stability.show: internal_force", "shown wherever it is expected"),
-    ("stability.show: kinetic_kept", "shown wherever it is expected"),
     ("stability.show: momentum", "shown wherever it is expected"),
     ("stability.show: motion", "shown wherever it is expected"),
     ("stability.show: nodal_velocity", "shown wherever it is expected"),
@@ -108,7 +103,6 @@ const REASONS: &[(&str, &str)] = &[
     ("stability.show: speed", "shown wherever it is expected"),
     ("stability.show: steps", "shown wherever it is expected"),
     ("stability.show: stored_energy", "shown wherever it is expected"),
-    ("stability.show: stress", "shown wherever it is expected"),
     ("stability.show: stress_work_error", "shown wherever it is expected"),
     ("stability.show: transfer_gain", "shown wherever it is expected"),
 ];
