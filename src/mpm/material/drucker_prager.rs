@@ -137,7 +137,7 @@ impl YieldSurface for Cone {
 #[cfg(test)]
 mod tests {
     use super::super::MaterialPlan;
-    use super::super::plastic_flow::path::{isotropic, principal};
+    use super::super::specimen::{isotropic, principal};
     use rstest::rstest;
 
     /// The expected principal Kirchhoff stresses at the end of each path are closed forms, computed

@@ -269,7 +269,7 @@ impl YieldSurface for Pyramid {
 #[cfg(test)]
 mod tests {
     use super::super::MaterialPlan;
-    use super::super::plastic_flow::path::{isotropic, principal};
+    use super::super::specimen::{isotropic, principal};
     use super::*;
     use approx::assert_abs_diff_eq;
     use proptest::prelude::*;

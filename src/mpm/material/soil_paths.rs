@@ -2,8 +2,7 @@
 //! deformation.
 
 use super::MaterialPlan;
-use super::plastic_flow::path::isotropic;
-use super::specimen::{SLOW, Specimen};
+use super::specimen::{SLOW, Specimen, isotropic};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use rstest::rstest;
 
