@@ -1,7 +1,7 @@
 //! Tests of polygons: validity, and intersections with lattice cells.
 
 use super::polygon::{AreaMoments, Point, triangles};
-use super::{Cut, Outline, Piece, Polygon, join_small};
+use super::{Cut, Outline, Piece, Polygon, ROUNDING, join_small};
 use crate::exact::random::Random;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
@@ -62,14 +62,18 @@ fn particles(body: &Polygon, count: i32) -> Vec<Piece> {
     all.collect()
 }
 
+/// Compares mass and first moments of the particles with those of the polygon. Each corner may have
+/// a piece in the next cell that is so small that it is omitted.
 fn is_exact(corners: &[[f64; 2]], count: i32) {
+    let cell = 1.0 / f64::from(count * count);
+    let bound = 1e-13 + corners.len() as f64 * ROUNDING * cell;
     let body = polygon(corners);
     let all = particles(&body, count);
     let found = all.iter().fold([0.0; 3], |sum, Piece { volume, place, .. }| {
         [sum[0] + volume, sum[1] + volume * place[0], sum[2] + volume * place[1]]
     });
     for (found, exact) in found.into_iter().zip(by_sides(corners)) {
-        assert!((found - exact).abs() < 1e-13, "{found} is not {exact}, {corners:?}, {count}");
+        assert!((found - exact).abs() < bound, "{found} is not {exact}, {corners:?}, {count}");
     }
     for piece in &all {
         assert!(body.holds(&piece.place), "{:?} is outside of {corners:?}", piece.place);
@@ -90,6 +94,20 @@ fn mass_and_centroid_are_exact(
         corners.rotate_left(2);
     }
     is_exact(&corners, count);
+}
+
+/// A side passes a corner of a lattice cell at a distance of 1.4e-6 m, so the piece beyond the
+/// corner has an area of 4e-13 m2.
+#[test]
+fn a_negligible_piece_is_omitted() {
+    let [one, other] = [
+        [1.014_061_456_529_452_3, -0.006_158_796_960_851_92],
+        [0.500_715_295_223_069_8, 0.218_704_232_731_431_8],
+    ];
+    let corners = [[-0.5, -0.4], one, other];
+    let volume: f64 = particles(&polygon(&corners), 1).iter().map(|piece| piece.volume).sum();
+    assert_relative_eq!(by_sides(&corners)[0] - volume, 4.08e-13, epsilon = 1e-15);
+    is_exact(&corners, 1);
 }
 
 #[test]
