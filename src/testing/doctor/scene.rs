@@ -36,6 +36,20 @@ pub(super) const FRICTION: f64 = 0.3;
 /// Friction angle (degrees) of a Mohr-Coulomb soil.
 pub(super) const FRICTION_ANGLE: f64 = 30.0;
 
+/// Slope M of the critical-state line of Cam-clay, `q = M p`.
+pub(super) const CRITICAL_STATE_SLOPE: f64 = 1.2;
+
+/// Slope kappa of the swelling line of Cam-clay, the logarithmic volume strain over ln p. The slope
+/// is small, so that strains are small and do not depend on the strain measure.
+pub(super) const SWELLING_SLOPE: f64 = 0.001;
+
+/// Slope lambda of the compression line of Cam-clay.
+pub(super) const COMPRESSION_SLOPE: f64 = 0.005;
+
+/// Preconsolidation pressure of Cam-clay over its initial pressure. Below 2, the clay hardens in
+/// shear at constant volume.
+pub(super) const OVERCONSOLIDATION: f64 = 1.5;
+
 /// A box of particles on a grid. Vectors have one number per dimension.
 #[derive(Debug, Clone)]
 pub(super) struct BoxScene {
@@ -52,7 +66,7 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
-    /// Strength or cohesion (Pa) of a soil.
+    /// Strength or cohesion (Pa) of a soil; the initial pressure of Cam-clay.
     pub(super) strength: f64,
     /// Dilation of a soil, as a share of its friction.
     pub(super) dilation: f64,
@@ -177,6 +191,13 @@ impl BoxScene {
                  dilation_angle: {}, cohesion: {:e}",
                 FRICTION_ANGLE * self.dilation,
                 self.strength
+            ),
+            "cam_clay" => format!(
+                "critical_state_slope: {CRITICAL_STATE_SLOPE}, swelling_slope: {SWELLING_SLOPE}, \
+                 compression_slope: {COMPRESSION_SLOPE}, poisson: {poisson}, initial_pressure: \
+                 {:e}, preconsolidation: {:e}",
+                self.strength,
+                OVERCONSOLIDATION * self.strength
             ),
             _ => format!("young: {young:e}, poisson: {poisson}"),
         };

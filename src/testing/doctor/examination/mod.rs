@@ -1,3 +1,4 @@
+mod clay;
 mod conversation;
 mod faces;
 mod fall;
@@ -30,6 +31,7 @@ pub(super) const ALL: &[Examination] = &[
     periodic::EXAMINATION,
     laws::EXAMINATION,
     soils::EXAMINATION,
+    clay::EXAMINATION,
     start::EXAMINATION,
     vibration::EXAMINATION,
     walls::EXAMINATION,

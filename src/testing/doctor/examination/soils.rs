@@ -189,7 +189,7 @@ fn legs(patient: &Patient<'_>, kind: Kind) -> Result<Legs, Hindrance> {
 }
 
 /// Creates a body whose displacement gradient grows to `gradient` in `steps` steps.
-fn path(kind: Kind, gradient: &[[f64; 3]; 3], steps: u64) -> BoxScene {
+pub(super) fn path(kind: Kind, gradient: &[[f64; 3]; 3], steps: u64) -> BoxScene {
     let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
     let d = scene.dimension;
@@ -213,7 +213,7 @@ fn with_gradient(scene: &BoxScene, f: &[f64]) -> BoxScene {
 }
 
 /// Returns the mean stress (Pa) in the middle of the body at the end of the run, row after row.
-fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
+pub(super) fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     inside(course, scene, &course.states[course.last()].stress)
         .ok_or_else(|| Hindrance::Broke("the column `stress` is missing".to_owned()))
 }

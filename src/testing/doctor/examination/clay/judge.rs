@@ -1,0 +1,382 @@
+//! Findings on the states at the ends of the paths.
+
+use super::measure::PathEnd;
+use crate::testing::doctor::course::shown;
+use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::scene::{
+    COMPRESSION_SLOPE, CRITICAL_STATE_SLOPE, OVERCONSOLIDATION, SWELLING_SLOPE,
+};
+
+/// Maximum relative error of p, q and pc: the sum of 2.1 % for explicit integration and 4 % for
+/// solvers that do not follow the path exactly (see [`NEAR_IN_MOTION`]), and a margin.
+const NEAR: f64 = 0.08;
+
+/// Maximum relative error of q/p at the critical state, where errors of the path have no effect.
+const NEAR_AT_CRITICAL_STATE: f64 = 0.05;
+
+/// Maximum relative error of pc in shear and of q/p on the K0 line, which are more sensitive to the
+/// motion: a volume strain of 0.1 % of the shear strain changes p by 1 %.
+const NEAR_ON_PATH: f64 = 0.12;
+
+/// Whether `measured` agrees with `expected`. NaN does not.
+fn is_near(measured: f64, expected: f64) -> bool {
+    (measured - expected).abs() <= NEAR * expected.abs()
+}
+
+/// Computes the preconsolidation pressure, divided by the initial mean stress, after a plastic
+/// compaction with this hardening slope.
+fn hardened(compaction: f64, slope: f64) -> f64 {
+    OVERCONSOLIDATION * libm::exp(compaction / slope)
+}
+
+/// Returns the first finding. Yielding states are examined only if elastic states are correct.
+pub(super) fn finding(ends: &[PathEnd; 3]) -> Option<SolverFinding> {
+    let [swelling, compression, shear] = ends;
+    of_swelling(swelling)
+        .or_else(|| of_shear_modulus(swelling))
+        .or_else(|| of_critical_state(shear))
+        .or_else(|| of_hardening(compression, shear))
+        .or_else(|| of_flow(compression))
+}
+
+fn of_swelling(end: &PathEnd) -> Option<SolverFinding> {
+    let growth = end.compaction / SWELLING_SLOPE;
+    let expected = libm::exp(growth);
+    if is_near(end.p, expected) {
+        return None;
+    }
+    let cause = if is_near(end.p, 1.0 + growth) {
+        "the bulk modulus is that of the initial mean stress"
+    } else if is_near(end.p, libm::exp(end.compaction / COMPRESSION_SLOPE)) {
+        "the elastic strain has the slope lambda of the compression line"
+    } else {
+        "the mean stress does not follow the swelling line: another slope, a logarithm to the base \
+         10, or an initial pressure that is ignored"
+    };
+    Some(SolverFinding::defect(
+        "clay-swelling-slope",
+        end.describe(&format!(
+            "p/p0 = {} is expected; the slope of the swelling line is {}, expected kappa = {}",
+            shown(expected),
+            shown(end.compaction / libm::log(end.p)),
+            shown(SWELLING_SLOPE)
+        )),
+        cause,
+        "the bulk modulus K = p/kappa, with the current mean stress p and the logarithmic volume \
+         strain, d eps_v = kappa dp/p",
+    ))
+}
+
+fn of_shear_modulus(end: &PathEnd) -> Option<SolverFinding> {
+    let expected = 2.0 * end.ratio * (end.p - 1.0).abs();
+    if is_near(end.q, expected) {
+        return None;
+    }
+    let initial = 3.0 * end.ratio / SWELLING_SLOPE * end.shear;
+    let cause = if is_near(end.q, initial) {
+        "the shear modulus is that of the initial mean stress"
+    } else if is_near(end.q, initial * end.p) {
+        "the deviator is the current shear modulus times the total elastic shear strain, instead \
+         of the integral of its rate"
+    } else {
+        "the shear modulus is not the given fraction of the bulk modulus"
+    };
+    Some(SolverFinding::defect(
+        "clay-shear-modulus",
+        end.describe(&format!("q/p0 = {} is expected", shown(expected))),
+        cause,
+        "the shear modulus G = r p/kappa with r = 3 (1 - 2 nu)/(2 (1 + nu)), which follows the \
+         current mean stress p",
+    ))
+}
+
+fn of_critical_state(end: &PathEnd) -> Option<SolverFinding> {
+    let slope = end.q / end.p;
+    if (slope / CRITICAL_STATE_SLOPE - 1.0).abs() <= NEAR_AT_CRITICAL_STATE {
+        return None;
+    }
+    let seen = end.describe(&format!(
+        "q/p is {}, expected M = {} at the critical state",
+        shown(slope),
+        shown(CRITICAL_STATE_SLOPE)
+    ));
+    if is_near(end.q, 3.0 * end.ratio / SWELLING_SLOPE * end.shear) {
+        return Some(SolverFinding::defect(
+            "clay-does-not-yield",
+            seen,
+            "the stress stays elastic beyond the yield surface",
+            "the yield function q^2/M^2 + p (p - pc) with p positive in compression; the units of \
+             pc",
+        ));
+    }
+    Some(yield_surface(seen))
+}
+
+fn of_hardening(compression: &PathEnd, shear: &PathEnd) -> Option<SolverFinding> {
+    let expected_slope = COMPRESSION_SLOPE - SWELLING_SLOPE;
+    let expected = |end: &PathEnd| hardened(end.plastic_compaction(), expected_slope);
+    let seen = |end: &PathEnd| {
+        end.describe(&format!(
+            "the yield surface through this stress has pc/p0 = {}, expected {}",
+            shown(end.consolidation()),
+            shown(expected(end))
+        ))
+    };
+    let is_on_path =
+        |measured: f64, expected: f64| (measured - expected).abs() <= NEAR_ON_PATH * expected;
+    if is_near(compression.consolidation(), expected(compression)) {
+        let is_wrong = !is_on_path(shear.consolidation(), expected(shear));
+        return is_wrong.then(|| yield_surface(seen(shear)));
+    }
+    let slope = compression.hardening_slope();
+    // The total volume strain may count from the start or from first yield, which is at a mean
+    // stress below pc.
+    let total = compression.compaction - 0.5 * SWELLING_SLOPE * libm::log(OVERCONSOLIDATION);
+    let cause = if is_near(compression.consolidation(), OVERCONSOLIDATION) {
+        "the preconsolidation pressure is not updated".to_owned()
+    } else if is_near(compression.consolidation(), hardened(total, expected_slope)) {
+        "the preconsolidation pressure follows the total volume strain instead of the plastic \
+         volume strain"
+            .to_owned()
+    } else if slope > 0.0
+        && is_on_path(shear.consolidation(), hardened(shear.plastic_compaction(), slope))
+    {
+        format!(
+            "the preconsolidation pressure follows the plastic volume strain with the slope {} \
+             instead of lambda - kappa = {} (lambda = {}, kappa = {})",
+            shown(slope),
+            shown(expected_slope),
+            shown(COMPRESSION_SLOPE),
+            shown(SWELLING_SLOPE)
+        )
+    } else {
+        return Some(yield_surface(seen(compression)));
+    };
+    Some(SolverFinding::defect(
+        "clay-hardening",
+        seen(compression),
+        &cause,
+        "the hardening rule d pc/pc = d eps_v/(lambda - kappa) with the plastic part of the \
+         logarithmic volume strain, applied in every step",
+    ))
+}
+
+fn yield_surface(seen: String) -> SolverFinding {
+    SolverFinding::defect(
+        "clay-yield-surface",
+        seen,
+        "the stress is not on the yield surface: wrong slope M, wrong definition of q, another \
+         yield function, or a return mapping that does not end on the surface",
+        "the yield function q^2/M^2 + p (p - pc) with q = sqrt(3 J2) and p positive in \
+         compression, which must be zero after every yielding step",
+    )
+}
+
+fn of_flow(end: &PathEnd) -> Option<SolverFinding> {
+    let (measured, expected) = (end.q / end.p, k0_ratio(end.ratio));
+    if (measured - expected).abs() <= NEAR_ON_PATH * expected {
+        return None;
+    }
+    Some(SolverFinding::defect(
+        "clay-flow-direction",
+        end.describe(&format!(
+            "q/p is {}, expected {} on the K0 line",
+            shown(measured),
+            shown(expected)
+        )),
+        "the stress is on the yield surface, but at the wrong point: the flow is not associated",
+        "the flow direction, the gradient of the yield function: d eps_q/d eps_v = 2 q/(M^2 (2 p - \
+         pc))",
+    ))
+}
+
+/// Computes the ratio `q/p` of the K0 line from the ratio of moduli: the root of
+/// `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with `L = 1 - kappa/lambda`.
+fn k0_ratio(ratio: f64) -> f64 {
+    let elastic = SWELLING_SLOPE / COMPRESSION_SLOPE;
+    let (mut low, mut high) = (0.0, CRITICAL_STATE_SLOPE);
+    for _ in 0..60 {
+        let eta: f64 = 0.5 * (low + high);
+        let inside = CRITICAL_STATE_SLOPE * CRITICAL_STATE_SLOPE - eta * eta;
+        let shear = eta * elastic / (3.0 * ratio) + 2.0 * eta * (1.0 - elastic) / inside;
+        if shear < 2.0 / 3.0 { low = eta } else { high = eta }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::measure::{PATHS, STEPS};
+    use super::*;
+    use crate::testing::doctor::examination::soils;
+    use crate::testing::doctor::patient::Hindrance;
+    use approx::assert_relative_eq;
+    use rstest::rstest;
+
+    /// Reference figure of an independent program, for M = 1.2, lambda = 5 kappa and r = 0.6.
+    #[test]
+    fn ratio_of_the_k0_line_matches_the_reference() {
+        assert_relative_eq!(k0_ratio(0.6), 0.468_732_574_577, max_relative = 1e-11);
+    }
+
+    fn measure(dimension: usize, method: &str, steps: u64) -> Result<[PathEnd; 3], Hindrance> {
+        let end = |k: usize| {
+            let (name, gradient) = &PATHS[k];
+            let scene = soils::path((dimension, "cam_clay"), gradient, steps);
+            PathEnd::measure(name, &scene, &scene.built_in(method)?)
+        };
+        Ok([end(0)?, end(1)?, end(2)?])
+    }
+
+    #[rstest]
+    #[case::exact_motion(2, "linear, transfer: flip, frame: total_lagrangian", STEPS)]
+    #[case::quadratic(2, "quadratic_bspline, transfer: flip", STEPS)]
+    #[case::slightly_averaged_motion(2, "linear, transfer: flip_99", STEPS)]
+    #[case::three_dimensions(3, "linear, transfer: apic", STEPS / 10)]
+    fn built_in_solver_has_no_finding(
+        #[case] dimension: usize,
+        #[case] basis: &str,
+        #[case] steps: u64,
+    ) {
+        let ends = measure(dimension, &format!("basis: {basis}, scheme: usl"), steps);
+        let ends = ends.unwrap_or_else(|_| panic!("the built-in solver fails"));
+        assert_eq!(finding(&ends), None);
+        // The closed form without the measured strain.
+        let share = 1.0 - SWELLING_SLOPE / COMPRESSION_SLOPE;
+        let critical = libm::pow(0.5 * OVERCONSOLIDATION, share);
+        assert_relative_eq!(ends[2].p, critical, max_relative = 0.002);
+    }
+
+    #[test]
+    fn averaging_solver_is_not_examined() {
+        let ends = measure(2, "basis: linear, transfer: pic, scheme: usl", STEPS);
+        assert!(matches!(ends, Err(Hindrance::Lacks(_))));
+    }
+
+    /// A fault of [`integrate`].
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    enum Fault {
+        None,
+        ConstantBulkModulus,
+        ConstantShearModulus,
+        WrongSwellingSlope,
+        WrongPoisson,
+        NoYield,
+        WrongCriticalState,
+        OriginalSurface,
+        NoHardening,
+        HardeningByTotalStrain,
+        HardeningSlope(f64),
+        ShortReturn,
+        RadialFlow,
+    }
+
+    /// Integrates the rate equations along a path by the explicit Euler method, without correction
+    /// of the drift from the yield surface and without detection of the yield point.
+    fn integrate(path: &'static str, [compaction, shear]: [f64; 2], fault: Fault) -> PathEnd {
+        let (lambda, mu) = soils::path((2, "cam_clay"), &[[0.0; 3]; 3], STEPS).lame();
+        let ratio = mu / (lambda + 2.0 * mu / 3.0);
+        let steps = STEPS as f64;
+        let (mut p, mut q, mut pc) = (1.0_f64, 0.0_f64, OVERCONSOLIDATION);
+        let m2 = match fault {
+            Fault::WrongCriticalState => CRITICAL_STATE_SLOPE,
+            _ => CRITICAL_STATE_SLOPE * CRITICAL_STATE_SLOPE,
+        };
+        let kappa = match fault {
+            Fault::WrongSwellingSlope => COMPRESSION_SLOPE,
+            _ => SWELLING_SLOPE,
+        };
+        let hardening = match fault {
+            Fault::HardeningSlope(slope) => slope,
+            _ => COMPRESSION_SLOPE - SWELLING_SLOPE,
+        };
+        let r = if fault == Fault::WrongPoisson { 0.7 * ratio } else { ratio };
+        for _ in 0..STEPS {
+            let (strain, distortion) = (compaction / steps, shear / steps);
+            let bulk = if fault == Fault::ConstantBulkModulus { 1.0 } else { p } / kappa;
+            let modulus =
+                if fault == Fault::ConstantShearModulus { r / kappa } else { r * p / kappa };
+            // Yield function, its derivatives by p, q and pc.
+            let (f, by_p, by_q, by_pc) = if fault == Fault::OriginalSurface {
+                let m = m2.sqrt();
+                (q / m + p * libm::log(p / pc), libm::log(p / pc) + 1.0, 1.0 / m, -p / pc)
+            } else {
+                (q * q / m2 + p * (p - pc), 2.0 * p - pc, 2.0 * q / m2, -p)
+            };
+            let flow_q = if fault == Fault::RadialFlow { 0.5 * by_q } else { by_q };
+            let load = by_p * bulk * strain + by_q * 3.0 * modulus * distortion;
+            let mut multiplier = 0.0;
+            let mut growth = 0.0;
+            if f >= 0.0 && load > 0.0 && fault != Fault::NoYield {
+                let elastic = by_p * bulk * by_p + by_q * 3.0 * modulus * flow_q;
+                match fault {
+                    Fault::NoHardening => multiplier = load / elastic,
+                    Fault::HardeningByTotalStrain => {
+                        growth = strain / hardening;
+                        multiplier = (load + by_pc * pc * growth) / elastic;
+                    }
+                    _ => {
+                        multiplier = load / (elastic - by_pc * pc / hardening * by_p);
+                        growth = multiplier * by_p / hardening;
+                    }
+                }
+            }
+            if fault == Fault::ShortReturn {
+                multiplier *= 0.9;
+            }
+            p += bulk * (strain - multiplier * by_p);
+            q += 3.0 * modulus * (distortion - multiplier * flow_q);
+            pc *= libm::exp(growth);
+        }
+        PathEnd { path, dimension: 2, ratio, compaction, shear: shear.abs(), p, q: q.abs() }
+    }
+
+    /// Runs all paths with a fault.
+    fn run(fault: Fault) -> [PathEnd; 3] {
+        let swelling = -libm::log1p(PATHS[0].1[0][0]);
+        let compaction = -libm::log1p(PATHS[1].1[0][0]);
+        let uniaxial = |strain: f64| [strain, 2.0 / 3.0 * strain];
+        [
+            integrate("swelling", uniaxial(swelling), fault),
+            integrate("compression", uniaxial(compaction), fault),
+            integrate("shear", [0.0, PATHS[2].1[0][1] / 3.0_f64.sqrt()], fault),
+        ]
+    }
+
+    #[test]
+    fn explicit_integration_has_no_finding() {
+        assert_eq!(finding(&run(Fault::None)), None);
+    }
+
+    #[rstest]
+    #[case(Fault::ConstantBulkModulus, "clay-swelling-slope", "initial mean stress")]
+    #[case(Fault::WrongSwellingSlope, "clay-swelling-slope", "slope lambda")]
+    #[case(Fault::ConstantShearModulus, "clay-shear-modulus", "initial mean stress")]
+    #[case(Fault::WrongPoisson, "clay-shear-modulus", "fraction of the bulk modulus")]
+    #[case(Fault::NoYield, "clay-does-not-yield", "elastic beyond")]
+    #[case(Fault::WrongCriticalState, "clay-yield-surface", "wrong slope M")]
+    #[case(Fault::OriginalSurface, "clay-yield-surface", "another yield function")]
+    #[case(Fault::ShortReturn, "clay-yield-surface", "does not end on the surface")]
+    #[case(Fault::NoHardening, "clay-hardening", "is not updated")]
+    #[case(Fault::HardeningByTotalStrain, "clay-hardening", "total volume strain")]
+    #[case(Fault::HardeningSlope(COMPRESSION_SLOPE), "clay-hardening", "with the slope 0.00499")]
+    #[case(Fault::HardeningSlope(SWELLING_SLOPE), "clay-hardening", "with the slope 0.001")]
+    #[case(Fault::RadialFlow, "clay-flow-direction", "not associated")]
+    fn fault_is_named(#[case] fault: Fault, #[case] name: &str, #[case] cause: &str) {
+        let found = finding(&run(fault)).expect("a finding");
+        let text = format!("{}\n{}", found.seen, found.cause);
+        assert_eq!(found.name, name, "{text}");
+        assert!(found.cause.contains(cause), "{text}");
+    }
+
+    #[test]
+    fn stress_that_is_not_a_number_is_wrong() {
+        let [swelling, compression, shear] = run(Fault::None);
+        let not_a_number = |end: &PathEnd| PathEnd { p: f64::NAN, ..*end };
+        let ends = [not_a_number(&swelling), compression, shear];
+        assert!(finding(&ends).is_some());
+        let [swelling, compression, shear] = run(Fault::None);
+        let ends = [swelling, not_a_number(&compression), shear];
+        assert!(finding(&ends).is_some());
+    }
+}
