@@ -130,8 +130,8 @@ impl CamClay {
     }
 
     /// Returns the stresses of a batch of particles after logarithmic `strains`, if all strain is
-    /// elastic. Also returns whether the state of a particle is certainly elastic. The stress of any
-    /// other particle is not valid.
+    /// elastic. Also returns whether the state of a particle is certainly elastic. The stress of
+    /// any other particle is not valid.
     fn elastic(
         &self,
         before: &[Clay],
