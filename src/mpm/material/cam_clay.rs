@@ -146,13 +146,16 @@ impl CamClay {
                     consolidation[lane % BATCH] = clay.consolidation;
                 }
                 let (mut stresses, mut inside) = (MatrixBatch::ZERO, [false; BATCH]);
+                let (growth_per_swelling, stiffness) =
+                    (-3.0 / self.swelling, -self.ratio / self.swelling);
+                let shear_share = 1.5 / square(self.slope);
                 for lane in 0..BATCH {
                     let (mut deviator, mut shear) = (turned.get::<3>(lane), strains.get::<3>(lane));
                     let mean = (deviator[(0, 0)] + deviator[(1, 1)] + deviator[(2, 2)]) / 3.0;
                     let swelling = (shear[(0, 0)] + shear[(1, 1)] + shear[(2, 2)]) / 3.0;
-                    let t = -3.0 * swelling / self.swelling;
+                    let t = swelling * growth_per_swelling;
                     let growth = small_mean_growth(t);
-                    let modulus = -self.ratio / self.swelling * mean * growth;
+                    let modulus = stiffness * mean * growth;
                     for i in 0..3 {
                         deviator[(i, i)] -= mean;
                         shear[(i, i)] -= swelling;
@@ -161,7 +164,7 @@ impl CamClay {
                         *tau += 2.0 * modulus * e;
                     }
                     let mean = mean * (1.0 + t * growth);
-                    let shear = 1.5 * length_squared(&deviator) / square(self.slope);
+                    let shear = shear_share * length_squared(&deviator);
                     let bound = -mean * consolidation[lane];
                     inside[lane] = (t.abs() <= SMALL_GROWTH)
                         & (shear + square(mean) <= (1.0 - MARGIN) * bound);
@@ -230,13 +233,24 @@ fn mean_growth(t: f64) -> f64 {
 /// Largest argument of [`small_mean_growth`].
 const SMALL_GROWTH: f64 = 0.125;
 
-/// Returns `(e^t - 1)/t` for arguments up to [`SMALL_GROWTH`] as the sum of `t^k/(k + 1)!`. The
-/// first omitted term is below `0.125^10/11! = 3e-17`.
+/// Coefficients `1/(k + 1)!` of the series of `(e^t - 1)/t`. For arguments up to [`SMALL_GROWTH`],
+/// the first omitted term is below `0.125^10/11! = 3e-17`.
+const MEAN_GROWTH: [f64; 10] = {
+    let mut series = [1.0; 10];
+    let mut k = 1;
+    while k < series.len() {
+        series[k] = series[k - 1] / (k + 1) as f64;
+        k += 1;
+    }
+    series
+};
+
+/// Returns `(e^t - 1)/t` for arguments up to [`SMALL_GROWTH`].
 #[inline(always)]
 fn small_mean_growth(t: f64) -> f64 {
-    let mut sum = 1.0;
-    for divisor in (2..=10).rev() {
-        sum = 1.0 + t / f64::from(divisor) * sum;
+    let mut sum = 0.0;
+    for coefficient in MEAN_GROWTH.iter().rev() {
+        sum = coefficient + t * sum;
     }
     sum
 }

@@ -21,6 +21,13 @@ const SMALL_SQUARE: f64 = 1.0 / 64.0;
 /// most `8^-17/18 = 2.5e-17`. The terms of the inverse root are smaller relative to 1.
 const TERMS: usize = 18;
 
+/// Square of the largest Frobenius norm of a tiny matrix, `2^-10`.
+const TINY_SQUARE: f64 = 1.0 / 1_048_576.0;
+
+/// Number of coefficients for a tiny matrix. Relative to E, the first omitted term of `ln(I + E)`
+/// is at most `2^-60/7`.
+const TINY_TERMS: usize = 7;
+
 /// Coefficients of a power series, from the constant on.
 pub(super) type Coefficients = [f64; TERMS];
 
@@ -102,17 +109,26 @@ impl<const D: usize> PowerSeries<D> {
         (0..BATCH).fold(true, |all, lane| all & self.is_small(lane))
     }
 
-    /// Returns the sum of a series, valid for small matrices.
+    /// Returns the sum of a series, valid for small matrices. The number of terms of a lane depends
+    /// on its own matrix only.
     #[inline(always)]
     pub(super) fn sum(&self, series: &Coefficients) -> MatrixBatch<D> {
         let [i1, i2, i3] = &self.invariants;
         let [mut a, mut b, mut c] = [F64Batch::ZERO; 3];
-        for coefficient in series.iter().rev() {
+        let mut takes_all = [0.0; BATCH];
+        let mut terms = TINY_TERMS;
+        for lane in 0..BATCH {
+            if !(self.norm_squared.get(lane) <= TINY_SQUARE) {
+                (takes_all[lane], terms) = (1.0, TERMS);
+            }
+        }
+        for (k, coefficient) in series[..terms].iter().enumerate().rev() {
             for lane in 0..BATCH {
+                let own = if k < TINY_TERMS { 1.0 } else { takes_all[lane] };
                 let last = c.0[lane];
                 c.0[lane] = b.0[lane] + i1.0[lane] * last;
                 b.0[lane] = a.0[lane] - i2.0[lane] * last;
-                a.0[lane] = coefficient + i3.0[lane] * last;
+                a.0[lane] = coefficient * own + i3.0[lane] * last;
             }
         }
         let mut sum = MatrixBatch::identity();
