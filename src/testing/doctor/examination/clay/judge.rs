@@ -8,7 +8,7 @@ use crate::testing::doctor::scene::{
 };
 
 /// Maximum relative error of p, q and pc: the sum of 2.1 % for explicit integration and 4 % for
-/// solvers that do not follow the path exactly (see [`NEAR_IN_MOTION`]), and a margin.
+/// solvers that do not follow the path exactly (`NEAR_IN_MOTION` of `measure`), and a margin.
 const NEAR: f64 = 0.08;
 
 /// Maximum relative error of q/p at the critical state, where errors of the path have no effect.
