@@ -4,8 +4,8 @@ use super::initial_state::Initial;
 use crate::exact::heat::Conduction;
 use crate::exact::{CellQuadrature, Cut, Forcing, Piece, Problem, Random, join_small};
 use crate::mpm::{
-    BasisName, BodyForce, Boundary, Effect, Fragment, Grid, HeatSolver, Hoop, Kernel, Matrix,
-    Particles, QuasiStatic, QuasiStaticSetup, Setup, Side, Vector, kernel,
+    BasisName, BodyForce, Boundary, Effect, Fragment, Grid, HeatSolver, Hoop, Kernel, Material,
+    Matrix, Particles, QuasiStatic, QuasiStaticSetup, Setup, Side, Vector, kernel,
 };
 use crate::subject::{PlaneState, SubjectError};
 use crate::suite::model::method::Method;
@@ -47,6 +47,16 @@ impl<'a> Body<'a> {
             lattice: LatticeEdits { scatter: plan.scatter.clone(), ..LatticeEdits::default() },
         }
     }
+
+    /// Creates the material law of the body, with its initial stress.
+    fn material<const D: usize>(
+        &self,
+        particles: &mut Particles<D>,
+    ) -> Result<Box<dyn Material<D>>, SubjectError> {
+        let law = self.own.material.in_plane(self.scene.plane);
+        let law = law.ok_or("a law not supported in its plane")?;
+        Ok(self.initial.stressed(law, particles)?)
+    }
 }
 
 /// Creates the solver inputs of `body` on the cells of `level`.
@@ -60,9 +70,6 @@ pub(crate) fn setup<const D: usize>(
     };
     let scene = body.scene;
     let (kernel, grid, mut particles) = discretisation::<D>(body, basis, level)?;
-    if scene.plane == PlaneState::Axisymmetric {
-        particles.revolve();
-    }
     if body.keeps_deformation {
         particles.track_deformation();
     }
@@ -71,14 +78,14 @@ pub(crate) fn setup<const D: usize>(
     if scene.plane == PlaneState::Axisymmetric {
         effects.insert(0, Box::new(Hoop::default()));
     }
-    let law = body.own.material.in_plane(scene.plane).ok_or("a law not supported in its plane")?;
+    let material = body.material(&mut particles)?;
     Ok(Setup {
         kernel,
         transfer: transfer.build(),
         mass: crate::mpm::mass_matrix(mass),
         frame,
         volume,
-        material: body.initial.stressed(law, &mut particles)?,
+        material,
         effects,
         boundary: boundary(scene, &grid, basis),
         grid,
@@ -99,6 +106,9 @@ fn discretisation<const D: usize>(
     let grid = grid(body.scene, h, kernel.as_ref());
     let mut particles = seeded_particles(body.own, &grid.origin, h, per_axis);
     body.lattice.apply(&mut particles);
+    if body.scene.plane == PlaneState::Axisymmetric {
+        particles.revolve();
+    }
     Ok((kernel, grid, particles))
 }
 
@@ -111,14 +121,9 @@ pub(crate) fn quasi_static<const D: usize>(
 ) -> Result<QuasiStatic<D>, SubjectError> {
     let body = Body::of(plan, &plan.scene);
     let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
-    if plan.scene.plane == PlaneState::Axisymmetric {
-        particles.revolve();
-    }
     let effects = effects_of(&body, &grid, basis, &mut particles)?;
     let boundary = boundary(&plan.scene, &grid, basis);
-    let law = plan.scene.material.in_plane(plan.scene.plane);
-    let law = law.ok_or("a law not supported in its plane")?;
-    let material = body.initial.stressed(law, &mut particles)?;
+    let material = body.material(&mut particles)?;
     Ok(QuasiStatic::new(QuasiStaticSetup {
         grid,
         particles,
