@@ -78,6 +78,12 @@ impl CamClayLaw {
         law
     }
 
+    /// Returns the ratio `q/p` of the K0 line, on which compression without lateral strain keeps a
+    /// constant ratio.
+    pub fn k0_ratio(&self) -> f64 {
+        self.poles[0][0]
+    }
+
     /// Returns `a` and `D`.
     fn weights(&self) -> [f64; 2] {
         [self.swelling / (3.0 * self.ratio), self.compression - self.swelling]
