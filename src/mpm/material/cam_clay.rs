@@ -146,19 +146,19 @@ impl CamClay {
                     consolidation[lane % BATCH] = clay.consolidation;
                 }
                 let (mut stresses, mut inside) = (MatrixBatch::ZERO, [false; BATCH]);
-                let (growth_per_swelling, stiffness) =
+                let (exponent_per_strain, stiffness) =
                     (-3.0 / self.swelling, -self.ratio / self.swelling);
                 let shear_share = 1.5 / square(self.slope);
                 for lane in 0..BATCH {
                     let (mut deviator, mut shear) = (turned.get::<3>(lane), strains.get::<3>(lane));
                     let mean = (deviator[(0, 0)] + deviator[(1, 1)] + deviator[(2, 2)]) / 3.0;
-                    let swelling = (shear[(0, 0)] + shear[(1, 1)] + shear[(2, 2)]) / 3.0;
-                    let t = swelling * growth_per_swelling;
+                    let mean_strain = (shear[(0, 0)] + shear[(1, 1)] + shear[(2, 2)]) / 3.0;
+                    let t = mean_strain * exponent_per_strain;
                     let growth = small_mean_growth(t);
                     let modulus = stiffness * mean * growth;
                     for i in 0..3 {
                         deviator[(i, i)] -= mean;
-                        shear[(i, i)] -= swelling;
+                        shear[(i, i)] -= mean_strain;
                     }
                     for (tau, e) in deviator.iter_mut().zip(&shear) {
                         *tau += 2.0 * modulus * e;
