@@ -79,6 +79,20 @@ pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
     a * b.transpose()
 }
 
+/// Extends a tensor to three dimensions, with the component `beyond` along each missing axis.
+pub(in crate::mpm) fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
+    Matrix::from_fn(|i, k| match (i < D && k < D, i == k) {
+        (true, _) => m[(i, k)],
+        (false, true) => beyond,
+        (false, false) => 0.0,
+    })
+}
+
+/// Returns the components of a 3-D tensor along the axes of a body in `D` dimensions.
+pub(in crate::mpm) fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
+    Matrix::from_fn(|i, k| m[(i, k)])
+}
+
 /// Returns `[f(0), f(1), ...]`; `nothing` is the initial value of each entry. The hot loop needs
 /// this function, because `std::array::from_fn` is not always inlined.
 #[inline(always)]

@@ -132,7 +132,8 @@ impl<const D: usize> Material<D> for Axisymmetric {
 
 #[cfg(test)]
 mod tests {
-    use super::super::specimen::{SLOW, Specimen, every, in_space, scattered};
+    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use crate::mpm::foundation::algebra::in_space;
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 

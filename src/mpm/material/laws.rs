@@ -5,7 +5,7 @@ use super::{
     COHESION, ClosedForms, EXPONENT, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH,
     YIELD,
 };
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, in_space};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 
 /// The material added by `docs/exercises/material.md`.
@@ -23,12 +23,6 @@ fn rotation<const D: usize>(angle: f64) -> Matrix<D> {
     };
     let turn = spin * libm::sin(angle) + spin * spin * (1.0 - libm::cos(angle));
     Matrix::identity() + turn.fixed_view::<D, D>(0, 0)
-}
-
-fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
-    let mut space = Matrix::<3>::from_diagonal_element(beyond);
-    space.fixed_view_mut::<D, D>(0, 0).copy_from(m);
-    space
 }
 
 /// Whether the law reads F. The stress of such a law is objective under any rotation in one step.

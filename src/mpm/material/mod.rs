@@ -34,7 +34,6 @@ pub use prestressed::Prestressed;
 use registry::materials;
 pub use stress_update::{StressBlock, StressUpdate};
 pub use tangent::StressResponse;
-pub(in crate::mpm) use tangent::{in_body, in_space};
 
 each_material!(materials);
 

@@ -116,8 +116,8 @@ impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::specimen::{SLOW, Specimen, every, in_space, scattered};
-    use crate::mpm::foundation::algebra::{Matrix, det};
+    use super::super::specimen::{SLOW, Specimen, every, scattered};
+    use crate::mpm::foundation::algebra::{Matrix, det, in_space};
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 

@@ -23,8 +23,8 @@ use super::spectral::{
 };
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, excess};
-use super::tangent::{StressResponse, in_space, isotropic_modulus};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
+use super::tangent::{StressResponse, isotropic_modulus};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_space, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory, Site};
@@ -336,7 +336,7 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
-            let f = in_space(f);
+            let f = in_space(f, 1.0);
             let strain = half_log(&spectral(&(f * before.inverse_metric * f.transpose())).0);
             self.surface.elasticity().energy(&strain)
         };
@@ -396,7 +396,8 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
                 let particles = def_grad.iter().zip(flowed).zip(sigma).enumerate();
                 for (lane, ((f, flowed), sigma)) in particles.filter(|(lane, _)| !inside[*lane]) {
                     let (strain, axes) = (strains.get(lane), axes.get(lane));
-                    let (stress, after) = self.kirchhoff(&in_space(f), *flowed, &strain, &axes);
+                    let (stress, after) =
+                        self.kirchhoff(&in_space(f, 1.0), *flowed, &strain, &axes);
                     *flowed = after;
                     *sigma = Matrix::from_fn(|i, k| stress[(i, k)] / j.get(lane));
                 }
@@ -419,7 +420,7 @@ fn trial<const D: usize>(
             for (lane, (f, Flowed { inverse_metric, .. })) in
                 def_grad.iter().zip(flowed).enumerate()
             {
-                let f = in_space(f);
+                let f = in_space(f, 1.0);
                 trial.set(lane, &product(&product(&f, inverse_metric), &f.transpose()));
             }
             let (squares, axes) = spectral_batch(trial);
@@ -455,8 +456,8 @@ mod tests {
     use super::super::j2::J2;
     use super::super::mohr_coulomb::MohrCoulomb;
     use super::super::specimen::{SLOW, scattered};
-    use super::super::tangent::in_body;
     use super::*;
+    use crate::mpm::foundation::algebra::in_body;
     use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
@@ -524,7 +525,7 @@ mod tests {
             let (sigma, inside) = law.elastic(&trial);
             assert!(inside[0] && trial.j.get(0) == det(&f));
             let tau = sigma.get::<D>(0) * det(&f);
-            let response = Material::<D>::response(&law, 0, &in_space(&f)).unwrap();
+            let response = Material::<D>::response(&law, 0, &in_space(&f, 1.0)).unwrap();
             let expected = in_body::<D>(&response.kirchhoff);
             assert_relative_eq!(tau, expected, epsilon = 1e-12 * expected.norm());
         }

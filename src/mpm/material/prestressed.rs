@@ -9,7 +9,7 @@
 use super::contract::Material;
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
-use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::algebra::{Matrix, in_body, in_space};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
@@ -32,9 +32,9 @@ impl<const D: usize> Prestressed<D> {
         particles: &mut Particles<D>,
     ) -> Result<Self, Failure> {
         let keeps = !law.start_stressed(stress)? && law.reads_deformation();
-        let in_body = stress.iter().map(|s0| Matrix::from_fn(|i, j| s0[(i, j)])).collect();
-        particles.sigma.clone_from(&in_body);
-        Ok(Self { law, stress: if keeps { in_body } else { Vec::new() } })
+        let stress = stress.iter().map(in_body).collect();
+        particles.sigma.clone_from(&stress);
+        Ok(Self { law, stress: if keeps { stress } else { Vec::new() } })
     }
 
     fn add(&self, particles: &mut Particles<D>) {
@@ -91,11 +91,7 @@ impl<const D: usize> Material<D> for Prestressed<D> {
     fn response(&self, p: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let response = self.law.response(p, f)?;
         Some(match self.stress.get(p) {
-            Some(s0) => {
-                let mut initial = Matrix::<3>::zeros();
-                initial.fixed_view_mut::<D, D>(0, 0).copy_from(s0);
-                response.with_initial(f * initial * f.transpose())
-            }
+            Some(s0) => response.with_initial(f * in_space(s0, 0.0) * f.transpose()),
             None => response,
         })
     }
@@ -133,8 +129,7 @@ mod tests {
         let body = |plan: MaterialPlan, law: Box<dyn Material<D>>| {
             let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
             let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
-            let mut stress = Matrix::<3>::zeros();
-            stress.fixed_view_mut::<D, D>(0, 0).copy_from(&initial::<D>());
+            let stress = in_space(&initial::<D>(), 0.0);
             let law = Prestressed::new(law, &[stress], &mut body).unwrap();
             if law.keeps_stretch_across() {
                 body.across = vec![1.0];

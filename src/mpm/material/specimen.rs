@@ -143,13 +143,6 @@ pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
     m
 }
 
-/// Returns a plane tensor with the out-of-plane component `across`.
-pub(super) fn in_space(m: &Matrix<2>, across: f64) -> Matrix<3> {
-    let mut space = Matrix::<3>::from_diagonal_element(across);
-    space.fixed_view_mut::<2, 2>(0, 0).copy_from(m);
-    space
-}
-
 /// Returns Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
 pub(super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
     let young = 9.0 * bulk * mu / (3.0 * bulk + mu);

@@ -89,16 +89,6 @@ impl StressResponse {
     }
 }
 
-/// Extends F to three dimensions, with unit stretch along the missing axes.
-pub(in crate::mpm) fn in_space<const D: usize>(f: &Matrix<D>) -> Matrix<3> {
-    Matrix::from_fn(|i, k| if i < D && k < D { f[(i, k)] } else { f64::from(u8::from(i == k)) })
-}
-
-/// Returns the components of a 3-D tensor along the axes of a body in `D` dimensions.
-pub(in crate::mpm) fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
-    Matrix::from_fn(|i, k| m[(i, k)])
-}
-
 /// Returns the matrix `spherical 1 (x) 1 + 2 mu I` of moduli (Pa). In linear elasticity,
 /// `spherical` is the first Lamé parameter.
 pub(super) fn isotropic_modulus(spherical: f64, mu: f64) -> Matrix<3> {
@@ -110,7 +100,7 @@ mod tests {
     use super::super::specimen::{SLOW, Specimen, every, scattered};
     use super::super::{Material, MaterialPlan};
     use super::*;
-    use crate::mpm::foundation::algebra::det;
+    use crate::mpm::foundation::algebra::{det, in_space};
     use approx::assert_relative_eq;
 
     fn has_tangent(plan: &MaterialPlan) -> bool {
@@ -150,7 +140,7 @@ mod tests {
             // principal values.
             let f = identity * 0.97 + scattered::<D>(size, seed);
             let before = identity + scattered::<D>(0.5 * size, seed + 0.7);
-            let error = difference(plan, &before, &in_space(&f));
+            let error = difference(plan, &before, &in_space(&f, 1.0));
             assert!(error <= 1e-7, "{} in {D}-D, size {size}: {error:.1e}", plan.name());
         }
     }

@@ -26,11 +26,11 @@
 
 use super::banded::BandedSystem;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_body, in_space};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::mpm::material::{Material, StressResponse, in_body, in_space};
+use crate::mpm::material::{Material, StressResponse};
 use crate::subject::{Failure, Site};
 use std::array;
 
@@ -159,9 +159,7 @@ impl<const D: usize> StepEquations<D> {
             stretch += dyad(&increment[function.node], &function.gradient);
             hoop += increment[function.node][0] * function.hoop;
         }
-        let mut stretch = in_space(&stretch);
-        stretch[(2, 2)] += hoop;
-        stretch
+        in_space(&stretch, 1.0 + hoop)
     }
 
     /// Returns the norm of a nodal field over the unknowns.
@@ -219,7 +217,7 @@ impl<const D: usize> StepEquations<D> {
         let (mut responses, mut push) = (Vec::new(), Vec::new());
         for (p, (f, vol0)) in particles.def_grad.iter().zip(&particles.vol0).enumerate() {
             let (stretch, site) = (self.stretch(p, &increment), Site::Particle(p));
-            let f = total(f, particles.across.get(p));
+            let f = in_space(f, particles.across.get(p).copied().unwrap_or(1.0));
             // A particle beyond the axis has a negative hoop stretch. The determinant is positive
             // if such a particle is also inverted in the plane.
             let is_beyond = D == 2 && stretch[(2, 2)] <= 0.0;
@@ -316,15 +314,6 @@ impl<const D: usize> StepEquations<D> {
         };
         (0..self.ends.len()).map(width).max().unwrap_or(0)
     }
-}
-
-/// Returns F in 3-D. `across` is F_33 of a body of revolution.
-fn total<const D: usize>(f: &Matrix<D>, across: Option<&f64>) -> Matrix<3> {
-    let mut f = in_space(f);
-    if let Some(across) = across {
-        f[(2, 2)] = *across;
-    }
-    f
 }
 
 pub(super) const NO_TANGENT: &str = "the law has no consistent tangent";
