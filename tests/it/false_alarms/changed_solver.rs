@@ -48,7 +48,7 @@ impl SolverFactory for ChangedSolver {
 /// contain affine fields, whose initial values are not zero.
 fn is_known(method: Method) -> bool {
     let Method::Mpm { transfer, .. } = method else { return false };
-    let without_affine = [TransferName::Flip, TransferName::Pic];
+    let without_affine = [TransferName::Flip, TransferName::Flip99, TransferName::Pic];
     without_affine.into_iter().any(|name| transfer == name.into())
 }
 

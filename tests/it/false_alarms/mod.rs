@@ -7,9 +7,16 @@ mod known;
 
 use change::{CHANGES, Change, gcd};
 use changed_solver::ChangedSolver;
+use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::mpm::{
+    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
+};
 use mpm_verify::study::{Runner, lacking};
-use mpm_verify::suite::{ConvergencePlan, Extent, Suite, embedded};
+use mpm_verify::subject::{Precision, Start, Subject, SubjectError};
+use mpm_verify::suite::{ConvergencePlan, Extent, Method, Suite, embedded};
+use mpm_verify::testing::{ExaminationReport, ExaminationResult, doctor, page};
 use mpm_verify::verify::CaseOutcome;
+use rstest::rstest;
 use std::sync::Arc;
 
 fn suite(name: &str) -> Suite {
@@ -74,6 +81,81 @@ fn irrelevant_changes_do_not_affect_a_shear_wave() {
         }
     }
     assert_eq!(made, CHANGES.len() - 2);
+}
+
+/// The built-in solver, for problems of one dimension.
+struct BuiltIn {
+    solver: ChangedSolver,
+    dimension: usize,
+}
+
+impl SolverFactory for BuiltIn {
+    fn name(&self) -> &'static str {
+        "built-in"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        let mut lacks = self.solver.lacks(needs);
+        if needs.dimension != self.dimension {
+            lacks.push(format!("dimension: {}", needs.dimension));
+        }
+        lacks
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        self.solver.subject(problem)
+    }
+}
+
+fn built_in(
+    dimension: usize,
+    basis: BasisName,
+    transfer: TransferName,
+    frame: FrameName,
+) -> BuiltIn {
+    let method = Method::Mpm {
+        basis,
+        transfer: TransferChoice::Named(transfer),
+        scheme: SchemeName::Usl,
+        start: Start::AtZero,
+        mass: MassName::Lumped,
+        frame,
+        volume: VolumeName::Particle,
+        precision: Precision::Double,
+    };
+    BuiltIn { solver: ChangedSolver { method, change: CHANGES[0] }, dimension }
+}
+
+#[rstest]
+#[case::exact_motion(2, BasisName::Linear, TransferName::Flip, FrameName::Total)]
+#[case::quadratic(2, BasisName::QuadraticBSpline, TransferName::Flip, FrameName::Updated)]
+#[case::slightly_averaged_motion(2, BasisName::Linear, TransferName::Flip99, FrameName::Updated)]
+#[case::three_dimensions(3, BasisName::Linear, TransferName::Flip, FrameName::Updated)]
+fn doctor_finds_no_defect_in_the_built_in_solver(
+    #[case] dimension: usize,
+    #[case] basis: BasisName,
+    #[case] transfer: TransferName,
+    #[case] frame: FrameName,
+) {
+    let report = doctor(&built_in(dimension, basis, transfer, frame), &|_| ());
+    assert_eq!(report.defects(), 0, "{}", page(&report));
+    let is_examined =
+        |made: &ExaminationReport| matches!(made.result, ExaminationResult::Examined { .. });
+    assert!(report.examinations.iter().all(is_examined), "{}", page(&report));
+}
+
+/// The motion of a solver that averages velocities is not a path of the examination.
+#[test]
+fn doctor_does_not_examine_the_clay_of_an_averaging_solver() {
+    let pic = built_in(2, BasisName::Linear, TransferName::Pic, FrameName::Updated);
+    let report = doctor(&pic, &|_| ());
+    assert_eq!(report.defects(), 0, "{}", page(&report));
+    let clay = report.examinations.iter().find(|made| made.examination == "clay");
+    let Some(ExaminationReport { result: ExaminationResult::NotApplicable { lacks }, .. }) = clay
+    else {
+        panic!("{}", page(&report))
+    };
+    assert!(lacks.contains("velocity gradient that stays constant"), "{lacks}");
 }
 
 /// Runs the first case of every suite for which a change is possible, and prints a line for each
