@@ -2,8 +2,6 @@
 
 use super::args::ReportArgs;
 use super::printing::labelled;
-use super::progress::RunProgress;
-use crate::cli::output;
 use crate::cli::output::CommandError;
 use mpm_verify::report::{self, page};
 use mpm_verify::study::describe::sketch::sketch_svg;
@@ -14,6 +12,7 @@ use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::{fs, io};
 
 /// Creates the folder of `--out` before the run, so an invalid path fails early.
@@ -100,6 +99,8 @@ pub(super) struct Series {
     folder: PathBuf,
     /// Whether all cases are written, or only those with unexpected results.
     all: bool,
+    /// First file that could not be written. No further cases are written then.
+    failure: Mutex<Option<CommandError>>,
 }
 
 impl Series {
@@ -107,33 +108,39 @@ impl Series {
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
-        Ok(Self { folder, all })
+        Ok(Self { folder, all, failure: Mutex::new(None) })
     }
 
-    pub(super) fn write(
-        &self,
-        runner: &Runner<'_>,
-        outcome: &SuiteOutcome,
-        bar: &RunProgress,
-    ) -> Result<(), CommandError> {
+    pub(super) fn write(&self, runner: &Runner<'_>, outcome: &SuiteOutcome, say: &dyn Fn(String)) {
         let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
         for case in outcome.cases.iter().filter(is_shown) {
+            if self.with_failure(|failure| failure.is_some()) {
+                return;
+            }
             let mut last = self.folder.clone();
             let result = runner.time_series(case, &mut |file| {
                 last = self.folder.join(&file.path);
                 save(&last, file)
             });
             let name = format!("{}::{}", outcome.suite, case.case);
-            let note = match result {
-                Ok(()) => format!("note: {name}: {}", last.display()),
+            match result {
+                Ok(()) => say(format!("note: {name}: {}", last.display())),
                 Err(SeriesError::Write { path, error }) => {
-                    return Err(unwritable("--vtu", &self.folder.join(path), &error));
+                    let error = unwritable("--vtu", &self.folder.join(path), &error);
+                    self.with_failure(|failure| _ = failure.get_or_insert(error));
                 }
-                Err(reason) => format!("note: {name}: no output: {reason}"),
-            };
-            bar.suspend(|| output::complain(&note));
+                Err(reason) => say(format!("note: {name}: no output: {reason}")),
+            }
         }
-        Ok(())
+    }
+
+    /// Returns the first failure, if any.
+    pub(super) fn failure(&self) -> Option<CommandError> {
+        self.with_failure(Option::take)
+    }
+
+    fn with_failure<T>(&self, of: impl FnOnce(&mut Option<CommandError>) -> T) -> T {
+        of(&mut self.failure.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 

@@ -5,6 +5,7 @@ mod files;
 mod gate;
 mod printing;
 mod progress;
+mod queue;
 
 use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
@@ -19,6 +20,7 @@ use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use progress::RunProgress;
+use queue::{Job, Said, in_order};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -75,7 +77,11 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     Ok((runs, Judging { kept, solvers, repeat, series, at_interrupt }))
 }
 
-/// Runs suites one after the other, with the cases of a suite in parallel. Reports of finished
+/// Number of suites that may wait for their cases at the same time, per thread. With several, a
+/// thread that finishes its part of one suite starts another suite.
+const WAITING: usize = 4;
+
+/// Runs cases in parallel, and prints the reports in the order of the suites. Reports of finished
 /// suites are printed even if a later file is invalid.
 fn report(
     args: &ReportArgs,
@@ -114,15 +120,22 @@ fn report(
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
     }
-    let mut shown = Ok(());
     // Outcomes for each solver, in the order of `judging.solvers`, for the check of its gate.
     let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
     let mut outcomes: Vec<SuiteOutcome> = Vec::new();
-    for suite in &runs {
+    let run = |job: &mut Job<'_, _>| {
+        let parts = runs[job.number()].parts().iter();
+        parts.map(|part| (part.solver, one(part, args, &judging, &bar, job))).collect()
+    };
+    let threads = WAITING * rayon::current_num_threads();
+    in_order(runs.len(), threads, run, |said: Said<Vec<(Option<usize>, SuiteOutcome)>>| {
+        let parts = match said {
+            Said::Message(text) => return bar.suspend(|| output::complain(&text)),
+            Said::Result(parts) => parts,
+        };
         let mut joined: Option<SuiteOutcome> = None;
-        for part in suite.parts() {
-            let outcome = one(part, args, &judging, &bar, &mut shown);
-            if let Some(number) = part.solver {
+        for (solver, outcome) in parts {
+            if let Some(number) = solver {
                 of_solvers[number].push(outcome.clone());
             }
             SuiteOutcome::join(&mut joined, outcome);
@@ -131,7 +144,8 @@ fn report(
             bar.suspend(|| printing.of_suite(&outcome));
             outcomes.push(outcome);
         }
-    }
+    });
+    let series = judging.series.as_ref().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written =
@@ -139,7 +153,7 @@ fn report(
     let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
     let junit = |file| files::write_junit(file, &outcomes, &judging.required());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
-    let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(shown);
+    let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(series);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
@@ -228,44 +242,44 @@ impl Judging {
     }
 }
 
-/// Runs a suite. `shown` receives the first failure to write a time series.
-fn one(
+/// Runs a suite by its methods or by one solver.
+fn one<T>(
     part: &SuitePart,
     args: &ReportArgs,
     judging: &Judging,
     bar: &RunProgress,
-    shown: &mut Result<(), CommandError>,
+    job: &mut Job<'_, T>,
 ) -> SuiteOutcome {
     let suite = &part.suite;
-    bar.start(suite, extent(args));
+    let progress = bar.start(suite, extent(args));
     let runner =
         Runner::over(suite, extent(args)).keeping(judging.kept.as_ref()).repeating(judging.repeat);
     let runner = match part.solver {
         Some(number) => runner.judging(&judging.solvers[number].program),
         None => runner,
     };
-    let warn = |warning: &StepWarning| {
-        bar.suspend(|| output::complain(&format!("warning: {}", warning.text)));
-    };
+    let text = |warning: &StepWarning| format!("warning: {}", warning.text);
     // A suite may use too long time steps deliberately, so these warnings are printed only for
     // cases that fail.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {
-        warn(warning);
+        job.say(text(warning));
     }
-    let outcome = runner.run(&|| bar.inc());
+    job.let_next_start();
+    let outcome = runner.run(&|| progress.inc());
     for warning in later.iter().filter(|warning| !outcome.cases[warning.case].passed()) {
-        warn(warning);
+        job.say(text(warning));
     }
-    if let (Some(series), Ok(())) = (&judging.series, &shown) {
-        *shown = series.write(&runner, &outcome, bar);
+    if let Some(series) = &judging.series {
+        series.write(&runner, &outcome, &|note| job.say(note));
     }
     if suite.explores() && part.solver.is_none() && !args.print.quiet {
         let name = &suite.name;
-        let note = "has no expectations, so it is not a gate; `mpm-verify propose` writes \
-                    expectations";
-        bar.suspend(|| output::complain(&format!("note: {name} {note}")));
+        job.say(format!(
+            "note: {name} has no expectations, so it is not a gate; `mpm-verify propose` writes \
+             expectations"
+        ));
     }
     outcome
 }

@@ -21,13 +21,19 @@ pub(super) struct RunProgress {
 }
 
 struct ProgressState {
+    /// Name of the suite that was started last.
     suite: String,
-    /// Predicted times (s) of the remaining levels of the current suite, in decreasing order.
-    units: Vec<f64>,
     /// Predicted time (s) of the finished levels.
     done: f64,
     all: f64,
     start: Instant,
+}
+
+/// Counts the finished levels of one suite.
+pub(super) struct SuiteProgress<'a> {
+    of_run: &'a RunProgress,
+    /// Predicted times (s) of the remaining levels, in decreasing order.
+    units: Mutex<Vec<f64>>,
 }
 
 impl RunProgress {
@@ -45,26 +51,18 @@ impl RunProgress {
             bar.set_style(style);
         }
         let all = suites.flat_map(|suite| unit_seconds(suite, extent)).sum();
-        let (suite, units) = (String::new(), Vec::new());
-        let state = ProgressState { suite, units, done: 0.0, all, start: Instant::now() };
+        let state = ProgressState { suite: String::new(), done: 0.0, all, start: Instant::now() };
         Self { bar, state: Mutex::new(state) }
     }
 
-    pub(super) fn start(&self, suite: &Suite, extent: Extent) {
-        let mut state = self.state();
-        state.done += state.units.iter().sum::<f64>();
-        suite.name.clone_into(&mut state.suite);
+    pub(super) fn start(&self, suite: &Suite, extent: Extent) -> SuiteProgress<'_> {
         // Cases run in parallel from coarse to fine, so the cheapest levels finish first.
-        state.units = unit_seconds(suite, extent);
-        state.units.sort_by(|a, b| b.total_cmp(a));
-        self.bar.set_message(state.message());
-    }
-
-    pub(super) fn inc(&self) {
+        let mut units = unit_seconds(suite, extent);
+        units.sort_by(|a, b| b.total_cmp(a));
         let mut state = self.state();
-        state.done += state.units.pop().unwrap_or_default();
+        suite.name.clone_into(&mut state.suite);
         self.bar.set_message(state.message());
-        self.bar.inc(1);
+        SuiteProgress { of_run: self, units: Mutex::new(units) }
     }
 
     pub(super) fn suspend(&self, print: impl FnOnce()) {
@@ -86,8 +84,30 @@ impl RunProgress {
     }
 
     fn state(&self) -> MutexGuard<'_, ProgressState> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.state)
     }
+}
+
+impl SuiteProgress<'_> {
+    pub(super) fn inc(&self) {
+        let seconds = locked(&self.units).pop().unwrap_or_default();
+        let mut state = self.of_run.state();
+        state.done += seconds;
+        self.of_run.bar.set_message(state.message());
+        self.of_run.bar.inc(1);
+    }
+}
+
+/// Levels that were not counted, for instance after a failure, count as finished.
+impl Drop for SuiteProgress<'_> {
+    fn drop(&mut self) {
+        let rest: f64 = locked(&self.units).iter().sum();
+        self.of_run.state().done += rest;
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl ProgressState {

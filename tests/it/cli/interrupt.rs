@@ -11,7 +11,7 @@ const INTERRUPTED: i32 = 130;
 #[test]
 fn interrupted_run_prints_how_to_resume() {
     let folder = Folder::with("first.yaml", BAR.replace("short-bar", "first"));
-    let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-8");
+    let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-9");
     folder.write("long.yaml", long);
     for (more, words) in [
         (
@@ -23,7 +23,7 @@ fn interrupted_run_prints_how_to_resume() {
         let mut command = folder.command(&[&["run", "first.yaml", "long.yaml"], more].concat());
         let mut child =
             command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a program");
-        // The first suite has been printed, so the second one is running.
+        // When the first suite has been printed, the second one is running.
         let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
         lines.read_line(&mut String::new()).expect("a first line");
         let id = child.id().to_string();

@@ -1,0 +1,152 @@
+//! Runs jobs on several threads, and passes their messages and results on in the order of the jobs.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::mpsc::{self, Sender};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+/// What a job passes on.
+pub(super) enum Said<T> {
+    Message(String),
+    Result(T),
+}
+
+/// A running job.
+pub(super) struct Job<'a, T> {
+    number: usize,
+    send: Sender<(usize, Said<T>)>,
+    jobs: Option<MutexGuard<'a, Range<usize>>>,
+}
+
+impl<T> Job<'_, T> {
+    pub(super) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Lets the next job start, which happens at the end of this job otherwise. A job that calls
+    /// this when it begins its parallel work is served before later jobs.
+    pub(super) fn let_next_start(&mut self) {
+        self.jobs = None;
+    }
+
+    /// Passes on a message.
+    pub(super) fn say(&self, text: String) {
+        // If the receiver is gone, the calling thread has panicked.
+        let _ = self.send.send((self.number, Said::Message(text)));
+    }
+}
+
+/// Runs `count` jobs on `threads` threads. `take` is called on the calling thread, first with all
+/// messages and the result of job 0, then with those of job 1, and so on. Messages of the first
+/// unfinished job arrive immediately.
+pub(super) fn in_order<T: Send>(
+    count: usize,
+    threads: usize,
+    run: impl Fn(&mut Job<'_, T>) -> T + Sync,
+    mut take: impl FnMut(Said<T>),
+) {
+    let jobs: Mutex<Range<usize>> = Mutex::new(0..count);
+    let next = || {
+        let mut jobs = jobs.lock().unwrap_or_else(PoisonError::into_inner);
+        Some((jobs.next()?, jobs))
+    };
+    let (send, received) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..threads.min(count) {
+            let send = send.clone();
+            let (next, run) = (&next, &run);
+            scope.spawn(move || {
+                while let Some((number, jobs)) = next() {
+                    let mut job = Job { number, send: send.clone(), jobs: Some(jobs) };
+                    let result = run(&mut job);
+                    let _ = send.send((number, Said::Result(result)));
+                }
+            });
+        }
+        drop(send);
+        let (mut current, mut later) = (0, BTreeMap::<usize, Vec<Said<T>>>::new());
+        for (job, said) in received {
+            later.entry(job).or_default().push(said);
+            while let Some(all) = later.remove(&current) {
+                let is_finished = matches!(all.last(), Some(Said::Result(_)));
+                all.into_iter().for_each(&mut take);
+                if !is_finished {
+                    break;
+                }
+                current += 1;
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+
+    fn said(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
+        let mut text = String::new();
+        let run = |job: &mut Job<'_, String>| {
+            let number = job.number();
+            job.say(format!("m{number} "));
+            job.let_next_start();
+            run(number);
+            job.say(format!("n{number} "));
+            format!("r{number} ")
+        };
+        in_order(count, threads, run, |said| match said {
+            Said::Message(said) | Said::Result(said) => text += &said,
+        });
+        text
+    }
+
+    #[rstest]
+    fn messages_and_results_are_in_order(#[values(1, 2, 7)] threads: usize) {
+        assert_eq!(said(3, threads, |_| ()), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
+        assert_eq!(said(0, threads, |_| ()), "");
+    }
+
+    /// Job 0 ends after job 1, because it waits for job 2.
+    #[test]
+    fn a_job_that_ends_early_waits_for_its_turn() {
+        let barrier = Barrier::new(2);
+        let run = |number| {
+            if number != 1 {
+                barrier.wait();
+            }
+        };
+        assert_eq!(said(3, 2, run), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
+    }
+
+    #[test]
+    fn a_message_of_the_first_job_arrives_before_the_job_ends() {
+        let barrier = Barrier::new(2);
+        let run = |job: &mut Job<'_, ()>| {
+            job.say(String::new());
+            barrier.wait();
+        };
+        in_order(1, 1, run, |said| {
+            if let Said::Message(_) = said {
+                barrier.wait();
+            }
+        });
+    }
+
+    #[test]
+    fn a_job_starts_when_the_job_before_it_allows() {
+        let is_allowed = AtomicBool::new(false);
+        let run = |job: &mut Job<'_, ()>| match job.number() {
+            0 => {
+                thread::sleep(Duration::from_millis(20));
+                is_allowed.store(true, Ordering::SeqCst);
+                job.let_next_start();
+            }
+            _ => assert!(is_allowed.load(Ordering::SeqCst)),
+        };
+        in_order(2, 2, run, |_| ());
+    }
+}
