@@ -13,8 +13,9 @@ use mpm_verify::mpm::{
 };
 use mpm_verify::study::{Runner, lacking};
 use mpm_verify::subject::{Precision, Start, Subject, SubjectError};
+use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Extent, Method, Suite, embedded};
-use mpm_verify::testing::{ExaminationReport, ExaminationResult, doctor, page};
+use mpm_verify::testing::{ExaminationReport, ExaminationResult, FindingWeight, doctor, page};
 use mpm_verify::verify::CaseOutcome;
 use rstest::rstest;
 use std::sync::Arc;
@@ -107,22 +108,28 @@ impl SolverFactory for BuiltIn {
     }
 }
 
+const USL: Method = Method::Mpm {
+    basis: BasisName::Linear,
+    transfer: TransferChoice::Named(TransferName::Flip),
+    scheme: SchemeName::Usl,
+    start: Start::AtZero,
+    mass: MassName::Lumped,
+    frame: FrameName::Updated,
+    volume: VolumeName::Particle,
+    precision: Precision::Double,
+};
+
 fn built_in(
     dimension: usize,
-    basis: BasisName,
-    transfer: TransferName,
-    frame: FrameName,
+    basis_name: BasisName,
+    transfer_name: TransferName,
+    frame_name: FrameName,
 ) -> BuiltIn {
-    let method = Method::Mpm {
-        basis,
-        transfer: TransferChoice::Named(transfer),
-        scheme: SchemeName::Usl,
-        start: Start::AtZero,
-        mass: MassName::Lumped,
-        frame,
-        volume: VolumeName::Particle,
-        precision: Precision::Double,
-    };
+    let mut method = USL;
+    if let Method::Mpm { basis, transfer, frame, .. } = &mut method {
+        (*basis, *transfer, *frame) =
+            (basis_name, TransferChoice::Named(transfer_name), frame_name);
+    }
     BuiltIn { solver: ChangedSolver { method, change: CHANGES[0] }, dimension }
 }
 
@@ -206,6 +213,50 @@ fn what_must_not_matter_fails_no_gate() {
             }
         }
         report(change.name, found);
+    }
+    assert!(alarms.is_empty(), "{alarms:#?}");
+}
+
+/// Runs all examinations of the doctor on all methods whose initial state is known, and prints a
+/// line for each method with a defect. A consistent mass matrix is left out: at the rim of a body
+/// it is nearly singular, so rounding errors become as large as the velocities.
+#[test]
+#[ignore = "hundreds of methods: some minutes, optimised"]
+fn doctor_finds_no_defect_in_any_method() {
+    let only = std::env::var("FALSE_ALARMS").unwrap_or_default();
+    let text = "\
+suite: methods
+title: All methods
+source: none
+scene: {dimension: 2, body: {box: {from: [0, 0], to: [1, 1]}}, \
+        material: {neo_hookean: {young: 1, poisson: 0, density: 1}}}
+run: {until: 1, dt: 0.1}
+refine: {cells: 4, ppc: 4}
+methods:
+  - mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline],
+          transfer: [flip, flip_99, pic], scheme: [usl, usf, musl],
+          start: [at_zero, half_step_back]}
+  - mpm: {basis: [linear, ugimp, quadratic_bspline, cubic_bspline],
+          transfer: [flip, flip_99, pic], scheme: [usl, usf, musl],
+          start: [at_zero, half_step_back], frame: total_lagrangian}
+";
+    let source = Source::from_text("methods.yaml", text).expect("a text");
+    let suite = Suite::load(&source).expect("a sound suite");
+    let plan = suite.plan::<ConvergencePlan>().expect("a convergence study");
+    let mut alarms = Vec::new();
+    for (case, dimension) in plan.cases.iter().flat_map(|case| [1, 2, 3].map(|d| (case, d))) {
+        let name = format!("{dimension}-D {}", case.name);
+        if !name.contains(&only) {
+            continue;
+        }
+        let solver = ChangedSolver { method: case.method, change: CHANGES[0] };
+        let report = doctor(&BuiltIn { solver, dimension }, &|_| ());
+        let findings = report.findings().filter(|f| f.weight == FindingWeight::Defect);
+        let defects: Vec<_> = findings.map(|f| format!("{}: {}", f.name, f.seen)).collect();
+        if !defects.is_empty() {
+            println!("{name}: {}", defects.join("; "));
+            alarms.push(name);
+        }
     }
     assert!(alarms.is_empty(), "{alarms:#?}");
 }

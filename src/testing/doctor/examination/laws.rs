@@ -28,6 +28,9 @@ const GRADIENT: [[f64; 3]; 3] = [[0.25, 0.45, 0.1], [-0.15, -0.1, 0.2], [0.05, -
 /// Stretch rate (1/s) in [`volumes`].
 const STRETCHED: f64 = 0.5;
 
+/// Maximum error of the stretch in [`volumes`], relative to the imposed one.
+const FOLLOWS: f64 = 0.1;
+
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
@@ -91,13 +94,14 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         }
     }
     if findings.is_empty() {
-        let (ratio, finding) = volumes(patient, (first.dimension, first.law))?;
-        measured.push(format!(
-            "in a body that is stretched to 1.5 times its length, the force is {} of the expected \
-             force (accepted: 0.85 to 1.15)",
-            shown(ratio)
-        ));
-        findings.extend(finding);
+        if let Some((ratio, finding)) = volumes(patient, (first.dimension, first.law))? {
+            measured.push(format!(
+                "in a body that is stretched to 1.5 times its length, the force is {} of the \
+                 expected force (accepted: 0.85 to 1.15)",
+                shown(ratio)
+            ));
+            findings.extend(finding);
+        }
     }
     Ok(Examined::new(measured.join("; "), findings))
 }
@@ -114,15 +118,22 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
 }
 
 /// Compares the momentum flux in a body stretched to 1.5 times its length with the flux according
-/// to the law. The flux is wrong if forces contain reference volumes.
-fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFinding>), Hindrance> {
-    let cells = if kind.0 == 3 { 8.0 } else { 12.0 };
-    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
+/// to the law. The flux is wrong if forces contain reference volumes. Returns `None` if the solver
+/// averages velocities, so that the body is stretched less.
+fn volumes(
+    patient: &Patient<'_>,
+    kind: Kind,
+) -> Result<Option<(f64, Option<SolverFinding>)>, Hindrance> {
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 12.0, 5.0);
     scene.velocity = field(&scene, &|i, j| if (i, j) == (0, 0) { STRETCHED } else { 0.0 });
     // Waves travel one cell during the stretch.
     scene.young = scene.density * H * H;
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
+    let stretched = deformation_gradient(&courses[1], &scene)[0] - 1.0;
+    if !((stretched - STRETCHED).abs() <= FOLLOWS * STRETCHED) {
+        return Ok(None);
+    }
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
     // The first Piola-Kirchhoff stress along the stretch, integrated by Simpson's rule. Because J =
@@ -149,12 +160,11 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<(f64, Option<SolverFindi
              Kirchhoff stress",
         )
     });
-    Ok((ratio, finding))
+    Ok(Some((ratio, finding)))
 }
 
 fn scene(kind: Kind) -> BoxScene {
-    let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
-    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
     scene.velocity = field(&scene, &|i, j| GRADIENT[i][j]);
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }

@@ -190,8 +190,7 @@ fn legs(patient: &Patient<'_>, kind: Kind) -> Result<Legs, Hindrance> {
 
 /// Creates a body whose displacement gradient grows to `gradient` in `steps` steps.
 pub(super) fn path(kind: Kind, gradient: &[[f64; 3]; 3], steps: u64) -> BoxScene {
-    let cells = if kind.0 == 3 { 4.0 } else { 6.0 };
-    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], cells, 5.0);
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
     let d = scene.dimension;
     let part = |i: usize, j: usize| if i < d && j < d { gradient[i][j] } else { 0.0 };
     let gradient = std::array::from_fn(|i| std::array::from_fn(|j| part(i, j)));

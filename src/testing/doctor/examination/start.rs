@@ -68,9 +68,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 fn scene(kind: Kind) -> BoxScene {
-    let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
     // At this position, no particle of the sheared lattice is close to a cell face.
-    let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
+    let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], 12.0, 7.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
     if kind.0 == 1 {
         field.gradient[0][0] = STRETCH;

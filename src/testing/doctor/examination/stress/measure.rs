@@ -40,10 +40,9 @@ pub(super) struct MeasuredModuli {
 }
 
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
-    let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
     // With a cell of 0.15 m and these particle numbers, each kind of defect changes the moduli by a
     // different factor.
-    let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], cells, 3.0);
+    let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
