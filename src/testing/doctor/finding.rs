@@ -114,6 +114,9 @@ impl ExaminationResult {
     }
 }
 
+/// Name of the finding on solvers that ignore nodes with little mass.
+pub(super) const LIGHT_NODES: &str = "light-nodes-left-out";
+
 /// Advice on the code to check in solvers that ignore nodes with little mass.
 pub(super) const MASS_THRESHOLD: &str = "the threshold on nodal mass below which nodes get no \
                                          velocity: this threshold must be zero, or far below the \

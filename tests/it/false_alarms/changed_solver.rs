@@ -21,9 +21,6 @@ impl SolverFactory for ChangedSolver {
     }
 
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
-        if !is_known(self.method) {
-            return vec!["the method".to_owned()];
-        }
         let conditions = ["free", "fixed", "roller", "periodic"];
         let mut able = Capabilities {
             columns: ["stress", "deformation_gradient"].map(str::to_owned).to_vec(),
@@ -46,7 +43,7 @@ impl SolverFactory for ChangedSolver {
 
 /// Whether a problem for solvers contains the whole initial state of the method. It does not
 /// contain affine fields, whose initial values are not zero.
-fn is_known(method: Method) -> bool {
+pub(super) fn is_known(method: Method) -> bool {
     let Method::Mpm { transfer, .. } = method else { return false };
     let without_affine = [TransferName::Flip, TransferName::Flip99, TransferName::Pic];
     without_affine.into_iter().any(|name| transfer == name.into())

@@ -54,8 +54,9 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment M in the first step and per later step, in units of `d h2 M/I`. I is the
-/// moment of inertia divided by the mass.
+/// Losses of the moment M in the first step and per step from the third on, in units of `d h2 M/I`.
+/// I is the moment of inertia divided by the mass. Affine matrices that start at zero reach their
+/// values in the first two steps.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
@@ -192,7 +193,7 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     let unit = axes * volume * scene.h * scene.h / inertia;
     let last = course.last();
     let share = |from: usize, to: usize| (moment(from) - moment(to)) / moment(from) / unit;
-    Losses { first: share(0, 1), later: share(1, last) / (last - 1) as f64, unit }
+    Losses { first: share(0, 1), later: share(2, last) / (last - 2) as f64, unit }
 }
 
 /// Finds the cause of losses by comparing them with the averaging losses of each basis. `small`

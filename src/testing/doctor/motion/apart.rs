@@ -4,7 +4,7 @@ use super::as_one::UniformMotion;
 use crate::testing::doctor::course::{
     displacement, dot, minus, shown, shown_vector, size, times, velocity,
 };
-use crate::testing::doctor::finding::{MASS_THRESHOLD, SolverFinding};
+use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
 use std::f64::consts::SQRT_2;
 
@@ -211,7 +211,7 @@ fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
         return None;
     }
     Some(SolverFinding::defect(
-        "light-nodes-left-out",
+        LIGHT_NODES,
         format!(
             "in step {first}, points near the surface have displacement errors of up to {} of v \
              dt, and points more than {RIM} cells below the surface have none. The mean velocity \
