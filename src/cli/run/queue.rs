@@ -6,7 +6,7 @@ use std::sync::mpsc::{self, Sender};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// What a job passes on.
+/// A message or the result of a job.
 pub(super) enum Said<T> {
     Message(String),
     Result(T),

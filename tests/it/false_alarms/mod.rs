@@ -15,7 +15,9 @@ use mpm_verify::study::{Runner, lacking};
 use mpm_verify::subject::{Precision, Start, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{ConvergencePlan, Extent, Method, Suite, embedded};
-use mpm_verify::testing::{ExaminationReport, ExaminationResult, FindingWeight, doctor, page};
+use mpm_verify::testing::{
+    ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor, page,
+};
 use mpm_verify::verify::CaseOutcome;
 use rstest::rstest;
 use std::sync::Arc;
@@ -220,9 +222,12 @@ fn what_must_not_matter_fails_no_gate() {
     assert!(alarms.is_empty(), "{alarms:#?}");
 }
 
-/// Methods that are unstable in one of the examinations.
-const UNSTABLE: [&str; 3] = [
+/// Methods with a known finding: three runs fail in `start`, and XPIC with USF has other forces at
+/// walls.
+const KNOWN: [&str; 5] = [
     "2-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
+    "3-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
+    "3-D mpm-linear-tpic-usl-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
 ];
@@ -264,11 +269,17 @@ methods:
         }
         let solver = ChangedSolver { method: case.method, change: CHANGES[0] };
         let report = doctor(&BuiltIn { solver, dimension }, &|_| ());
-        let findings = report.findings().filter(|f| f.weight == FindingWeight::Defect);
-        let defects: Vec<_> = findings.map(|f| format!("{}: {}", f.name, f.seen)).collect();
+        let mut defects = Vec::new();
+        for made in &report.examinations {
+            let all = made.result.findings().iter();
+            for finding in all.filter(|finding| finding.weight == FindingWeight::Defect) {
+                let SolverFinding { name, seen, .. } = finding;
+                defects.push(format!("{}: {name}: {seen}", made.examination));
+            }
+        }
         if !defects.is_empty() {
             println!("{name}: {}", defects.join("; "));
-            if !UNSTABLE.contains(&name.as_str()) {
+            if !KNOWN.contains(&name.as_str()) {
                 alarms.push(name);
             }
         }

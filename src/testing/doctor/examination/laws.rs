@@ -93,15 +93,15 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             findings.push(finding);
         }
     }
-    if findings.is_empty() {
-        if let Some((ratio, finding)) = volumes(patient, (first.dimension, first.law))? {
-            measured.push(format!(
-                "in a body that is stretched to 1.5 times its length, the force is {} of the \
-                 expected force (accepted: 0.85 to 1.15)",
-                shown(ratio)
-            ));
-            findings.extend(finding);
-        }
+    if findings.is_empty()
+        && let Some((ratio, finding)) = volumes(patient, (first.dimension, first.law))?
+    {
+        measured.push(format!(
+            "in a body that is stretched to 1.5 times its length, the force is {} of the expected \
+             force (accepted: 0.85 to 1.15)",
+            shown(ratio)
+        ));
+        findings.extend(finding);
     }
     Ok(Examined::new(measured.join("; "), findings))
 }
