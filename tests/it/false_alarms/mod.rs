@@ -224,12 +224,14 @@ fn what_must_not_matter_fails_no_gate() {
 
 /// Methods with a known finding: three runs fail in `start`, and XPIC with USF has other forces at
 /// walls.
-const KNOWN: [&str; 5] = [
+const KNOWN: [&str; 7] = [
     "2-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
     "3-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
     "3-D mpm-linear-tpic-usl-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
+    "3-D mpm-cubic-bspline-xpic-2-usf-at-zero",
+    "3-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
 ];
 
 /// Runs all examinations of the doctor on many methods, and prints a line for each method with a
