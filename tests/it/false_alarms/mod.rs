@@ -222,16 +222,18 @@ fn what_must_not_matter_fails_no_gate() {
     assert!(alarms.is_empty(), "{alarms:#?}");
 }
 
-/// Methods with a known finding: three runs fail in `start`, and XPIC with USF has other forces at
-/// walls.
-const KNOWN: [&str; 7] = [
+/// Methods with a known finding: a run with linear functions fails in `start`, XPIC with USF has
+/// other forces at walls, and PIC with cubic B-splines averages the force of `start` in 3-D.
+const KNOWN: [&str; 9] = [
     "2-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
-    "3-D mpm-linear-apic-musl-at-zero-updated-lagrangian",
-    "3-D mpm-linear-tpic-usl-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
-    "3-D mpm-cubic-bspline-xpic-2-usf-at-zero",
-    "3-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
+    "3-D mpm-cubic-bspline-pic-usl-at-zero-updated-lagrangian",
+    "3-D mpm-cubic-bspline-pic-usl-half-step-back-updated-lagrangian",
+    "3-D mpm-cubic-bspline-pic-usf-at-zero-updated-lagrangian",
+    "3-D mpm-cubic-bspline-pic-usf-half-step-back-updated-lagrangian",
+    "3-D mpm-cubic-bspline-pic-musl-at-zero-updated-lagrangian",
+    "3-D mpm-cubic-bspline-pic-musl-half-step-back-updated-lagrangian",
 ];
 
 /// Runs all examinations of the doctor on many methods, and prints a line for each method with a
@@ -266,7 +268,8 @@ methods:
     let mut alarms = Vec::new();
     for (case, dimension) in plan.cases.iter().flat_map(|case| [1, 2, 3].map(|d| (case, d))) {
         let name = format!("{dimension}-D {}", case.name);
-        if !name.contains(&only) {
+        // In 3-D, transfers with matrices are left out to limit the time.
+        if !name.contains(&only) || dimension == 3 && !is_known(case.method) {
             continue;
         }
         let solver = ChangedSolver { method: case.method, change: CHANGES[0] };

@@ -68,10 +68,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 fn scene(kind: Kind) -> BoxScene {
-    // At this position, no particle of the sheared lattice is close to a cell face, and no face of
-    // the body is on nodes, where domains of GIMP would reach the next nodes with a tiny weight.
-    let from = [0.75 + 0.125 * H, 0.25 + 0.625 * H, 0.5 + 0.625 * H];
-    let mut scene = BoxScene::of_cells(kind, from, 12.0, 7.0);
+    let cells = if kind.0 == 3 { 10.0 } else { 12.0 };
+    // At this position, no particle of the sheared lattice is close to a cell face.
+    let mut scene = BoxScene::of_cells(kind, [0.75 + 0.125 * H, 0.25, 0.5], cells, 7.0);
     let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
     if kind.0 == 1 {
         field.gradient[0][0] = STRETCH;
