@@ -12,7 +12,7 @@ use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::OnceLock;
 use std::{fs, io};
 
 /// Creates the folder of `--out` before the run, so an invalid path fails early.
@@ -100,7 +100,7 @@ pub(super) struct Series {
     /// Whether all cases are written, or only those with unexpected results.
     all: bool,
     /// First file that could not be written. No further cases are written then.
-    failure: Mutex<Option<CommandError>>,
+    failure: OnceLock<CommandError>,
 }
 
 impl Series {
@@ -108,13 +108,13 @@ impl Series {
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
-        Ok(Self { folder, all, failure: Mutex::new(None) })
+        Ok(Self { folder, all, failure: OnceLock::new() })
     }
 
     pub(super) fn write(&self, runner: &Runner<'_>, outcome: &SuiteOutcome, say: &dyn Fn(String)) {
         let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
         for case in outcome.cases.iter().filter(is_shown) {
-            if self.with_failure(|failure| failure.is_some()) {
+            if self.failure.get().is_some() {
                 return;
             }
             let mut last = self.folder.clone();
@@ -127,7 +127,7 @@ impl Series {
                 Ok(()) => say(format!("note: {name}: {}", last.display())),
                 Err(SeriesError::Write { path, error }) => {
                     let error = unwritable("--vtu", &self.folder.join(path), &error);
-                    self.with_failure(|failure| _ = failure.get_or_insert(error));
+                    self.failure.get_or_init(|| error);
                 }
                 Err(reason) => say(format!("note: {name}: no output: {reason}")),
             }
@@ -135,12 +135,8 @@ impl Series {
     }
 
     /// Returns the first failure, if any.
-    pub(super) fn failure(&self) -> Option<CommandError> {
-        self.with_failure(Option::take)
-    }
-
-    fn with_failure<T>(&self, of: impl FnOnce(&mut Option<CommandError>) -> T) -> T {
-        of(&mut self.failure.lock().unwrap_or_else(PoisonError::into_inner))
+    pub(super) fn failure(self) -> Option<CommandError> {
+        self.failure.into_inner()
     }
 }
 

@@ -20,7 +20,7 @@ use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use printing::Printing;
 use progress::RunProgress;
-use queue::{Job, Said, in_order};
+use queue::{Job, JobOutput, in_order};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -96,7 +96,7 @@ fn report(
     let (sources, suites): (Vec<Source>, Vec<Suite>) =
         suites.into_iter().filter_map(Result::ok).unzip();
     let names: Vec<String> = suites.iter().map(|suite| suite.name.clone()).collect();
-    let (runs, judging) = choose(suites)?;
+    let (runs, mut judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
     // Sources of suites without a selected case are removed. The remaining sources keep the order
@@ -128,10 +128,10 @@ fn report(
         parts.map(|part| (part.solver, one(part, args, &judging, &bar, job))).collect()
     };
     let threads = WAITING * rayon::current_num_threads();
-    in_order(runs.len(), threads, run, |said: Said<Vec<(Option<usize>, SuiteOutcome)>>| {
-        let parts = match said {
-            Said::Message(text) => return bar.suspend(|| output::complain(&text)),
-            Said::Result(parts) => parts,
+    in_order(runs.len(), threads, run, |sent: JobOutput<Vec<(Option<usize>, SuiteOutcome)>>| {
+        let parts = match sent {
+            JobOutput::Message(text) => return bar.suspend(|| output::complain(&text)),
+            JobOutput::Result(parts) => parts,
         };
         let mut joined: Option<SuiteOutcome> = None;
         for (solver, outcome) in parts {
@@ -145,7 +145,7 @@ fn report(
             outcomes.push(outcome);
         }
     });
-    let series = judging.series.as_ref().and_then(Series::failure).map_or(Ok(()), Err);
+    let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written =

@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 /// A message or the result of a job.
-pub(super) enum Said<T> {
+pub(super) enum JobOutput<T> {
     Message(String),
     Result(T),
 }
@@ -15,7 +15,7 @@ pub(super) enum Said<T> {
 /// A running job.
 pub(super) struct Job<'a, T> {
     number: usize,
-    send: Sender<(usize, Said<T>)>,
+    send: Sender<(usize, JobOutput<T>)>,
     jobs: Option<MutexGuard<'a, Range<usize>>>,
 }
 
@@ -33,7 +33,7 @@ impl<T> Job<'_, T> {
     /// Passes on a message.
     pub(super) fn say(&self, text: String) {
         // If the receiver is gone, the calling thread has panicked.
-        let _ = self.send.send((self.number, Said::Message(text)));
+        let _ = self.send.send((self.number, JobOutput::Message(text)));
     }
 }
 
@@ -44,7 +44,7 @@ pub(super) fn in_order<T: Send>(
     count: usize,
     threads: usize,
     run: impl Fn(&mut Job<'_, T>) -> T + Sync,
-    mut take: impl FnMut(Said<T>),
+    mut take: impl FnMut(JobOutput<T>),
 ) {
     let jobs: Mutex<Range<usize>> = Mutex::new(0..count);
     let next = || {
@@ -60,16 +60,16 @@ pub(super) fn in_order<T: Send>(
                 while let Some((number, jobs)) = next() {
                     let mut job = Job { number, send: send.clone(), jobs: Some(jobs) };
                     let result = run(&mut job);
-                    let _ = send.send((number, Said::Result(result)));
+                    let _ = send.send((number, JobOutput::Result(result)));
                 }
             });
         }
         drop(send);
-        let (mut current, mut later) = (0, BTreeMap::<usize, Vec<Said<T>>>::new());
-        for (job, said) in received {
-            later.entry(job).or_default().push(said);
+        let (mut current, mut later) = (0, BTreeMap::<usize, Vec<JobOutput<T>>>::new());
+        for (job, output) in received {
+            later.entry(job).or_default().push(output);
             while let Some(all) = later.remove(&current) {
-                let is_finished = matches!(all.last(), Some(Said::Result(_)));
+                let is_finished = matches!(all.last(), Some(JobOutput::Result(_)));
                 all.into_iter().for_each(&mut take);
                 if !is_finished {
                     break;
@@ -88,7 +88,7 @@ mod tests {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Duration;
 
-    fn said(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
+    fn outputs(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
         let mut text = String::new();
         let run = |job: &mut Job<'_, String>| {
             let number = job.number();
@@ -98,16 +98,16 @@ mod tests {
             job.say(format!("n{number} "));
             format!("r{number} ")
         };
-        in_order(count, threads, run, |said| match said {
-            Said::Message(said) | Said::Result(said) => text += &said,
+        in_order(count, threads, run, |output| match output {
+            JobOutput::Message(output) | JobOutput::Result(output) => text += &output,
         });
         text
     }
 
     #[rstest]
     fn messages_and_results_are_in_order(#[values(1, 2, 7)] threads: usize) {
-        assert_eq!(said(3, threads, |_| ()), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
-        assert_eq!(said(0, threads, |_| ()), "");
+        assert_eq!(outputs(3, threads, |_| ()), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
+        assert_eq!(outputs(0, threads, |_| ()), "");
     }
 
     /// Job 0 ends after job 1, because it waits for job 2.
@@ -119,7 +119,7 @@ mod tests {
                 barrier.wait();
             }
         };
-        assert_eq!(said(3, 2, run), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
+        assert_eq!(outputs(3, 2, run), "m0 n0 r0 m1 n1 r1 m2 n2 r2 ");
     }
 
     #[test]
@@ -129,8 +129,8 @@ mod tests {
             job.say(String::new());
             barrier.wait();
         };
-        in_order(1, 1, run, |said| {
-            if let Said::Message(_) = said {
+        in_order(1, 1, run, |output| {
+            if let JobOutput::Message(_) = output {
                 barrier.wait();
             }
         });
