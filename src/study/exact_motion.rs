@@ -14,7 +14,7 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
     const GOLDEN: usize = 8;
     let places = raster(problem, PER_AXIS);
-    let mut motion = problem.motion.at_places(places.iter().map(Vec::as_slice));
+    let mut motion = problem.motion.slopes_at_places(places.iter().map(Vec::as_slice));
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
