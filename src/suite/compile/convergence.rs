@@ -37,11 +37,11 @@ type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
 const CROSS_CHECKS: [CrossCheck; 9] = [
     |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
-    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan, suite.survey.as_ref()),
     |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
     |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
-    |suite| refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
     |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
+    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan, suite.survey.as_ref()),
+    |suite| refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
     |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
     |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
 ];

@@ -13,7 +13,7 @@ use crate::mpm::{
 use crate::suite::compile::expect::expectations;
 use crate::suite::compile::truth::{is_truthless, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec, RunSpec};
+use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
@@ -92,12 +92,14 @@ pub(crate) fn cases(
     until: &[(String, f64)],
 ) -> Result<Vec<Case>, Diagnostic> {
     let truths = truths(plan);
+    // Default law of an FEM case. Materials without an FEM law are refused later.
+    let law = law_of_bar(&plan.scene.material).unwrap_or_default();
     let mut found = Vec::new();
     for (i, method) in spec.methods.iter().enumerate() {
         let path = Path::top("methods").then(i);
         possible(evaluator, &path, method, plan)?;
         few(evaluator, &path, found.len() * until.len() * truths.len(), method, until.len())?;
-        let more = methods(evaluator, i, method, own_law(plan))?;
+        let more = methods(evaluator, i, method, law)?;
         more.iter().try_for_each(|draft| combined(evaluator, &path, draft.method, plan))?;
         found.extend(more);
     }
@@ -291,10 +293,4 @@ fn stretched(plan: &ConvergencePlan) -> bool {
         (scene.period(face.axis) - length).abs() > 1e-12 * length
     };
     scene.faces.iter().any(|face| face.hold.is_periodic() && apart(face))
-}
-
-/// Returns the default law of an FEM case, which is the law of the material. Materials without an
-/// FEM law have already been refused.
-fn own_law(plan: &ConvergencePlan) -> EquationName {
-    law_of_bar(&plan.scene.material).unwrap_or_default()
 }

@@ -5,7 +5,6 @@ use super::outline::BodyShape;
 use super::outline::polygon::faces_are_sides;
 use super::{density, material, outline, sets};
 use crate::exact::Density;
-use crate::mpm::MaterialPlan;
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::SceneSpec;
@@ -24,6 +23,7 @@ pub(crate) fn body(
 ) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
     let dimension = dimension(evaluator, &path, &spec.dimension)?;
+    let plane = plane(evaluator, &path, spec, dimension)?;
     let at = own.at.then("body");
     let (mut outline, mut mapped) = (None, None);
     let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
@@ -49,9 +49,8 @@ pub(crate) fn body(
     let sets = sets::declared(evaluator, &path, spec, &from, &to, outline.as_deref())?;
     let at = own.at.then("material");
     let material = material::material(evaluator, &at, own.material)?;
+    material::refuse_plane(evaluator, &at, &material, plane)?;
     let uniform = density::uniform(evaluator, own)?;
-    let plane = plane(evaluator, &path, spec, dimension)?;
-    knows(evaluator, &at, &material, plane)?;
     let mut scene = Scene {
         from,
         to,
@@ -59,6 +58,7 @@ pub(crate) fn body(
         plane,
         initial_stress: material::stress(evaluator, own, dimension, &material)?,
         initial_displacement: material::displacement(evaluator, own, dimension, &material)?,
+        initial_velocity: material::velocity(evaluator, own, dimension)?,
         material,
         density: uniform.clone().unwrap_or(Density::from(f64::NAN)),
         faces: if is_free && spec.bodies.is_none() {
@@ -70,7 +70,6 @@ pub(crate) fn body(
         mapped,
         sets,
         loads: Vec::new(),
-        initial_velocity: material::velocity(evaluator, own, dimension)?,
         bodies: Vec::new(),
         contact: None,
     };
@@ -221,22 +220,6 @@ fn plane(
         }
     }
     Ok(plane)
-}
-
-/// Refuses the material at `path` if its law is not implemented for the plane state.
-fn knows(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    material: &MaterialPlan,
-    plane: PlaneState,
-) -> Result<(), Diagnostic> {
-    if material.in_plane::<2>(plane).is_some() {
-        return Ok(());
-    }
-    let name = material.name();
-    let message = format!("the law `{name}` is not supported in plane stress, where sigma_33 = 0");
-    let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
-    Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
 /// Refuses a body that cannot be revolved about the axis where the first coordinate is zero.

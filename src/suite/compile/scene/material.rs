@@ -4,6 +4,7 @@ use super::bodies::Listed;
 use crate::exact::InitialStress;
 use crate::exact::formula::Formula;
 use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Matrix, Range};
+use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
 use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
@@ -61,6 +62,22 @@ fn number_in_range(
     }
     let message = format!("{what} is {}{reason}", shown(value));
     Err(evaluator.unusable(path, text, &message, expected))
+}
+
+/// Refuses the material at `path` if its law is not implemented for the plane state.
+pub(crate) fn refuse_plane(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    material: &MaterialPlan,
+    plane: PlaneState,
+) -> Result<(), Diagnostic> {
+    if material.in_plane::<2>(plane).is_some() {
+        return Ok(());
+    }
+    let name = material.name();
+    let message = format!("the law `{name}` is not supported in plane stress, where sigma_33 = 0");
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
+    Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
 const COMPONENTS: [(&str, usize, usize); 6] =
