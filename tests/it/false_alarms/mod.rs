@@ -204,8 +204,13 @@ fn what_must_not_matter_fails_no_gate() {
     assert!(alarms.is_empty(), "{alarms:#?}");
 }
 
-/// Methods with a known finding: XPIC with USF has other forces at walls.
-const KNOWN: [&str; 4] = [
+/// Methods with a known finding: XPIC with USF has other forces at walls, and FMPM with linear
+/// functions exceeds the limit of 12 % for the force of `start` (errors of up to 14 %).
+const KNOWN: [&str; 8] = [
+    "1-D mpm-linear-fmpm-2-musl-at-zero",
+    "1-D mpm-linear-fmpm-2-usf-at-zero",
+    "1-D mpm-linear-fmpm-2-usl-at-zero",
+    "1-D mpm-linear-fmpm-2-usl-half-step-back",
     "2-D mpm-cubic-bspline-xpic-2-usf-at-zero",
     "2-D mpm-cubic-bspline-xpic-2-usf-half-step-back",
     "3-D mpm-cubic-bspline-xpic-2-usf-at-zero",
@@ -223,7 +228,7 @@ fn doctor_finds_no_defect_in_any_method() {
     let is_chosen = |name: &str| only.split(' ').all(|part| name.contains(part));
     let methods = "
   {mpm: {basis: [linear, ugimp, cpgimp, cpdi, quadratic_bspline, cubic_bspline],
-         transfer: [flip, flip_99, pic, apic, tpic, xpic_2], scheme: [usl, usf, musl],
+         transfer: [flip, flip_99, pic, apic, tpic, xpic_2, fmpm_2], scheme: [usl, usf, musl],
          start: [at_zero, half_step_back]}},
   {mpm: {basis: [quadratic_bspline, cubic_bspline], transfer: mls, scheme: [usl, usf, musl],
          start: [at_zero, half_step_back]}},
