@@ -1,31 +1,39 @@
 //! Ctrl-C during a run.
 
 use super::{BAR, Folder, assert_contains};
-use std::io::{BufRead, BufReader, Read};
+use crate::external::program::HELLO;
+use std::io::Read;
 use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 /// Exit status of a run that was ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-#[cfg(unix)]
 #[test]
 fn interrupted_run_prints_how_to_resume() {
-    let folder = Folder::with("first.yaml", BAR.replace("short-bar", "first"));
-    let long = BAR.replace("until: 0.05, dt: 1e-3", "until: 0.05, dt: 1e-9");
-    folder.write("long.yaml", long);
+    // The solver does not end its first step. Its file shows that the run has begun.
+    let script = format!(
+        "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
+         echo '{{\"type\":\"ready\"}}'\nread -r m\ntouch running\ncat > discarded\n"
+    );
     for (more, words) in [
         (
             &[][..],
             "interrupted, and no results are stored: with a folder for results, `mpm-verify run",
         ),
-        (&["--resume", "kept"], "long.yaml --resume kept` resumes the run"),
+        (&["--resume", "kept"], "--resume kept` resumes the run"),
     ] {
-        let mut command = folder.command(&[&["run", "first.yaml", "long.yaml"], more].concat());
+        let folder = Folder::with("bar.yaml", BAR);
+        let running = folder.write("solver.sh", &script).with_file_name("running");
+        let arguments = ["run", "bar.yaml", "--solver", "sh solver.sh"];
+        let mut command = folder.command(&[&arguments, more].concat());
         let mut child =
-            command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("a program");
-        // When the first suite has been printed, the second one is running.
-        let mut lines = BufReader::new(child.stdout.take().expect("a pipe"));
-        lines.read_line(&mut String::new()).expect("a first line");
+            command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("a program");
+        while !running.exists() {
+            assert_eq!(child.try_wait().expect("a state"), None);
+            sleep(Duration::from_millis(5));
+        }
         let id = child.id().to_string();
         assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
         let mut errors = String::new();

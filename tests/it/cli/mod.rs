@@ -9,6 +9,7 @@ mod explain;
 mod explore;
 mod exports;
 mod hostile;
+#[cfg(unix)]
 mod interrupt;
 mod json;
 mod new;

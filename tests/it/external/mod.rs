@@ -10,7 +10,7 @@ mod library;
 #[cfg(unix)]
 mod misbehaving;
 #[cfg(unix)]
-mod program;
+pub(crate) mod program;
 mod repeat;
 #[cfg(unix)]
 mod several;
