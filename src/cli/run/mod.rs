@@ -14,7 +14,7 @@ use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
-use mpm_verify::study::{ResultCache, Runner, StepWarning};
+use mpm_verify::study::{ResultCache, Runner, StepWarning, unit_seconds};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::SuiteOutcome;
@@ -81,6 +81,11 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
 /// thread that finishes its part of one suite starts another suite.
 const WAITING: usize = 4;
 
+/// Predicted time (s) on one thread from which a suite starts only after all earlier suites have
+/// ended. A thread that waits for a level of an earlier suite works on later suites, which delays
+/// the report of the earlier suite.
+const LONG: f64 = 10.0;
+
 /// Runs cases in parallel, and prints the reports in the order of the suites. Reports of finished
 /// suites are printed even if a later file is invalid.
 fn report(
@@ -127,8 +132,14 @@ fn report(
         let parts = runs[job.number()].parts().iter();
         parts.map(|part| (part.solver, one(part, args, &judging, &bar, job))).collect()
     };
+    // The speed of an external solver is unknown.
+    let is_long = |number: usize| {
+        let seconds = |suite| unit_seconds(suite, extent(args)).iter().sum::<f64>();
+        let mut parts = runs[number].parts().iter();
+        parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
+    };
     let threads = WAITING * rayon::current_num_threads();
-    in_order(runs.len(), threads, run, |sent: JobOutput<Vec<(Option<usize>, SuiteOutcome)>>| {
+    let take = |sent: JobOutput<Vec<(Option<usize>, SuiteOutcome)>>| {
         let parts = match sent {
             JobOutput::Message(text) => return bar.suspend(|| output::complain(&text)),
             JobOutput::Result(parts) => parts,
@@ -144,7 +155,8 @@ fn report(
             bar.suspend(|| printing.of_suite(&outcome));
             outcomes.push(outcome);
         }
-    });
+    };
+    in_order(runs.len(), threads, is_long, run, take);
     let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &sources, &outcomes);

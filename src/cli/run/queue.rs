@@ -1,9 +1,8 @@
 //! Runs jobs on several threads, and passes their messages and results on in the order of the jobs.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::sync::mpsc::{self, Sender};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 /// A message or the result of a job.
@@ -16,7 +15,48 @@ pub(super) enum JobOutput<T> {
 pub(super) struct Job<'a, T> {
     number: usize,
     send: Sender<(usize, JobOutput<T>)>,
-    jobs: Option<MutexGuard<'a, Range<usize>>>,
+    queue: &'a Queue,
+    blocks_next: bool,
+}
+
+/// The jobs that have not started, and the number of those that run.
+#[derive(Default)]
+struct Queue {
+    state: Mutex<QueueState>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct QueueState {
+    next: usize,
+    running: usize,
+    /// Whether the last started job blocks the start of the next one.
+    is_blocked: bool,
+}
+
+impl Queue {
+    fn state(&self) -> MutexGuard<'_, QueueState> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn wait_while(&self, condition: impl Fn(&QueueState) -> bool) -> MutexGuard<'_, QueueState> {
+        let guard = self.changed.wait_while(self.state(), |state| condition(state));
+        guard.unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until the next of `count` jobs may start, and returns its number.
+    fn start(&self, count: usize, waits: impl Fn(usize) -> bool) -> Option<usize> {
+        let mut state = self.wait_while(|state| {
+            let is_early = state.running > 0 && state.next < count && waits(state.next);
+            state.is_blocked || is_early
+        });
+        let number = state.next;
+        if number >= count {
+            return None;
+        }
+        *state = QueueState { next: number + 1, running: state.running + 1, is_blocked: true };
+        Some(number)
+    }
 }
 
 impl<T> Job<'_, T> {
@@ -27,7 +67,10 @@ impl<T> Job<'_, T> {
     /// Lets the next job start, which happens at the end of this job otherwise. A job that calls
     /// this when it begins its parallel work is served before later jobs.
     pub(super) fn let_next_start(&mut self) {
-        self.jobs = None;
+        if std::mem::take(&mut self.blocks_next) {
+            self.queue.state().is_blocked = false;
+            self.queue.changed.notify_all();
+        }
     }
 
     /// Passes on a message.
@@ -37,28 +80,34 @@ impl<T> Job<'_, T> {
     }
 }
 
-/// Runs `count` jobs on `threads` threads. `take` is called on the calling thread, first with all
-/// messages and the result of job 0, then with those of job 1, and so on. Messages of the first
-/// unfinished job arrive immediately.
+impl<T> Drop for Job<'_, T> {
+    fn drop(&mut self) {
+        self.let_next_start();
+        self.queue.state().running -= 1;
+        self.queue.changed.notify_all();
+    }
+}
+
+/// Runs `count` jobs on `threads` threads. A job for which `waits` is true starts only after all
+/// earlier jobs have ended. `take` is called on the calling thread, first with all messages and the
+/// result of job 0, then with those of job 1, and so on. Messages of the first unfinished job
+/// arrive immediately.
 pub(super) fn in_order<T: Send>(
     count: usize,
     threads: usize,
+    waits: impl Fn(usize) -> bool + Sync,
     run: impl Fn(&mut Job<'_, T>) -> T + Sync,
     mut take: impl FnMut(JobOutput<T>),
 ) {
-    let jobs: Mutex<Range<usize>> = Mutex::new(0..count);
-    let next = || {
-        let mut jobs = jobs.lock().unwrap_or_else(PoisonError::into_inner);
-        Some((jobs.next()?, jobs))
-    };
+    let queue = Queue::default();
     let (send, received) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..threads.min(count) {
             let send = send.clone();
-            let (next, run) = (&next, &run);
+            let (queue, waits, run) = (&queue, &waits, &run);
             scope.spawn(move || {
-                while let Some((number, jobs)) = next() {
-                    let mut job = Job { number, send: send.clone(), jobs: Some(jobs) };
+                while let Some(number) = queue.start(count, waits) {
+                    let mut job = Job { number, send: send.clone(), queue, blocks_next: true };
                     let result = run(&mut job);
                     let _ = send.send((number, JobOutput::Result(result)));
                 }
@@ -85,7 +134,7 @@ mod tests {
     use super::*;
     use rstest::rstest;
     use std::sync::Barrier;
-    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
     use std::time::Duration;
 
     fn outputs(count: usize, threads: usize, run: impl Fn(usize) + Sync) -> String {
@@ -98,9 +147,15 @@ mod tests {
             job.say(format!("n{number} "));
             format!("r{number} ")
         };
-        in_order(count, threads, run, |output| match output {
-            JobOutput::Message(output) | JobOutput::Result(output) => text += &output,
-        });
+        in_order(
+            count,
+            threads,
+            |_| false,
+            run,
+            |output| match output {
+                JobOutput::Message(output) | JobOutput::Result(output) => text += &output,
+            },
+        );
         text
     }
 
@@ -129,11 +184,17 @@ mod tests {
             job.say(String::new());
             barrier.wait();
         };
-        in_order(1, 1, run, |output| {
-            if let JobOutput::Message(_) = output {
-                barrier.wait();
-            }
-        });
+        in_order(
+            1,
+            1,
+            |_| false,
+            run,
+            |output| {
+                if let JobOutput::Message(_) = output {
+                    barrier.wait();
+                }
+            },
+        );
     }
 
     #[test]
@@ -147,6 +208,21 @@ mod tests {
             }
             _ => assert!(is_allowed.load(Ordering::SeqCst)),
         };
-        in_order(2, 2, run, |_| ());
+        in_order(2, 2, |_| false, run, |_| ());
+    }
+
+    #[test]
+    fn a_waiting_job_starts_after_all_earlier_jobs_have_ended() {
+        let ended = AtomicUsize::new(0);
+        let run = |job: &mut Job<'_, ()>| {
+            job.let_next_start();
+            if job.number() == 2 {
+                assert_eq!(ended.load(Ordering::SeqCst), 2);
+            }
+            thread::sleep(Duration::from_millis(20));
+            ended.fetch_add(1, Ordering::SeqCst);
+        };
+        in_order(4, 4, |number| number == 2, run, |_| ());
+        assert_eq!(ended.load(Ordering::SeqCst), 4);
     }
 }
