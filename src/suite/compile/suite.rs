@@ -2,15 +2,36 @@
 
 use super::convergence::convergence_plan;
 use super::{gradient, internal_force, scene, spectrum, stability};
-use crate::suite::evaluator::{DeclaredParameter, Evaluator};
-use crate::suite::grammar::{
-    ConvergenceSpec, GradientSpec, InternalForceSpec, SpectrumSpec, StabilitySpec, SuiteSpec,
-};
-use crate::suite::model::StudyPlan;
+use crate::suite::evaluator::Evaluator;
+use crate::suite::grammar::{ConvergenceSpec, SuiteSpec};
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
 use std::sync::Arc;
+
+/// Creates a suite from its keys and the study that an expression compiles. Group and fingerprint
+/// are set by [`Suite::load`] only: changed copies of a study have none.
+macro_rules! compiled {
+    ($source:ident, $spec:ident, |$evaluator:ident| $plan:expr) => {{
+        let (evaluator, parameters) = Evaluator::new($source, &$spec.parameters, &$spec.functions)?;
+        refuse_unusable_name(&evaluator, &$spec.suite)?;
+        let $evaluator = &evaluator;
+        let plan = $plan?;
+        evaluator.refuse_unused(&$spec.parameters, &$spec.functions)?;
+        let (functions, study) = ($spec.functions.as_slice().to_vec(), Arc::new(plan));
+        Suite {
+            name: $spec.suite,
+            group: String::new(),
+            title: $spec.title,
+            source: $spec.source,
+            about: $spec.about,
+            parameters,
+            functions,
+            study,
+            fingerprint: 0,
+        }
+    }};
+}
 
 impl Suite {
     /// Parses and checks a suite, without running a solver.
@@ -19,14 +40,22 @@ impl Suite {
     /// A [`Diagnostic`] with the position of the first error.
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
-            SuiteSpec::Convergence(spec) => convergence(source, *spec),
-            SuiteSpec::InternalForce(spec) => internal_force(source, *spec),
-            SuiteSpec::Stability(spec) => stability(source, *spec),
-            SuiteSpec::Gradient(spec) => gradient(source, *spec),
-            SuiteSpec::Spectrum(spec) => spectrum(source, *spec),
+            SuiteSpec::Convergence(spec) => convergence(source, *spec)?,
+            SuiteSpec::InternalForce(spec) => {
+                compiled!(source, spec, |evaluator| internal_force::plan(evaluator, &spec))
+            }
+            SuiteSpec::Stability(spec) => {
+                compiled!(source, spec, |evaluator| stability::plan(evaluator, source, &spec))
+            }
+            SuiteSpec::Gradient(spec) => {
+                compiled!(source, spec, |evaluator| gradient::plan(evaluator, source, &spec))
+            }
+            SuiteSpec::Spectrum(spec) => {
+                compiled!(source, spec, |evaluator| spectrum::plan(evaluator, &spec))
+            }
         };
         let fingerprint = fingerprint(source.text().as_bytes());
-        Ok(Self { group: source.group(), fingerprint, ..suite? })
+        Ok(Self { group: source.group(), fingerprint, ..suite })
     }
 
     /// Compiles the scene of the convergence study in `source`, without exact solution. Tests that
@@ -77,59 +106,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    refuse_unusable_name(&evaluator, &spec.suite)?;
-    let plan = convergence_plan(&evaluator, &spec)?;
-    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
-    let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn internal_force(source: &Source, spec: InternalForceSpec) -> Result<Suite, Diagnostic> {
-    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    refuse_unusable_name(&evaluator, &spec.suite)?;
-    let plan = internal_force::plan(&evaluator, &spec)?;
-    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
-    let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn gradient(source: &Source, spec: GradientSpec) -> Result<Suite, Diagnostic> {
-    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    refuse_unusable_name(&evaluator, &spec.suite)?;
-    let plan = gradient::plan(&evaluator, source, &spec)?;
-    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
-    let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn spectrum(source: &Source, spec: SpectrumSpec) -> Result<Suite, Diagnostic> {
-    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    refuse_unusable_name(&evaluator, &spec.suite)?;
-    let plan = spectrum::plan(&evaluator, &spec)?;
-    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
-    let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn stability(source: &Source, spec: StabilitySpec) -> Result<Suite, Diagnostic> {
-    let (evaluator, parameters) = Evaluator::new(source, &spec.parameters, &spec.functions)?;
-    refuse_unusable_name(&evaluator, &spec.suite)?;
-    let plan = stability::plan(&evaluator, source, &spec)?;
-    evaluator.refuse_unused(&spec.parameters, &spec.functions)?;
-    let head = [spec.suite, spec.title, spec.source, spec.about];
-    Ok(assemble(head, parameters, &spec.functions, plan))
-}
-
-fn assemble(
-    [name, title, source, about]: [String; 4],
-    parameters: Vec<DeclaredParameter>,
-    functions: &Ordered<String>,
-    plan: impl StudyPlan,
-) -> Suite {
-    let (functions, study) = (functions.as_slice().to_vec(), Arc::new(plan));
-    let group = String::new();
-    Suite { name, group, title, source, about, parameters, functions, study, fingerprint: 0 }
+    Ok(compiled!(source, spec, |evaluator| convergence_plan(evaluator, &spec)))
 }
 
 /// Refuses a suite name that cannot be used in names of tests and files.
