@@ -133,11 +133,12 @@ fn report(
         parts.map(|part| (part.solver, one(part, args, &judging, &bar, job))).collect()
     };
     // The speed of an external solver is unknown.
-    let is_long = |number: usize| {
+    let is_long = |runs: &SuiteRuns| {
         let seconds = |suite| unit_seconds(suite, extent(args)).iter().sum::<f64>();
-        let mut parts = runs[number].parts().iter();
+        let mut parts = runs.parts().iter();
         parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
     };
+    let are_long: Vec<bool> = runs.iter().map(is_long).collect();
     let threads = WAITING * rayon::current_num_threads();
     let take = |sent: JobOutput<Vec<(Option<usize>, SuiteOutcome)>>| {
         let parts = match sent {
@@ -156,7 +157,7 @@ fn report(
             outcomes.push(outcome);
         }
     };
-    in_order(runs.len(), threads, is_long, run, take);
+    in_order(runs.len(), threads, |number| are_long[number], run, take);
     let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
