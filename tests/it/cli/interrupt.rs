@@ -1,7 +1,7 @@
 //! Ctrl-C during a run.
 
 use super::{BAR, Folder, assert_contains};
-use crate::external::program::HELLO;
+use crate::external::misbehaving::script;
 use std::io::Read;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
@@ -13,16 +13,16 @@ const INTERRUPTED: i32 = 130;
 #[test]
 fn interrupted_run_prints_how_to_resume() {
     // The solver does not end its first step. Its file shows that the run has begun.
-    let script = format!(
-        "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
-         echo '{{\"type\":\"ready\"}}'\nread -r m\ntouch running\ncat > discarded\n"
-    );
+    let script = script("touch running\ncat > discarded");
     for (more, words) in [
         (
             &[][..],
             "interrupted, and no results are stored: with a folder for results, `mpm-verify run",
         ),
-        (&["--resume", "kept"], "--resume kept` resumes the run"),
+        (
+            &["--resume", "kept"],
+            "run bar.yaml --solver 'sh solver.sh' --resume kept` resumes the run",
+        ),
     ] {
         let folder = Folder::with("bar.yaml", BAR);
         let running = folder.write("solver.sh", &script).with_file_name("running");

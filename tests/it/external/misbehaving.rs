@@ -7,7 +7,7 @@ use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
 use rstest::rstest;
 
 /// Creates a script that is correct until it receives `advance`, and then runs `then`.
-fn script(then: &str) -> String {
+pub(crate) fn script(then: &str) -> String {
     format!(
         "read -r m; echo '{HELLO}'\nread -r m || exit 0\ncase \"$m\" in *bye*) exit 0;; esac\n\
          echo '{{\"type\":\"ready\"}}'\nread -r m\n{then}\n"

@@ -8,9 +8,9 @@ mod gate;
 mod gradient;
 mod library;
 #[cfg(unix)]
-mod misbehaving;
+pub(crate) mod misbehaving;
 #[cfg(unix)]
-pub(crate) mod program;
+mod program;
 mod repeat;
 #[cfg(unix)]
 mod several;
