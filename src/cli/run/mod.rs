@@ -81,9 +81,9 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
 /// thread that finishes its part of one suite starts another suite.
 const WAITING: usize = 4;
 
-/// Predicted time (s) on one thread from which a suite starts only after all earlier suites have
-/// ended. A thread that waits for a level of an earlier suite works on later suites, which delays
-/// the report of the earlier suite.
+/// Minimum predicted time (s) on one thread of a long suite, which starts only after all earlier
+/// suites have ended. A thread that waits for a level of an earlier suite works on later suites,
+/// and would delay the report of the earlier suite.
 const LONG: f64 = 10.0;
 
 /// Runs cases in parallel, and prints the reports in the order of the suites. Reports of finished

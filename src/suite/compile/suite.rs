@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Creates a suite from its keys and the study that an expression compiles. Group and fingerprint
 /// are set by [`Suite::load`] only: changed copies of a study have none.
-macro_rules! compiled {
+macro_rules! compile_suite {
     ($source:ident, $spec:ident, |$evaluator:ident| $plan:expr) => {{
         let (evaluator, parameters) = Evaluator::new($source, &$spec.parameters, &$spec.functions)?;
         refuse_unusable_name(&evaluator, &$spec.suite)?;
@@ -42,16 +42,16 @@ impl Suite {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec)?,
             SuiteSpec::InternalForce(spec) => {
-                compiled!(source, spec, |evaluator| internal_force::plan(evaluator, &spec))
+                compile_suite!(source, spec, |evaluator| internal_force::plan(evaluator, &spec))
             }
             SuiteSpec::Stability(spec) => {
-                compiled!(source, spec, |evaluator| stability::plan(evaluator, source, &spec))
+                compile_suite!(source, spec, |evaluator| stability::plan(evaluator, source, &spec))
             }
             SuiteSpec::Gradient(spec) => {
-                compiled!(source, spec, |evaluator| gradient::plan(evaluator, source, &spec))
+                compile_suite!(source, spec, |evaluator| gradient::plan(evaluator, source, &spec))
             }
             SuiteSpec::Spectrum(spec) => {
-                compiled!(source, spec, |evaluator| spectrum::plan(evaluator, &spec))
+                compile_suite!(source, spec, |evaluator| spectrum::plan(evaluator, &spec))
             }
         };
         let fingerprint = fingerprint(source.text().as_bytes());
@@ -106,7 +106,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    Ok(compiled!(source, spec, |evaluator| convergence_plan(evaluator, &spec)))
+    Ok(compile_suite!(source, spec, |evaluator| convergence_plan(evaluator, &spec)))
 }
 
 /// Refuses a suite name that cannot be used in names of tests and files.

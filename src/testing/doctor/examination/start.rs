@@ -39,6 +39,7 @@ struct BodyPlacement {
     stretched: [f64; 3],
     /// Number of cells along an axis, by dimension.
     cells: [f64; 3],
+    /// Number of time steps.
     steps: u64,
 }
 
