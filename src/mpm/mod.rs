@@ -46,7 +46,7 @@ pub use analysis::wave_symbols::{Spline, WaveSymbols};
 pub use basis::*;
 pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
 pub use effect::*;
-pub use foundation::algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad};
+pub use foundation::algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad, inverse};
 pub use foundation::grid::Grid;
 pub use foundation::moments::{Moments, WeightMoments};
 pub use foundation::particles::{Block, FrameName, Particles};

@@ -29,7 +29,7 @@
 //! (J. Comput. Phys. 103); for APIC Jiang, Schroeder & Teran 2017 (J. Comput. Phys. 338).
 
 use crate::mpm::basis::BasisName;
-use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::algebra::{self, Matrix, Vector, dyad};
 use crate::mpm::kernel::contract::Affine;
 use crate::mpm::scheme::Stage;
 use crate::mpm::step::schedule::Pass;
@@ -153,7 +153,7 @@ impl<const D: usize> Weights<D> {
 /// Inverts the second moments. The inverse is zero along an axis on which the moment is zero.
 fn inverse<const D: usize>(second: &Matrix<D>, h: f64) -> Matrix<D> {
     let is_small = |axis: usize| !(second[(axis, axis)] > SMALLEST_MOMENT * h * h);
-    let whole = if (0..D).any(is_small) { None } else { second.try_inverse() };
+    let whole = if (0..D).any(is_small) { None } else { algebra::inverse(second) };
     let along_axes =
         || Matrix::from_fn(|i, j| if i == j && !is_small(i) { 1.0 / second[(i, i)] } else { 0.0 });
     whole.unwrap_or_else(along_axes)

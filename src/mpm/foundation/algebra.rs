@@ -57,6 +57,16 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     })
 }
 
+/// Computes the inverse; `None` if the determinant is zero.
+///
+/// # Panics
+/// For D other than 1, 2 or 3. The function of `nalgebra` would also be compiled for larger
+/// matrices, in each dimension.
+pub fn inverse<const D: usize>(m: &Matrix<D>) -> Option<Matrix<D>> {
+    let determinant = det(m);
+    (determinant != 0.0).then(|| cofactor(m).transpose() / determinant)
+}
+
 /// Computes `a b`. Always inlined, because the particle loops that call this function are compiled
 /// for wider registers.
 #[inline(always)]
@@ -101,8 +111,11 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
     mut f: impl FnMut(usize) -> T,
 ) -> [T; N] {
     let mut array = [nothing; N];
-    for k in 0..N {
+    let mut k = 0;
+    // A range would be an iterator in each of the thousand instances of this function.
+    while k < N {
         array[k] = f(k);
+        k += 1;
     }
     array
 }

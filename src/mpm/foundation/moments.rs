@@ -1,6 +1,6 @@
 //! Moments of the weights of a particle, for affine transfers.
 
-use super::algebra::{Matrix, Vector, dyad};
+use super::algebra::{self, Matrix, Vector, dyad};
 use crate::subject::Column;
 
 /// Minimum valid second moment, as a fraction of h^2. A smaller value is a rounding error: all
@@ -86,7 +86,7 @@ fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
         }
     };
     drop(&mut second, 1.0);
-    let Some(mut inverse) = second.try_inverse() else { return Matrix::zeros() };
+    let Some(mut inverse) = algebra::inverse(&second) else { return Matrix::zeros() };
     drop(&mut inverse, 0.0);
     inverse
 }

@@ -1,7 +1,7 @@
 //! Particles: one column per quantity, and the configuration (current or reference) in which the
 //! basis is evaluated.
 
-use super::algebra::{Matrix, Vector, det};
+use super::algebra::{Matrix, Vector, det, inverse};
 use crate::named::named;
 use crate::subject::Column;
 
@@ -283,13 +283,13 @@ impl<const D: usize> Particles<D> {
     #[inline(never)]
     fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
         // If F has no inverse, the particle is inverted. The next stage then reports a failure.
-        flux * self.def_grad[p].try_inverse().unwrap_or_else(Matrix::zeros).transpose()
+        flux * inverse(&self.def_grad[p]).unwrap_or_else(Matrix::zeros).transpose()
     }
 
     /// Converts gradients with respect to X to gradients with respect to x, `grad0 v F^-1`.
     pub(in crate::mpm) fn push_gradients_forward(&mut self) {
         for (grad_v, f) in self.grad_v.iter_mut().zip(&self.def_grad) {
-            *grad_v *= f.try_inverse().unwrap_or_else(Matrix::zeros);
+            *grad_v *= inverse(f).unwrap_or_else(Matrix::zeros);
         }
     }
 }

@@ -17,7 +17,7 @@ use super::hyperelastic::linear;
 use super::plane_stress::RatePlaneStress;
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det, product};
+use crate::mpm::foundation::algebra::{Matrix, det, inverse, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::BATCH;
 use crate::subject::Failure;
@@ -80,7 +80,7 @@ const MOST_TERMS: u32 = 2000;
 /// does not converge: for stretches below 1/100 or above 100, and for rotations by 90 degrees.
 pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
-    let Some(inverse) = (f + Matrix::identity()).try_inverse() else { return nothing };
+    let Some(inverse) = inverse(&(f + Matrix::identity())) else { return nothing };
     let z = product(&(f - Matrix::identity()), &inverse);
     let square = product(&z, &z);
     let (mut sum, mut power) = (z, z);

@@ -24,7 +24,7 @@ use super::spectral::{
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, excess};
 use super::tangent::{StressResponse, isotropic_modulus};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_space, product};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_space, inverse, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory, Site};
@@ -206,7 +206,7 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         };
         let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
         // If F has no inverse, the solver detects the invalid volume and the run fails.
-        let back = f.try_inverse().unwrap_or(*f);
+        let back = inverse(f).unwrap_or(*f);
         let inverse_metric = back * assembled(&squares, axes) * back.transpose();
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
     }

@@ -26,7 +26,7 @@
 
 use super::banded::BandedSystem;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_body, in_space};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_body, in_space, inverse};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -225,7 +225,7 @@ impl<const D: usize> StepEquations<D> {
             if !j.is_finite() {
                 return Err(Failure::NonFinite { quantity: "J", site });
             }
-            let inverse = stretch.try_inverse().filter(|_| j > 0.0);
+            let inverse = inverse(&stretch).filter(|_| j > 0.0);
             let inverse = inverse.ok_or(Failure::Inverted { site, j: j * det(&f) })?;
             let response = material.response(p, &(stretch * f));
             let response = response.ok_or_else(|| Failure::Solve(NO_TANGENT.to_owned()))?;

@@ -1,7 +1,7 @@
 //! Panels with four straight sides, filled with particles by the bilinear map of the unit square,
 //! `x = sum_c M_c(s) x_c` with the hat functions M_c of the corners.
 
-use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, inverse};
 use crate::mpm::foundation::particles::Particles;
 
 /// A panel in the plane. Its corners (m) are in counter-clockwise order, with a left turn at each
@@ -88,7 +88,7 @@ impl Quadrilateral {
         let mut point = Vector::<2>::from_element(0.5);
         for _ in 0..MOST_ITERATIONS {
             let (here, slope) = self.at(point[0], point[1]);
-            let Some(change) = slope.try_inverse().map(|inverse| inverse * (place - here)) else {
+            let Some(change) = inverse(&slope).map(|inverse| inverse * (place - here)) else {
                 break;
             };
             point += change;

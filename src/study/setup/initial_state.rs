@@ -7,7 +7,7 @@
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
-use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector};
+use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector, inverse};
 use crate::subject::Failure;
 use crate::suite::model::{ConvergencePlan, Scene};
 
@@ -88,7 +88,7 @@ impl Initial {
             let f: Matrix<D> = Matrix::from_fn(|i, j| now.grad[i][j]) + Matrix::identity();
             let rate = Matrix::from_fn(|i, j| now.grad_rate[i][j]);
             // If F has no inverse, the solver rejects the initial state.
-            *grad_v = f.try_inverse().map_or_else(Matrix::zeros, |inverse| rate * inverse);
+            *grad_v = inverse(&f).map_or_else(Matrix::zeros, |inverse| rate * inverse);
         }
         if self.motion.is_some() || self.displacement.is_some() {
             particles.deform(|p| {

@@ -11,7 +11,7 @@ mod quadrature_points;
 
 use self::quadrature_points::{QuadraturePoint, QuadraturePoints};
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad, inverse};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
@@ -215,7 +215,7 @@ impl<const D: usize> Fit<'_, D> {
 /// Inverts the second moments; `None` unless the particles span every axis.
 fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
     let spans = |axis: usize| second[(axis, axis)] > smallest;
-    (0..D).all(spans).then(|| second.try_inverse()).flatten()
+    (0..D).all(spans).then(|| inverse(&second)).flatten()
 }
 
 #[cfg(test)]

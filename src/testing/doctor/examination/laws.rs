@@ -7,7 +7,7 @@
 //! body, which starts with the same F because of its initial displacement `(F - I) (X - C)`.
 
 use super::stress::{impulses, inside};
-use crate::mpm::det_of_rows;
+use crate::mpm::{det_of_rows, inverse};
 use crate::testing::doctor::course::{AffineField, Course, displacement, minus, shown, size};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -333,7 +333,7 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     let mut sigma = Matrix3::zeros();
     for part in 0..PARTS {
         let middle = identity + (part as f64 + 0.5) * change;
-        let step = change * middle.try_inverse()?;
+        let step = change * inverse(&middle)?;
         let strain = 0.5 * (step + step.transpose());
         let spin = step - strain;
         let law = lambda * strain.trace() * identity + 2.0 * mu * strain;
