@@ -91,7 +91,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
             mass: request.mass.then_some(&mut mass),
             momentum: request.momentum.is_some().then_some(&mut momentum),
             force: request.force.is_some().then_some(&mut force),
-            before: 0,
+            ..Columns::default()
         };
         self.workspace().scatter::<B, D>(particles, request, grid, columns);
         (grid.mass, grid.velocity, grid.force) = (mass, momentum, force);
@@ -112,12 +112,13 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
 
     fn p2g_body_force(&self, particles: &Particles<D>, b: &[Vector<D>], grid: &mut Grid<D>) {
         self.tally.add("p2g point force", particles.len());
-        let mut column = std::mem::take(&mut grid.force);
-        for (p, (b, mass)) in b.iter().zip(&particles.mass).enumerate() {
-            let force = b * *mass;
-            B::visit(grid, particles, p, |i| column[i.node] += force * i.weight);
-        }
-        grid.force = column;
+        // The sums equal those of the momentum for the velocities b.
+        let field = ParticleField { v: b, affine: None };
+        let request = P2gRequest { momentum: Some(field), ..P2gRequest::default() };
+        let mut force = std::mem::take(&mut grid.force);
+        let columns = Columns { added: Some(&mut force), ..Columns::default() };
+        self.workspace().scatter::<B, D>(particles, &request, grid, columns);
+        grid.force = force;
     }
 
     fn p2g_point_force(

@@ -137,7 +137,7 @@ impl PackedField<Node4> {
 /// cache.
 const COLUMN_PIECE: usize = 1 << 9;
 
-/// Arrays of the grid to which the values of a packed field are copied, for all nodes or for some
+/// Arrays of the grid that receive the values of a packed field, for all nodes or for some
 /// layers of nodes. A layer is perpendicular to the last axis.
 #[derive(Debug, Default)]
 pub(in crate::mpm) struct Columns<'a, const D: usize> {
@@ -148,6 +148,8 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// Nodal force, from the lanes after the momentum, or from the first lanes if there is no
     /// momentum.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
+    /// Nodal force to which the first lanes are added, instead of being copied.
+    pub(in crate::mpm) added: Option<&'a mut [Vector<D>]>,
     /// Number of grid nodes before the first node of these arrays.
     pub(in crate::mpm) before: usize,
 }
@@ -163,10 +165,10 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 
 impl<const D: usize> Columns<'_, D> {
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
-        let Self { mass, momentum, force, before } = self;
-        let (mass, momentum, force) =
-            (mass.as_deref_mut(), momentum.as_deref_mut(), force.as_deref_mut());
-        Columns { mass, momentum, force, before: *before }
+        let Self { mass, momentum, force, added, before } = self;
+        let (mass, momentum) = (mass.as_deref_mut(), momentum.as_deref_mut());
+        let (force, added) = (force.as_deref_mut(), added.as_deref_mut());
+        Columns { mass, momentum, force, added, before: *before }
     }
 
     /// Splits the arrays at the first node of grid layer `layer`.
@@ -177,9 +179,12 @@ impl<const D: usize> Columns<'_, D> {
         let mass = split(self.mass, count);
         let momentum = split(self.momentum, count);
         let force = split(self.force, count);
+        let added = split(self.added, count);
+        let parts =
+            |mass, momentum, force, added, before| Self { mass, momentum, force, added, before };
         (
-            Self { mass: mass.0, momentum: momentum.0, force: force.0, before },
-            Self { mass: mass.1, momentum: momentum.1, force: force.1, before: before + count },
+            parts(mass.0, momentum.0, force.0, added.0, before),
+            parts(mass.1, momentum.1, force.1, added.1, before + count),
         )
     }
 
@@ -255,8 +260,12 @@ impl<const D: usize> Columns<'_, D> {
             column.zip(nodes).for_each(|(value, node)| *value = components(node.inertia(), 0));
         }
         if let Some(force) = &mut self.force {
-            let column = force[to].iter_mut().zip(nodes);
+            let column = force[to.clone()].iter_mut().zip(nodes);
             column.for_each(|(value, node)| *value = components(node.force(), force_lane(D)));
+        }
+        if let Some(added) = &mut self.added {
+            let column = added[to].iter_mut().zip(nodes);
+            column.for_each(|(value, node)| *value += components::<D>(node.inertia(), 0));
         }
     }
 }
