@@ -2,8 +2,8 @@
 //!
 //! The stress is the sum of the law's stress (with thermal expansion) and the initial stress.
 //!
-//! Manufactured forces are computed once for all runs of a study that have the same particle
-//! positions and time steps.
+//! Displacements and manufactured forces are computed once for all runs of a study that have the
+//! same particle positions and time steps.
 
 use super::condition::Face;
 use super::density::Density;
@@ -15,12 +15,12 @@ use super::initial_stress::InitialStress;
 use super::law::Equation;
 use super::motion::{Derivatives, Motion, Places, write};
 use super::outline::Outline;
+use super::shared_values::{SharedQuantity, SharedValues};
 use super::tensor::{Tensor, pushed_forward, sum, tensor};
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// An initial-boundary-value problem on a box or a body of another shape, and its exact solution.
 #[derive(Debug, Clone)]
@@ -68,8 +68,8 @@ pub struct Problem {
     pub tolerance: f64,
     /// The allowed residual of the law, if the motion solves only the linearised problem.
     pub linearised: Option<Linearised>,
-    /// Cache of manufactured forces for the runs of this problem, if any.
-    pub shared_forces: Option<Arc<SharedForces>>,
+    /// Cache of displacements and manufactured forces for the runs of this problem, if any.
+    pub shared: Option<Arc<SharedValues>>,
 }
 
 /// The residual that a linearised motion may have in the conditions that involve the law: the
@@ -212,7 +212,15 @@ impl Truth for Problem {
     }
 
     fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
+        let Some(shared) = &self.shared else {
+            return self.motion.displacements(d, labels, t, into);
+        };
+        let places = shared.number_of(labels);
+        if let Some(known) = shared.get(SharedQuantity::Displacement, places, t) {
+            return into.copy_from_slice(&known);
+        }
         self.motion.displacements(d, labels, t, into);
+        shared.put(SharedQuantity::Displacement, places, t, into);
     }
 
     fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
@@ -370,64 +378,6 @@ impl Problem {
     }
 }
 
-/// Maximum number of stored `f64` (32 MiB), enough for all built-in suites.
-const MOST: usize = 1 << 22;
-
-/// Cache of forces by positions and time, filled by the first run that needs them. If the cache is
-/// full, each run computes its own forces.
-#[derive(Debug, Default)]
-pub struct SharedForces(Mutex<Tables>);
-
-#[derive(Debug, Default)]
-struct Tables {
-    /// Sets of positions, each with all coordinates in sequence.
-    places: Vec<Vec<f64>>,
-    /// Forces at all positions of a set. Key: index of the set and bits of the time.
-    forces: BTreeMap<(usize, u64), Arc<[f64]>>,
-    /// Number of stored `f64`.
-    size: usize,
-}
-
-impl SharedForces {
-    /// Returns the index of the set `places`; bit-identical sets have the same index.
-    pub(in crate::exact) fn number_of(&self, places: Vec<f64>) -> usize {
-        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let bits = f64::to_bits;
-        let is_known =
-            |known: &Vec<f64>| known.iter().copied().map(bits).eq(places.iter().copied().map(bits));
-        let found = tables.places.iter().position(is_known);
-        found.unwrap_or_else(|| {
-            tables.size += places.len();
-            tables.places.push(places);
-            tables.places.len() - 1
-        })
-    }
-
-    pub(in crate::exact) fn get(&self, places: usize, t: f64) -> Option<Arc<[f64]>> {
-        let tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        tables.forces.get(&(places, t.to_bits())).cloned()
-    }
-
-    /// Stores forces unless the cache is full.
-    pub(in crate::exact) fn put(&self, places: usize, t: f64, forces: Vec<f64>) {
-        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if tables.size + forces.len() <= MOST {
-            let size = forces.len();
-            if tables.forces.insert((places, t.to_bits()), forces.into()).is_none() {
-                tables.size += size;
-            }
-        }
-    }
-
-    /// Removes all forces. Later runs compute the forces that they need again.
-    pub fn clear(&self) {
-        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // The sets of positions remain, because running studies still use their indices.
-        tables.size = tables.places.iter().map(Vec::len).sum();
-        tables.forces.clear();
-    }
-}
-
 /// The manufactured body force at fixed positions.
 pub struct Forcing {
     problem: Problem,
@@ -435,7 +385,7 @@ pub struct Forcing {
     /// The positions (m), if a term, the stress or the density depends on them.
     labels: Vec<Vec<f64>>,
     /// Forces computed by other runs, and the index of the set of positions.
-    shared: Option<(Arc<SharedForces>, usize)>,
+    shared: Option<(Arc<SharedValues>, Option<usize>)>,
 }
 
 impl Forcing {
@@ -449,8 +399,8 @@ impl Forcing {
             || problem.density.uniform().is_none()
             || problem.plane == PlaneState::Axisymmetric;
         let number =
-            |shared: &Arc<SharedForces>| (shared.clone(), shared.number_of(labels.concat()));
-        let shared = problem.shared_forces.as_ref().map(number);
+            |shared: &Arc<SharedValues>| (shared.clone(), shared.number_of(&labels.concat()));
+        let shared = problem.shared.as_ref().map(number);
         let labels = if needed { labels } else { Vec::new() };
         Self { problem: problem.clone(), places, labels, shared }
     }
@@ -459,7 +409,9 @@ impl Forcing {
     /// [`Problem::manufactured_force`]. Allocates only for shared forces.
     pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
         let dimension = self.problem.dimension();
-        if let Some(known) = self.shared.as_ref().and_then(|(forces, at)| forces.get(*at, t)) {
+        let known =
+            |(shared, at): &(Arc<SharedValues>, _)| shared.get(SharedQuantity::Force, *at, t);
+        if let Some(known) = self.shared.as_ref().and_then(known) {
             for (force, known) in into.iter_mut().zip(known.chunks_exact(dimension)) {
                 *force = make(std::array::from_fn(|i| known.get(i).copied().unwrap_or(0.0)));
             }
@@ -484,8 +436,8 @@ impl Forcing {
             }
             *force = make(left);
         }
-        if let Some((forces, at)) = &self.shared {
-            forces.put(*at, t, found);
+        if let Some((shared, at)) = &self.shared {
+            shared.put(SharedQuantity::Force, *at, t, &found);
         }
     }
 }

@@ -135,7 +135,7 @@ pub(super) fn held(dimension: usize) -> Problem {
         motion: Motion::new((0..dimension).map(component).collect()),
         tolerance: 1e-8,
         linearised: None,
-        shared_forces: None,
+        shared: None,
     }
 }
 
@@ -220,26 +220,28 @@ fn the_force_of_a_run_is_the_force(
     }
 }
 
-/// The second of two runs reuses the forces of the first, and computes forces for its own positions
+/// The second of two runs reuses the values of the first, and computes values for its own positions
 /// and times.
 #[rstest]
-fn shared_forces_are_bit_identical(#[values(1, 2, 3)] dimension: usize) {
+fn shared_values_are_bit_identical(#[values(1, 2, 3)] dimension: usize) {
     let alone = held(dimension);
-    let problem = Problem { shared_forces: Some(Arc::default()), ..alone.clone() };
+    let problem = Problem { shared: Some(Arc::default()), ..alone.clone() };
     let mut random = Random::new(2);
     let mut some = || (0..5).map(|_| random.point(&alone.from, &alone.to)).collect::<Vec<_>>();
     let (first, second) = (some(), some());
     for (labels, times) in [(&first, [0.0, 0.3]), (&first, [0.3, 0.7]), (&second, [0.3, 0.7])] {
         let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
-        let mut found = [[0.0; 3]; 5];
+        let (mut found, mut moved) = ([[0.0; 3]; 5], vec![f64::NAN; 5 * dimension]);
         for t in times {
             forcing.at(t, &mut found, |force| force);
-            for (label, found) in labels.iter().zip(found) {
+            problem.displacements(dimension, &labels.concat(), t, &mut moved);
+            for ((label, found), moved) in labels.iter().zip(found).zip(moved.chunks(dimension)) {
                 let expected = alone.manufactured_force(label, t);
                 assert_eq!(found[..dimension], expected[..dimension], "{label:?}, {t}");
+                assert_eq!(*moved, alone.motion.derivatives(label, t).u[..dimension]);
             }
             if t == 0.7 {
-                problem.shared_forces.as_ref().unwrap().clear();
+                problem.shared.as_ref().unwrap().clear();
             }
         }
     }

@@ -58,7 +58,7 @@ fn forcing<const D: usize>(labels: &[Vector<D>]) -> Forcing {
         motion: Motion::new(vec![formula; D]),
         tolerance: 1e-8,
         linearised: None,
-        shared_forces: None,
+        shared: None,
     };
     Forcing::new(&problem, labels.iter().map(Vector::as_slice))
 }

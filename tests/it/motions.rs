@@ -52,7 +52,7 @@ fn problem(
         motion: Motion::new(displacement.iter().map(formula).collect()),
         tolerance: 1e-8,
         linearised: None,
-        shared_forces: None,
+        shared: None,
     }
 }
 

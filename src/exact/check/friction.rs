@@ -117,7 +117,7 @@ mod tests {
             motion: Motion::new(vec![bind(x, &["X", "Y", "t"]), bind(y, &["X", "Y", "t"])]),
             tolerance: 1e-8,
             linearised: None,
-            shared_forces: None,
+            shared: None,
         }
     }
 

@@ -193,7 +193,7 @@ mod tests {
                 motion: Motion::new(vec![bind()]),
                 tolerance: 1e-8,
                 linearised: None,
-                shared_forces: None,
+                shared: None,
             }
         };
         [bar(0.0, [free(), Arc::new(Interface)]), bar(1.0, [Arc::new(Interface), free()])]

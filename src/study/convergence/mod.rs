@@ -72,13 +72,13 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // Shared forces are freed here, because the runners of all suites exist until the last
+        // Shared values are freed here, because the runners of all suites exist until the last
         // suite ends.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
-            && let Some(forces) = exact.and_then(|exact| exact.shared_forces.as_ref())
+            && let Some(shared) = exact.and_then(|exact| exact.shared.as_ref())
         {
-            forces.clear();
+            shared.clear();
         }
         outcome
     }
@@ -124,11 +124,11 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // Cases with automatic time steps evaluate forces at different times, so they do not share
-        // forces.
+        // Cases with automatic time steps evaluate the solution at different times, so they do not
+        // share values.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
-        if let Some(exact) = plan.exact.as_mut().filter(|exact| same_times && exact.manufactured) {
-            exact.shared_forces = Some(Arc::default());
+        if let Some(exact) = plan.exact.as_mut().filter(|_| same_times) {
+            exact.shared = Some(Arc::default());
         }
         let left = AtomicUsize::new(plan.cases.len());
         Self { plan, left, context, references, steps: StableSteps::default() }

@@ -211,7 +211,7 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
         motion,
         tolerance: TOLERANCE,
         linearised: None,
-        shared_forces: None,
+        shared: None,
     }
 }
 
