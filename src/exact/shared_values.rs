@@ -49,12 +49,23 @@ impl SharedValues {
         known
     }
 
-    pub(super) fn get(&self, quantity: SharedQuantity, places: Option<usize>, t: f64) -> Option<Arc<[f64]>> {
+    pub(super) fn get(
+        &self,
+        quantity: SharedQuantity,
+        places: Option<usize>,
+        t: f64,
+    ) -> Option<Arc<[f64]>> {
         self.tables().values.get(&(quantity, places?, t.to_bits())).cloned()
     }
 
     /// Stores values unless the cache is full.
-    pub(super) fn put(&self, quantity: SharedQuantity, places: Option<usize>, t: f64, values: &[f64]) {
+    pub(super) fn put(
+        &self,
+        quantity: SharedQuantity,
+        places: Option<usize>,
+        t: f64,
+        values: &[f64],
+    ) {
         let (mut tables, Some(places)) = (self.tables(), places) else { return };
         if tables.size + values.len() <= MOST {
             let key = (quantity, places, t.to_bits());
