@@ -215,7 +215,7 @@ impl<const D: usize> Fit<'_, D> {
 /// Inverts the second moments; `None` unless the particles span every axis.
 fn spanned<const D: usize>(second: &Matrix<D>, smallest: f64) -> Option<Matrix<D>> {
     let spans = |axis: usize| second[(axis, axis)] > smallest;
-    (0..D).all(spans).then(|| inverse(&second)).flatten()
+    (0..D).all(spans).then(|| inverse(second)).flatten()
 }
 
 #[cfg(test)]
