@@ -73,13 +73,19 @@ fn p2g_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     }
 }
 
+/// Compares body forces with the forces of single particles, and bit by bit with the momentum of
+/// equal velocities.
 fn a_body_force_is_a_force_on_each_particle<const D: usize>(
     kernel: &dyn Kernel<D>,
     periodic: bool,
 ) {
     let (mut together, particles) = scene(kernel, periodic);
-    let mut apart = together.clone();
+    let (mut apart, mut momentum) = (together.clone(), together.force.clone());
+    let field = ParticleField { v: &particles.v, affine: None };
+    kernel.p2g_momentum(&particles, field, &apart, &mut momentum);
+    let expected: Vec<_> = apart.force.iter().zip(&momentum).map(|(a, b)| a + b).collect();
     kernel.p2g_body_force(&particles, &particles.v, &mut together);
+    assert_eq!(together.force, expected);
     for (p, (b, m)) in particles.v.iter().zip(&particles.mass).enumerate() {
         kernel.p2g_point_force(&particles, p, &(b * *m), &mut apart);
     }
