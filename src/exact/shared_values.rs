@@ -41,14 +41,15 @@ impl SharedValues {
             known.len() == places.len() && pairs.all(|(a, b)| a.to_bits() == b.to_bits())
         };
         let known = tables.places.iter().position(are_same);
-        if known.is_none() && tables.size + places.len() <= MOST {
-            tables.size += places.len();
-            tables.places.push(places.to_vec());
-            return Some(tables.places.len() - 1);
+        if known.is_some() || tables.size + places.len() > MOST {
+            return known;
         }
-        known
+        tables.size += places.len();
+        tables.places.push(places.to_vec());
+        Some(tables.places.len() - 1)
     }
 
+    /// Returns the values at the positions with index `places` at time `t` (s), if they are stored.
     pub(super) fn get(
         &self,
         quantity: SharedQuantity,
