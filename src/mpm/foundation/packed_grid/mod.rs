@@ -148,7 +148,7 @@ pub(in crate::mpm) struct Columns<'a, const D: usize> {
     /// Nodal force, from the lanes after the momentum, or from the first lanes if there is no
     /// momentum.
     pub(in crate::mpm) force: Option<&'a mut [Vector<D>]>,
-    /// Nodal force to which the first lanes are added, instead of being copied.
+    /// Nodal vectors to which the first lanes are added. The other arrays are overwritten.
     pub(in crate::mpm) added: Option<&'a mut [Vector<D>]>,
     /// Number of grid nodes before the first node of these arrays.
     pub(in crate::mpm) before: usize,
