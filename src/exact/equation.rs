@@ -3,7 +3,7 @@
 use super::formula::{Number, Slope};
 use super::law::Equation;
 use super::motion::Derivatives;
-use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit};
+use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit, vector};
 use crate::subject::PlaneState;
 
 impl Equation {
@@ -62,10 +62,10 @@ impl Equation {
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
     ) -> [f64; D] {
-        let slopes = |i: usize, j: usize| std::array::from_fn(|axis| second[i][j][axis]);
+        let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
         let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
         let stress = self.piola(&varying);
-        std::array::from_fn(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
+        vector(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
     }
 }
 

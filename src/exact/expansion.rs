@@ -7,7 +7,7 @@
 use super::formula::{Number, Slope};
 use super::heat::TemperatureDerivatives;
 use super::law::Equation;
-use super::tensor::{Tensor, sum, tensor, unit};
+use super::tensor::{Tensor, sum, tensor, unit, vector};
 
 /// Thermal expansion, linear in the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,11 +119,11 @@ fn divergence_in<const D: usize>(
     second: &[Tensor<f64>; 3],
     swelling: &Swelling,
 ) -> [f64; D] {
-    let slopes = |i: usize, j: usize| std::array::from_fn(|axis| second[i][j][axis]);
+    let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
     let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
-    let theta = Slope::new(swelling.theta, std::array::from_fn(|axis| swelling.grad[axis]));
+    let theta = Slope::new(swelling.theta, vector(|axis| swelling.grad[axis]));
     let stress = piola(equation, &varying, theta);
-    std::array::from_fn(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
+    vector(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
 }
 
 fn block<const D: usize>(whole: &Tensor<f64>) -> Tensor<f64, D> {

@@ -159,6 +159,7 @@ fn gather<const N: usize>(components: impl Iterator<Item = Jet<N>>, all: &mut De
 }
 
 /// Returns the coordinates followed by the time. Formulas use the first D + 1 numbers.
+#[inline]
 pub fn variables(label: &[f64], t: f64) -> [f64; 4] {
     let mut all = [0.0; 4];
     all[..label.len()].copy_from_slice(label);

@@ -16,7 +16,7 @@ use super::law::Equation;
 use super::motion::{Derivatives, Motion, Places, write};
 use super::outline::Outline;
 use super::shared_values::{SharedQuantity, SharedValues};
-use super::tensor::{Tensor, pushed_forward, sum, tensor};
+use super::tensor::{Tensor, pushed_forward, sum, tensor, vector};
 use super::term::Term;
 use super::truth::Truth;
 use crate::subject::PlaneState;
@@ -145,7 +145,7 @@ impl Problem {
     pub fn manufactured_force(&self, label: &[f64], t: f64) -> [f64; 3] {
         let now = self.derivatives(label, t);
         let balance = self.balance(label, t, &now);
-        std::array::from_fn(|i| {
+        vector(|i| {
             let stated = self.stated(i, label, t, &now.u);
             balance[i] - stated - self.resistance(i, label, t, &now, stated)
         })
@@ -156,7 +156,7 @@ impl Problem {
         if self.manufactured {
             return self.balance(label, t, now);
         }
-        std::array::from_fn(|i| {
+        vector(|i| {
             let stated = self.stated(i, label, t, &now.u);
             stated + self.resistance(i, label, t, now, stated)
         })
@@ -165,7 +165,7 @@ impl Problem {
     /// Computes the body force that the motion requires, `u_tt - Div P / rho0`.
     pub(super) fn balance(&self, label: &[f64], t: f64, now: &Derivatives) -> [f64; 3] {
         let (stress, density) = (self.divergence(label, t, now), self.density.at(label));
-        std::array::from_fn(|i| now.acceleration[i] - stress[i] / density)
+        vector(|i| now.acceleration[i] - stress[i] / density)
     }
 
     /// Whether the total body force depends on second derivatives of the motion.
@@ -299,7 +299,7 @@ impl Problem {
         if self.starts_strained() {
             let varying: Tensor<Slope<3>> = tensor(|i, j| Slope::new(grad[i][j], second[i][j]));
             let piola = self.piola_from(&varying, &self.initial_stress.varying(label));
-            return std::array::from_fn(|i| sum::<f64, 3>(|j| piola[i][j].d(j)));
+            return vector(|i| sum::<f64, 3>(|j| piola[i][j].d(j)));
         }
         let axes = if self.plane == PlaneState::Strain { self.dimension() } else { 3 };
         let force = match self.swelling(label, t) {
@@ -307,13 +307,13 @@ impl Problem {
             Some(swelling) => swollen_divergence(&self.equation, axes, grad, second, &swelling),
         };
         let hoops = self.hoop_force(label, t, now);
-        let force: [f64; 3] = std::array::from_fn(|i| force[i] + hoops[i]);
+        let force: [f64; 3] = vector(|i| force[i] + hoops[i]);
         if self.initial_stress.is_none() {
             return force;
         }
         let (is_finite, initial) = (self.equation.is_finite(), &self.initial_stress);
         let initial = initial.divergence(label, grad, second, is_finite);
-        std::array::from_fn(|i| force[i] + initial[i])
+        vector(|i| force[i] + initial[i])
     }
 
     /// Whether the initial stress is that of an elastic strain at the start, because the yield
@@ -342,11 +342,11 @@ impl Problem {
         let force = self.equation.divergence(axes, grad, second);
         if self.density.uniform().is_some() {
             let factor = self.factor_at(label);
-            return force.map(|force| factor * force);
+            return vector(|i| factor * force[i]);
         }
         let factor = self.equation.density_factor(self.density.with_slopes(label));
         let piola = self.equation.piola(grad);
-        std::array::from_fn(|i| {
+        vector(|i| {
             let varying = |sum, axis: usize| sum + piola[i][axis] * factor.d(axis);
             (0..label.len()).fold(factor.value() * force[i], varying)
         })
@@ -418,7 +418,7 @@ impl Forcing {
             return;
         }
         let mut found = Vec::new();
-        let uniform: [f64; 3] = std::array::from_fn(|i| self.problem.uniform(i, t));
+        let uniform: [f64; 3] = vector(|i| self.problem.uniform(i, t));
         self.places.set_time(t);
         let mut now = Derivatives::default();
         for (place, force) in into.iter_mut().enumerate() {

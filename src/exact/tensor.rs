@@ -23,9 +23,24 @@ pub(super) fn tensor<T: Number, const D: usize>(
     tensor
 }
 
+/// Returns the vector with these components. Loops over particles call this function, and
+/// `std::array::from_fn` is inlined only by link-time optimization.
+#[inline]
+pub(super) fn vector<const D: usize>(component: impl Fn(usize) -> f64) -> [f64; D] {
+    let mut vector = [0.0; D];
+    for i in 0..D {
+        vector[i] = component(i);
+    }
+    vector
+}
+
 #[inline]
 pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
-    (1..D).fold(term(0), |sum, i| sum + term(i))
+    let mut sum = term(0);
+    for i in 1..D {
+        sum = sum + term(i);
+    }
+    sum
 }
 
 /// Returns 1 on the diagonal, 0 elsewhere.

@@ -142,14 +142,15 @@ impl Bar {
         let elements = self.def_grad.as_chunks_mut::<N>().0.iter_mut().enumerate();
         for (cell, def_grads) in elements {
             let local = Mesh::nodes_of::<N>(cell, &self.displacement);
-            for (def_grad, point) in def_grads.iter_mut().zip(points) {
-                *def_grad = 1.0 + dot(&point.gradient, local);
-                if !(*def_grad > 0.0 && *def_grad < f64::INFINITY) {
-                    self.min_j = least.min(*def_grad);
-                    return Err(no_deformation(cell, *def_grad));
+            for q in 0..N {
+                let def_grad = 1.0 + dot(&points[q].gradient, local);
+                def_grads[q] = def_grad;
+                if !(def_grad > 0.0 && def_grad < f64::INFINITY) {
+                    self.min_j = least.min(def_grad);
+                    return Err(no_deformation(cell, def_grad));
                 }
-                if *def_grad < least {
-                    least = *def_grad;
+                if def_grad < least {
+                    least = def_grad;
                 }
             }
         }
@@ -173,10 +174,10 @@ impl Bar {
         let elements = self.def_grad.as_chunks::<N>().0.iter().enumerate();
         for (cell, def_grads) in elements {
             let local = Mesh::nodes_of_mut::<N>(cell, &mut self.acceleration);
-            for (point, def_grad) in points.iter().zip(def_grads) {
-                let piola = (self.setup.law)(*def_grad) * point.weight;
-                for (force, gradient) in local.iter_mut().zip(point.gradient) {
-                    *force -= piola * gradient;
+            for q in 0..N {
+                let piola = (self.setup.law)(def_grads[q]) * points[q].weight;
+                for a in 0..N {
+                    local[a] -= piola * points[q].gradient[a];
                 }
             }
         }
@@ -188,17 +189,17 @@ impl Bar {
         let points = self.mesh.points();
         for (cell, values) in self.displaced.chunks_exact_mut(points.len()).enumerate() {
             let local = self.mesh.local(cell, &self.displacement);
-            for (value, point) in values.iter_mut().zip(points) {
-                *value = dot(&point.shape, local);
+            for q in 0..points.len() {
+                values[q] = dot(&points[q].shape, local);
             }
         }
         body_force(self.time, (&self.places, &self.displaced), &mut self.load);
         for (cell, loads) in self.load.chunks_exact(points.len()).enumerate() {
             let local = self.mesh.local_mut(cell, &mut self.acceleration);
-            for (point, load) in points.iter().zip(loads) {
-                let load = self.setup.density * load * point.weight;
-                for (force, shape) in local.iter_mut().zip(point.shape) {
-                    *force += load * shape;
+            for q in 0..points.len() {
+                let load = self.setup.density * loads[q] * points[q].weight;
+                for a in 0..local.len() {
+                    local[a] += load * points[q].shape[a];
                 }
             }
         }
@@ -234,10 +235,9 @@ impl Subject for Bar {
             // step. In the first step the advance begins at t = 0.
             Start::HalfStepBack => (self.lag + 0.5 * dt, 0.5 * dt),
         };
-        let motion = self.displacement.iter_mut().zip(&mut self.velocity);
-        for ((u, v), a) in motion.zip(&self.acceleration) {
-            *v += kick * a;
-            *u += dt * *v;
+        for i in 0..self.acceleration.len() {
+            self.velocity[i] += kick * self.acceleration[i];
+            self.displacement[i] += dt * self.velocity[i];
         }
         self.lag = lag;
         self.time += dt;

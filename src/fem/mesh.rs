@@ -119,7 +119,11 @@ impl Mesh {
 /// Computes `sum_a weight_a nodal_a` over the nodes of an element, from left to right.
 #[inline]
 pub(super) fn dot(weight: &PerNode, nodal: &[f64]) -> f64 {
-    weight.iter().zip(nodal).map(|(weight, value)| weight * value).sum()
+    let mut sum = weight[0] * nodal[0];
+    for a in 1..nodal.len() {
+        sum += weight[a] * nodal[a];
+    }
+    sum
 }
 
 named! {

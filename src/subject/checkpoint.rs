@@ -118,12 +118,17 @@ impl Memory for f64 {
     /// each of many steps.
     fn visit_each(entries: &mut [Self], checkpoint: &mut Checkpoint<'_>) {
         match &mut checkpoint.0 {
-            Way::Out(bytes) => bytes.extend(entries.iter().flat_map(|entry| entry.to_le_bytes())),
+            Way::Out(bytes) => {
+                bytes.reserve(size_of_val(entries));
+                for entry in entries {
+                    bytes.extend_from_slice(&entry.to_le_bytes());
+                }
+            }
             Way::In(bytes) => {
                 let (words, _) = bytes.as_chunks();
                 let Some(words) = words.get(..entries.len()) else { return checkpoint.refuse() };
-                for (entry, word) in entries.iter_mut().zip(words) {
-                    *entry = Self::from_le_bytes(*word);
+                for k in 0..entries.len() {
+                    entries[k] = Self::from_le_bytes(words[k]);
                 }
                 *bytes = &bytes[size_of_val(entries)..];
             }

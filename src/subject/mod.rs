@@ -328,8 +328,10 @@ pub struct Totals {
 
 impl Totals {
     /// Adds a particle with this mass (kg), velocity (m/s) and angular momentum (kg m2/s).
+    #[inline]
     pub fn add(&mut self, mass: f64, velocity: [f64; 3], spin: [f64; 3]) {
-        let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let [x, y, z] = velocity;
+        let speed = (x * x + y * y + z * z).sqrt();
         self.mass += mass;
         self.momentum_size += mass * speed;
         self.kinetic_energy += 0.5 * mass * speed * speed;
@@ -342,13 +344,11 @@ impl Totals {
 
     /// Adds the second moments of a particle with this mass (kg) at the position `x` with the
     /// reference position `label` (m).
+    #[inline]
     pub fn add_second_moments(&mut self, mass: f64, x: &[f64], label: &[f64]) {
-        for (sums, place) in
-            [(&mut self.second_moment, x), (&mut self.reference_second_moment, label)]
-        {
-            for (sum, x) in sums.iter_mut().zip(place) {
-                *sum += mass * x * x;
-            }
+        for axis in 0..x.len() {
+            self.second_moment[axis] += mass * x[axis] * x[axis];
+            self.reference_second_moment[axis] += mass * label[axis] * label[axis];
         }
     }
 

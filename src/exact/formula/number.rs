@@ -158,8 +158,12 @@ impl NumberBatch {
 
     /// Creates a batch; `number` returns the value of each lane.
     #[inline]
-    pub fn new(number: impl FnMut(usize) -> f64) -> Self {
-        Self(std::array::from_fn(number))
+    pub fn new(mut number: impl FnMut(usize) -> f64) -> Self {
+        let mut batch = [0.0; MANY];
+        for lane in 0..MANY {
+            batch[lane] = number(lane);
+        }
+        Self(batch)
     }
 
     /// Returns the value of one lane.

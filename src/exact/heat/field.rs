@@ -9,7 +9,7 @@
 use crate::dimension::with_dimension;
 use crate::exact::formula::{Formula, Hoisted, Jet, Number, Slope};
 use crate::exact::motion::{Derivatives, variables};
-use crate::exact::tensor::{Tensor, cofactor, det, sum, tensor, unit};
+use crate::exact::tensor::{Tensor, cofactor, det, sum, tensor, unit, vector};
 
 /// A temperature field (K), given by a formula whose variables are the reference coordinates and t.
 #[derive(Debug, Clone)]
@@ -106,6 +106,7 @@ impl<const N: usize> TemperaturePlaces for Hoisted<Jet<N>> {
 }
 
 /// Collects the derivatives from a jet, whose last variable is the time.
+#[inline]
 fn gather<const N: usize>(jet: &Jet<N>) -> TemperatureDerivatives {
     let time = N - 1;
     let mut all = TemperatureDerivatives {
@@ -129,7 +130,11 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
     let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
     let j = det(&f, &cofactor);
     let metric = |a: usize, b: usize| sum::<T, D>(|i| cofactor[i][a] * cofactor[i][b]) / j;
-    std::array::from_fn(|a| sum::<T, D>(|b| metric(a, b) * grad[b]))
+    let mut flow = [T::from(0.0); D];
+    for a in 0..D {
+        flow[a] = sum::<T, D>(|b| metric(a, b) * grad[b]);
+    }
+    flow
 }
 
 /// Computes `J C^-1 Grad T` (K/m). The inflow per reference area is k times its normal component.
@@ -160,10 +165,10 @@ pub(super) fn divergence(
 }
 
 fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; D] {
-    let bent = |i: usize, j: usize| std::array::from_fn(|axis| motion.second[i][j][axis]);
+    let bent = |i: usize, j: usize| vector(|axis| motion.second[i][j][axis]);
     let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));
-    let curved = |a: usize| std::array::from_fn(|axis| now.second[a][axis]);
+    let curved = |a: usize| vector(|axis| now.second[a][axis]);
     let grad: [Slope<D>; D] = std::array::from_fn(|a| Slope::new(now.grad[a], curved(a)));
     let flow = pulled_back(&grad_u, &grad);
-    std::array::from_fn(|a| flow[a].d(a))
+    vector(|a| flow[a].d(a))
 }

@@ -24,6 +24,7 @@ pub struct CubicBSpline;
 
 /// Returns the position of knot `k` (in cells) for degree `p`. Knots are uniform, and repeated at
 /// walls.
+#[inline]
 fn knot(k: usize, p: usize, cells: usize, periodic: bool) -> f64 {
     let uniform = k as f64 - p as f64;
     if periodic { uniform } else { uniform.clamp(0.0, cells as f64) }
@@ -37,7 +38,11 @@ fn greville(i: usize, p: usize, cells: usize, periodic: bool) -> f64 {
 
 #[inline(always)]
 fn mean(knots: &[f64]) -> f64 {
-    knots.iter().sum::<f64>() / knots.len() as f64
+    let mut sum = 0.0;
+    for knot in knots {
+        sum += knot;
+    }
+    sum / knots.len() as f64
 }
 
 /// Maximum number of knots around a cell: twice the largest degree.
@@ -45,6 +50,7 @@ const MOST_KNOTS: usize = 6;
 
 /// Returns the 2p knots around a cell for degree `p`, on an axis with walls: p knots up to the low
 /// side of the cell, and p knots from its high side. The rest of the array is not used.
+#[inline]
 fn knots_around(cell: usize, p: usize, cells: usize) -> [f64; MOST_KNOTS] {
     array(0.0, |k| knot(cell + 1 + k, p, cells, false))
 }
@@ -119,6 +125,7 @@ fn along<S: Simd, const K: usize>(
 }
 
 /// Returns the range `low..high` of cells whose knots are not repeated.
+#[inline]
 fn uniform_cells(degree: usize, cells: f64, periodic: bool) -> (f64, f64) {
     if periodic { (0.0, cells) } else { (degree as f64 - 1.0, cells - degree as f64 + 1.0) }
 }
@@ -166,6 +173,7 @@ fn put_right<const D: usize, const K: usize>(
 
 /// Returns values, slopes (per cell) and offsets from the particle (in cells) near walls, where
 /// knots may be repeated.
+#[inline]
 fn at_wall<const K: usize>(cells: usize, cell: usize, xi: f64) -> [[f64; K]; 3] {
     let (p, s) = (K - 1, cell as f64 + xi);
     let around = knots_around(cell, p, cells);

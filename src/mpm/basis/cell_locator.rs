@@ -1,6 +1,6 @@
 //! Finds the cells of particles, four particles at a time.
 
-use crate::mpm::foundation::algebra::{Vector, WHOLE, array};
+use crate::mpm::foundation::algebra::{Vector, WHOLE, array, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::simd::{F64x4, LANES, Simd};
@@ -39,6 +39,7 @@ pub(super) struct CellPositions<F, const D: usize> {
 const ALL: u32 = (1 << LANES) - 1;
 
 impl<const D: usize> CellLocator<D> {
+    #[inline]
     pub(in crate::mpm) fn new(grid: &Grid<D>, layout: Layout, needs: WeightNeeds) -> Self {
         Self {
             h: grid.h,
@@ -102,7 +103,7 @@ impl<const D: usize> CellLocator<D> {
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(x: &[Vector<D>]) -> [Vector<D>; LANES] {
-    array(Vector::zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
+    array(zeros(), |k| x.get(k).copied().unwrap_or(Vector::from_element(f64::NAN)))
 }
 
 /// Returns cells, positions in the cells, and the mask of particles inside the grid, for positions

@@ -26,7 +26,7 @@
 use super::contract::{Basis, Domain, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
 use super::weights_1d::Weights1d;
-use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor};
+use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor, times};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::Layout;
@@ -41,6 +41,7 @@ pub struct Cpdi;
 const FAR: f64 = 1e6;
 
 /// Returns centre and domain vectors of a particle (in cells), compressed to fit between the walls.
+#[inline]
 fn within<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
@@ -50,7 +51,10 @@ fn within<const D: usize>(
     let mut domain = particles.domain.get(p).copied().unwrap_or_else(reference) * grid.inverse_h();
     let mut centre = Vector::from_fn(|axis, _| grid.wrapped(&particles.x[p], axis));
     for axis in 0..D {
-        let reach: f64 = domain.row(axis).iter().map(|r| r.abs()).sum();
+        let mut reach = 0.0;
+        for k in 0..D {
+            reach += domain[(axis, k)].abs();
+        }
         let (low, high) = if grid.periodic[axis] {
             (centre[axis] - FAR, centre[axis] + FAR)
         } else {
@@ -59,7 +63,10 @@ fn within<const D: usize>(
         if centre[axis] - reach < low || centre[axis] + reach > high {
             let (low, high) = (low.max(centre[axis] - reach), high.min(centre[axis] + reach));
             centre[axis] = 0.5 * (low + high);
-            domain.row_mut(axis).scale_mut(0.5 * (high - low) / reach);
+            let shorter = 0.5 * (high - low) / reach;
+            for k in 0..D {
+                domain[(axis, k)] *= shorter;
+            }
         }
     }
     (centre, domain)
@@ -148,11 +155,11 @@ impl Basis for Cpdi {
         let inverse_transposed = cofactor(&domain) * (grid.inverse_h() / det(&domain));
         for corner in 0..corners {
             let side = Vector::from_fn(|axis, _| if corner >> axis & 1 == 0 { -1.0 } else { 1.0 });
-            let at = centre + domain * side;
+            let at = centre + times(&domain, &side);
             let mut axes = array(Weights1d::NONE, |axis| hats(grid, at[axis], own[axis], axis));
             let Weights1d { first, weight, slope, offset, .. } = axes[0];
-            axes[0] = Weights1d::new(first, weight.map(|weight| weight * share), slope, offset);
-            visit(&Corner { hats: Product(axes), outward: inverse_transposed * side });
+            axes[0] = Weights1d::new(first, array(0.0, |k| weight[k] * share), slope, offset);
+            visit(&Corner { hats: Product(axes), outward: times(&inverse_transposed, &side) });
         }
     }
 

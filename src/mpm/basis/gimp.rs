@@ -51,7 +51,10 @@ fn patches<const D: usize>(
         Domain1d::new(grid, grid.wrapped(x, axis), half, axis)
     };
     let axes: [Domain1d; D] = array(alone(0), alone);
-    let groups: usize = axes.iter().map(|axis| axis.groups).product();
+    let mut groups = 1;
+    for axis in &axes {
+        groups *= axis.groups;
+    }
     for mut group in 0..groups {
         visit(&Product(array(Weights1d::NONE, |axis| {
             let along = axes[axis].along(grid, axis, group % axes[axis].groups);

@@ -5,7 +5,7 @@
 
 use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
 use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
-use crate::mpm::foundation::algebra::{Matrix, Vector, array};
+use crate::mpm::foundation::algebra::{Vector, array, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, Node4, PackedNode};
@@ -26,8 +26,8 @@ impl<const D: usize, const K: usize> Product<D, K> {
     ) {
         let first = array::<D, _>(0, |axis| self.0[axis].first);
         patches.start[lane] = layout.number(&first) as u32;
-        for (along, axis) in self.0.iter().zip(&mut patches.axes) {
-            axis.put(lane, along);
+        for axis in 0..D {
+            patches.axes[axis].put(lane, &self.0[axis]);
         }
     }
 }
@@ -43,7 +43,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     #[inline(always)]
     fn weight_moments(&self) -> WeightMoments<D> {
         let moments: [[f64; 3]; D] = array([0.0; 3], |axis| self.0[axis].moments());
-        let mut weight_moments = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
+        let mut weight_moments = WeightMoments { first: zeros(), second: zeros() };
         for i in 0..D {
             weight_moments.first[i] = product(&moments, |axis| usize::from(axis == i));
             for j in 0..D {
@@ -76,7 +76,7 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
             for axis in 1..D {
                 weight *= factor(axis, &self.0[axis].weight);
             }
-            let (mut gradient, mut offset) = (Vector::zeros(), Vector::zeros());
+            let (mut gradient, mut offset) = (zeros(), zeros());
             for along in 0..D {
                 let functions = |axis: usize| {
                     let functions = &self.0[axis];
@@ -123,7 +123,9 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
 
     #[inline(always)]
     pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
-        self.start[lane % BATCH / LANES * LANES..][..LANES].copy_from_slice(&starts);
+        if let Some(four) = self.start[lane % BATCH / LANES * LANES..].first_chunk_mut() {
+            *four = starts;
+        }
     }
 
     #[inline(always)]
@@ -252,11 +254,12 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
 impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     for ProductBatch<D, K, OUTWARD>
 {
+    #[inline]
     fn none() -> Self {
         Self {
             start: [0; BATCH],
             axes: [Weights1dBatch::NONE; D],
-            outward: [[Vector::zeros(); BATCH]; OUTWARD],
+            outward: [[zeros(); BATCH]; OUTWARD],
             row_weights: [[F64Batch::ZERO; K]; K],
         }
     }

@@ -1,7 +1,7 @@
 //! A no-slip wall, to which the body sticks: v = 0.
 
 use super::contract::{Advance, Boundary, Side, nodes};
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
@@ -20,7 +20,7 @@ impl Fixed {
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {
         for &i in &self.nodes {
-            field[i] = Vector::zeros();
+            field[i] = zeros();
         }
     }
 }

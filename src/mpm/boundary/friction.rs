@@ -14,7 +14,7 @@
 //! before then are constrained by this state.
 
 use super::contract::{Advance, Boundary, Side, nodes};
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
@@ -47,7 +47,7 @@ impl Friction {
             match state {
                 ContactState::Separated => {}
                 ContactState::Slip => field[i][self.axis] = 0.0,
-                ContactState::Stick => field[i] = Vector::zeros(),
+                ContactState::Stick => field[i] = zeros(),
             }
         }
     }
@@ -94,7 +94,7 @@ impl<const D: usize> Boundary<D> for Friction {
             let (speed, most) = (along.norm(), self.coefficient * pressed);
             if speed <= most {
                 *state = ContactState::Stick;
-                (*v, *a) = (Vector::zeros(), Vector::zeros());
+                (*v, *a) = (zeros(), zeros());
             } else {
                 *state = ContactState::Slip;
                 *a -= along * (most / (speed * dt));

@@ -6,7 +6,7 @@
 
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::basis::BasisName;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::subject::Column;
 
@@ -65,7 +65,7 @@ impl<const D: usize> Boundary<D> for Prescribed<D> {
 
     fn clear(&self, field: &mut [Vector<D>]) {
         for (i, _) in &self.nodes {
-            field[*i] = Vector::zeros();
+            field[*i] = zeros();
         }
     }
 }

@@ -5,7 +5,7 @@
 //! the start of the step, so the order of the leapfrog method does not change.
 
 use super::contract::Effect;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -66,7 +66,7 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
         kernel: &dyn Kernel<D>,
         grid: &mut Grid<D>,
     ) -> u64 {
-        self.b.resize(particles.len(), Vector::zeros());
+        self.b.resize(particles.len(), zeros());
         (self.field)(t, particles, &mut self.b);
         kernel.p2g_body_force(particles, &self.b, grid);
         particles.len() as u64 * kernel.support()

@@ -23,7 +23,7 @@
 
 use super::contract::Effect;
 use super::thermal_face::ThermalBoundary;
-use crate::mpm::foundation::algebra::{Vector, inverse};
+use crate::mpm::foundation::algebra::{Vector, inverse, times, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -68,7 +68,7 @@ impl<const D: usize> Heat<D> {
         particles.temperature = temperature;
         for (slope, f) in slope.iter_mut().zip(&particles.def_grad) {
             // If F has no inverse, the solver rejects the initial state.
-            *slope = inverse(f).map_or_else(Vector::zeros, |back| back.transpose() * *slope);
+            *slope = inverse(f).map_or_else(zeros, |back| times(&back.transpose(), slope));
         }
         let (temperature, flow) = (Vec::new(), Vec::new());
         let (source, faces) = (None, Vec::new());

@@ -7,7 +7,7 @@
 //! use equal weights, so the power of the force equals the stress power.
 
 use super::contract::Effect;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -40,7 +40,7 @@ impl<const D: usize> Effect<D> for Hoop<D> {
         grid: &Grid<D>,
         particles: &mut Particles<D>,
     ) -> u64 {
-        self.velocity.resize(particles.len(), Vector::zeros());
+        self.velocity.resize(particles.len(), zeros());
         kernel.g2p(grid, &grid.velocity, particles, (0.0, 1.0), &mut self.velocity);
         for (p, velocity) in self.velocity.iter().enumerate() {
             let rate = velocity[0] / particles.position(p)[0];
@@ -58,7 +58,7 @@ impl<const D: usize> Effect<D> for Hoop<D> {
         grid: &mut Grid<D>,
     ) -> u64 {
         for (p, x) in particles.positions().iter().enumerate() {
-            let mut force = Vector::zeros();
+            let mut force = zeros();
             force[0] = -particles.vol[p] * particles.stress_across[p] / x[0];
             kernel.p2g_point_force(particles, p, &force, grid);
         }

@@ -17,7 +17,7 @@
 //! the particle rows meet the face at an angle.
 
 use crate::mpm::boundary::Side;
-use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad, times};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -175,7 +175,7 @@ pub(super) fn put_at_surface<const D: usize>(
 ) {
     kernel.p2g_point_force(particles, p, force, grid);
     let arm = match particles.def_grad.get(p) {
-        Some(f) if particles.current_position.is_empty() => f * arm,
+        Some(f) if particles.current_position.is_empty() => times(f, &arm),
         _ => arm,
     };
     kernel.p2g_point_moment(particles, p, &dyad(force, &arm), grid);

@@ -10,7 +10,7 @@
 //! axes have no effect. The heat absorbed by the expansion is neglected.
 
 use super::contract::Effect;
-use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::algebra::{Matrix, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Checkpoint, Column};
@@ -112,7 +112,7 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
                 let changes = before.iter_mut().zip(&particles.temperature);
                 for (sigma, (before, now)) in particles.sigma.iter_mut().zip(changes) {
                     let pressure = *modulus * self.coefficient * (now - *before);
-                    *sigma -= Matrix::identity() * pressure;
+                    *sigma -= identity() * pressure;
                     *before = *now;
                 }
             }

@@ -19,6 +19,23 @@ impl<const R: usize, const C: usize> Entry for nalgebra::SMatrix<f64, R, C> {
     }
 }
 
+/// Returns a matrix or a vector of zeros. The function of this name in `nalgebra` fills a matrix by
+/// an iterator, which is not always inlined.
+#[inline(always)]
+pub(in crate::mpm) fn zeros<const R: usize, const C: usize>() -> nalgebra::SMatrix<f64, R, C> {
+    [[0.0; R]; C].into()
+}
+
+/// Returns the identity matrix; inlined for the same reason as [`zeros`].
+#[inline(always)]
+pub(in crate::mpm) fn identity<const D: usize>() -> Matrix<D> {
+    let mut identity = zeros();
+    for axis in 0..D {
+        identity[(axis, axis)] = 1.0;
+    }
+    identity
+}
+
 /// Computes the determinant by expansion; D = 1, 2 or 3.
 ///
 /// # Panics
@@ -43,6 +60,7 @@ pub fn det_of_rows(d: usize, rows: &[f64]) -> f64 {
 ///
 /// # Panics
 /// For any other D.
+#[inline]
 pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
     Matrix::from_fn(|i, j| match D {
         1 => 1.0,
@@ -50,7 +68,7 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
         2 => -m[(1 - i, 1 - j)],
         3 => {
             // The next two indices in the cycle 0, 1, 2, so that no sign factor is needed.
-            let ([i1, j1], [i2, j2]) = ([i, j].map(|k| (k + 1) % 3), [i, j].map(|k| (k + 2) % 3));
+            let ((i1, j1), (i2, j2)) = (((i + 1) % 3, (j + 1) % 3), ((i + 2) % 3, (j + 2) % 3));
             m[(i1, j1)] * m[(i2, j2)] - m[(i1, j2)] * m[(i2, j1)]
         }
         _ => unreachable!("1, 2 or 3 dimensions"),
@@ -63,16 +81,21 @@ pub fn cofactor<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
 ///
 /// # Panics
 /// For D other than 1, 2 or 3.
+#[inline]
 pub fn inverse<const D: usize>(m: &Matrix<D>) -> Option<Matrix<D>> {
     let determinant = det(m);
-    (determinant != 0.0).then(|| cofactor(m).transpose() / determinant)
+    if determinant == 0.0 {
+        return None;
+    }
+    let cofactor = cofactor(m);
+    Some(Matrix::from_fn(|i, j| cofactor[(j, i)] / determinant))
 }
 
 /// Computes `a b`. Always inlined, because the particle loops that call this function are compiled
-/// for wider registers.
+/// for wider registers, and because `nalgebra` calls a function for each column.
 #[inline(always)]
 pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
-    let mut product = Matrix::zeros();
+    let mut product = zeros();
     for j in 0..D {
         for i in 0..D {
             let mut sum = a[(i, 0)] * b[(0, j)];
@@ -85,12 +108,28 @@ pub(in crate::mpm) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> M
     product
 }
 
+/// Computes `a v`; inlined for the same reason as [`product`].
+#[inline(always)]
+pub(in crate::mpm) fn times<const D: usize>(a: &Matrix<D>, v: &Vector<D>) -> Vector<D> {
+    let mut times = zeros();
+    for i in 0..D {
+        let mut sum = a[(i, 0)] * v[0];
+        for k in 1..D {
+            sum += a[(i, k)] * v[k];
+        }
+        times[i] = sum;
+    }
+    times
+}
+
 /// Computes the dyad a b^T.
+#[inline]
 pub fn dyad<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> Matrix<D> {
-    a * b.transpose()
+    Matrix::from_fn(|i, j| a[i] * b[j])
 }
 
 /// Extends a tensor to three dimensions, with the component `beyond` along each missing axis.
+#[inline]
 pub(in crate::mpm) fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Matrix<3> {
     Matrix::from_fn(|i, k| match (i < D && k < D, i == k) {
         (true, _) => m[(i, k)],
@@ -100,6 +139,7 @@ pub(in crate::mpm) fn in_space<const D: usize>(m: &Matrix<D>, beyond: f64) -> Ma
 }
 
 /// Returns the components of a 3-D tensor along the axes of a body in `D` dimensions.
+#[inline]
 pub(in crate::mpm) fn in_body<const D: usize>(m: &Matrix<3>) -> Matrix<D> {
     Matrix::from_fn(|i, k| m[(i, k)])
 }
@@ -119,6 +159,17 @@ pub(in crate::mpm) fn array<const N: usize, T: Copy>(
         k += 1;
     }
     array
+}
+
+/// Calls `f` for the entries of `a` and `b` in pairs, up to the end of the shorter slice. The loops
+/// over particles and nodes need this function, because `Iterator::zip` is not always inlined.
+#[inline(always)]
+pub(in crate::mpm) fn pairs<A, B>(a: &mut [A], b: &[B], mut f: impl FnMut(&mut A, &B)) {
+    let count = a.len().min(b.len());
+    let (a, b) = (&mut a[..count], &b[..count]);
+    for k in 0..count {
+        f(&mut a[k], &b[k]);
+    }
 }
 
 /// 2^52. All `f64` x from 2^52 to 2^53 are integers, and their last bits hold the integer x - 2^52.
@@ -185,6 +236,23 @@ mod tests {
             holds::<1>(&entries, is_singular);
             holds::<2>(&entries, is_singular);
             holds::<3>(&entries, is_singular);
+        }
+
+        #[test]
+        fn products_equal_those_of_the_library(
+            a in proptest::array::uniform9(-1.0..1.0_f64),
+            b in proptest::array::uniform9(-1.0..1.0_f64),
+        ) {
+            fn holds<const D: usize>(a: &[f64], b: &[f64]) {
+                let square = |of: &[f64]| Matrix::<D>::from_column_slice(&of[..D * D]);
+                let vector = |of: &[f64]| Vector::<D>::from_column_slice(&of[..D]);
+                assert_eq!(product(&square(a), &square(b)), square(a) * square(b));
+                assert_eq!(times(&square(a), &vector(b)), square(a) * vector(b));
+                assert_eq!(dyad(&vector(a), &vector(b)), vector(a) * vector(b).transpose());
+            }
+            holds::<1>(&a, &b);
+            holds::<2>(&a, &b);
+            holds::<3>(&a, &b);
         }
 
         #[test]

@@ -89,6 +89,7 @@ fn first<T>(
     }
 }
 
+#[inline]
 pub(in crate::mpm) fn is_finite<const R: usize, const C: usize>(
     matrix: &SMatrix<f64, R, C>,
 ) -> bool {

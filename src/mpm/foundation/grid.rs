@@ -1,6 +1,6 @@
 //! The background grid: a box of equal cells, and fields on its nodes.
 
-use super::algebra::{Vector, floor, whole};
+use super::algebra::{Vector, floor, whole, zeros};
 use super::simd::vectorized;
 use super::threads::PIECES;
 use crate::subject::Column;
@@ -50,9 +50,9 @@ impl<const D: usize> Grid<D> {
             periodic,
             counts,
             mass: vec![0.0; nodes],
-            velocity: vec![Vector::zeros(); nodes],
-            force: vec![Vector::zeros(); nodes],
-            acceleration: vec![Vector::zeros(); nodes],
+            velocity: vec![zeros(); nodes],
+            force: vec![zeros(); nodes],
+            acceleration: vec![zeros(); nodes],
             inverse_h: 1.0 / h,
             ends: cells.map(|cells| cells as f64),
         }

@@ -1,6 +1,6 @@
 //! Moments of the weights of a particle, for affine transfers.
 
-use super::algebra::{self, Matrix, Vector, dyad};
+use super::algebra::{self, Matrix, Vector, array, dyad, product, zeros};
 use crate::subject::Column;
 
 /// Minimum valid second moment, as a fraction of h^2. A smaller value is a rounding error: all
@@ -30,8 +30,8 @@ pub struct Moments<const D: usize> {
 impl<const D: usize> Moments<D> {
     /// Resizes the columns to this number of particles.
     pub fn resize(&mut self, particles: usize) {
-        self.mean.resize(particles, Vector::zeros());
-        self.second.resize(particles, Matrix::zeros());
+        self.mean.resize(particles, zeros());
+        self.second.resize(particles, zeros());
     }
 
     pub(in crate::mpm) fn columns(&self) -> [Column<'_>; 2] {
@@ -53,7 +53,7 @@ impl<const D: usize> InertiaTensor<D> {
     /// each axis.
     #[inline(always)]
     pub(in crate::mpm) fn diagonal(mean: [f64; D], variance: [f64; D]) -> Self {
-        let mut inertia = Self { mean: Vector::zeros(), second: Matrix::zeros() };
+        let mut inertia = Self { mean: zeros(), second: zeros() };
         for axis in 0..D {
             inertia.mean[axis] = mean[axis];
             inertia.second[(axis, axis)] = variance[axis];
@@ -69,24 +69,26 @@ impl<const D: usize> InertiaTensor<D> {
     }
 
     /// Computes `matrix D_p^-1`.
+    #[inline]
     pub(in crate::mpm) fn divide(&self, matrix: &Matrix<D>, h: f64) -> Matrix<D> {
-        matrix * inverse(self.second, SMALLEST * h * h)
+        product(matrix, &inverse(self.second, SMALLEST * h * h))
     }
 }
 
 /// Inverts the tensor on the axes whose second moment exceeds `smallest`. The inverse is zero on
 /// other axes.
 fn inverse<const D: usize>(mut second: Matrix<D>, smallest: f64) -> Matrix<D> {
-    let lost: [bool; D] = std::array::from_fn(|axis| !(second[(axis, axis)] > smallest));
+    let lost: [bool; D] = array(false, |axis| !(second[(axis, axis)] > smallest));
     let drop = |matrix: &mut Matrix<D>, diagonal: f64| {
         for axis in (0..D).filter(|&axis| lost[axis]) {
-            matrix.row_mut(axis).fill(0.0);
-            matrix.column_mut(axis).fill(0.0);
+            for k in 0..D {
+                (matrix[(axis, k)], matrix[(k, axis)]) = (0.0, 0.0);
+            }
             matrix[(axis, axis)] = diagonal;
         }
     };
     drop(&mut second, 1.0);
-    let Some(mut inverse) = algebra::inverse(&second) else { return Matrix::zeros() };
+    let Some(mut inverse) = algebra::inverse(&second) else { return zeros() };
     drop(&mut inverse, 0.0);
     inverse
 }

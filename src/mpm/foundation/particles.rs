@@ -1,7 +1,7 @@
 //! Particles: one column per quantity, and the configuration (current or reference) in which the
 //! basis is evaluated.
 
-use super::algebra::{Matrix, Vector, det, inverse};
+use super::algebra::{Matrix, Vector, det, identity, inverse, product, zeros};
 use crate::named::named;
 use crate::subject::Column;
 
@@ -107,11 +107,11 @@ impl<const D: usize> Particles<D> {
         let total = x0.len();
         Self {
             x: x0.clone(),
-            v: vec![Vector::zeros(); total],
+            v: vec![zeros(); total],
             mass: vec![block.density * volume; total],
             vol0: vec![volume; total],
             vol: vec![volume; total],
-            sigma: vec![Matrix::zeros(); total],
+            sigma: vec![zeros(); total],
             current_position: Vec::new(),
             def_grad: Vec::new(),
             across: Vec::new(),
@@ -120,7 +120,7 @@ impl<const D: usize> Particles<D> {
             domain: Vec::new(),
             domain0: Vec::new(),
             temperature: Vec::new(),
-            grad_v: vec![Matrix::zeros(); total],
+            grad_v: vec![zeros(); total],
             x0,
             spacing,
         }
@@ -135,18 +135,18 @@ impl<const D: usize> Particles<D> {
         };
         self.x0.push(x0);
         self.x.push(x0);
-        self.v.push(Vector::zeros());
+        self.v.push(zeros());
         self.mass.push(mass);
         self.vol0.push(vol0);
         self.vol.push(vol0);
-        self.sigma.push(Matrix::zeros());
-        self.grad_v.push(Matrix::zeros());
+        self.sigma.push(zeros());
+        self.grad_v.push(zeros());
         self.domain0.extend(self.domain0.first().copied());
     }
 
     /// Adds the column of deformation gradients, with F = I, if it does not exist.
     pub fn track_deformation(&mut self) {
-        self.def_grad.resize(self.len(), Matrix::identity());
+        self.def_grad.resize(self.len(), identity());
     }
 
     /// Sets an initial deformation: `state` returns the displacement (m) and F of the particle with
@@ -163,22 +163,23 @@ impl<const D: usize> Particles<D> {
 
     /// Whether the initial F of any particle differs from the identity or is NaN.
     pub(in crate::mpm) fn is_deformed(&self) -> bool {
-        self.def_grad.iter().any(|f| *f != Matrix::<D>::identity())
+        self.def_grad.iter().any(|f| *f != identity::<D>())
     }
 
     /// Adds the column of domains, or updates the existing column from F.
     pub fn track_domains(&mut self) {
         self.track_deformation();
-        self.domain.resize(self.len(), Matrix::zeros());
+        self.domain.resize(self.len(), zeros());
         for (domain, f) in self.domain.iter_mut().zip(&self.def_grad) {
             *domain = Matrix::from_fn(|i, axis| 0.5 * self.spacing[axis] * f[(i, axis)]);
         }
         for ((domain, f), own) in self.domain.iter_mut().zip(&self.def_grad).zip(&self.domain0) {
-            *domain = f * own;
+            *domain = product(f, own);
         }
     }
 
     /// Returns the current position of particle `p` (m), in either frame.
+    #[inline]
     pub fn position(&self, p: usize) -> &Vector<D> {
         &self.positions()[p]
     }
@@ -224,6 +225,7 @@ impl<const D: usize> Particles<D> {
     }
 
     /// Returns the number of particles.
+    #[inline]
     pub fn len(&self) -> usize {
         self.x.len()
     }
@@ -241,7 +243,7 @@ fn centre<const D: usize>(
     length: &Vector<D>,
     count: &[usize; D],
 ) -> Vector<D> {
-    let mut x = Vector::zeros();
+    let mut x = zeros();
     for axis in 0..D {
         let i = p % count[axis];
         p /= count[axis];
@@ -283,7 +285,7 @@ impl<const D: usize> Particles<D> {
     #[inline(never)]
     fn in_reference(&self, p: usize, flux: &Matrix<D>) -> Matrix<D> {
         // If F has no inverse, the particle is inverted. The next stage then reports a failure.
-        flux * inverse(&self.def_grad[p]).unwrap_or_else(Matrix::zeros).transpose()
+        product(flux, &inverse(&self.def_grad[p]).unwrap_or_else(zeros).transpose())
     }
 
     /// Converts gradients with respect to X to gradients with respect to x, `grad0 v F^-1`.

@@ -2,7 +2,7 @@
 //! of matrices to registers.
 
 use crate::mpm::basis::{Basis, CellLocator, FourLanes, Patch, PatchBatch, WeightNeeds};
-use crate::mpm::foundation::algebra::{Matrix, Vector, array};
+use crate::mpm::foundation::algebra::{Matrix, array, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
 use crate::mpm::foundation::packed_grid::Layout;
@@ -78,7 +78,11 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
                 lane = to;
                 continue;
             }
-            let of_all = self.needs.offsets.then(|| inertia::<D, B>(grid, particles, first + lane));
+            let of_all = if self.needs.offsets {
+                Some(inertia::<D, B>(grid, particles, first + lane))
+            } else {
+                None
+            };
             B::patches(
                 grid,
                 particles,
@@ -102,8 +106,8 @@ pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
     particles: &Particles<D>,
     p: usize,
 ) -> InertiaTensor<D> {
-    let mut all = WeightMoments { first: Vector::zeros(), second: Matrix::zeros() };
-    let mut one = InertiaTensor { mean: Vector::zeros(), second: Matrix::zeros() };
+    let mut all = WeightMoments { first: zeros(), second: zeros() };
+    let mut one = InertiaTensor { mean: zeros(), second: zeros() };
     let mut patches = 0;
     B::patches(grid, particles, p, |patch| {
         let (mean, variance) = patch.variance();
@@ -164,7 +168,7 @@ pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
     h: f64,
 ) -> [S::F64x4; D] {
     let Some(of_all) = of_all else { return patches.divide::<S>(lane, matrix) };
-    let mut whole = Matrix::zeros();
+    let mut whole = zeros();
     put_columns(&mut whole, matrix, from);
     columns(simd, &of_all.divide(&whole, h), from)
 }

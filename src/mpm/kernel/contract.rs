@@ -256,6 +256,7 @@ impl<const D: usize> P2gRequest<'_, D> {
     /// Returns the names of the requested quantities, for reports. A request for the mass includes
     /// the name `weight moments`, so that the moments of the weights are counted once for each
     /// position of the particles.
+    #[inline]
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         let affine = self.momentum.and_then(|field| field.affine);
         let has_moments = self.mass && matches!(affine, Some(Affine::Moment(_)));
@@ -269,6 +270,7 @@ impl<const D: usize> P2gRequest<'_, D> {
     }
 }
 
+#[inline]
 fn named_parts(parts: [(&'static str, bool); 5]) -> impl Iterator<Item = &'static str> {
     parts.into_iter().filter_map(|(name, is_requested)| is_requested.then_some(name))
 }
@@ -298,6 +300,7 @@ pub struct G2pRequest<'a, const D: usize> {
 
 impl<const D: usize> G2pRequest<'_, D> {
     /// Returns the names of the requested quantities, for reports.
+    #[inline]
     pub fn parts(&self) -> impl Iterator<Item = &'static str> + use<D> {
         named_parts([
             ("g2p velocity", self.change.is_some()),
@@ -357,6 +360,7 @@ const NAMES: [&str; 19] = [
 ];
 
 impl Tally {
+    #[inline]
     pub(super) fn add(&self, name: &str, particles: usize) {
         let Some(counts) = self.0.get() else { return };
         if let Some(part) = NAMES.iter().position(|known| *known == name) {

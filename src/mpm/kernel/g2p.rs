@@ -3,6 +3,7 @@
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
+use crate::mpm::foundation::algebra::pairs;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::FieldView;
@@ -24,6 +25,7 @@ pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
 
 /// Whether one packed field contains both velocities and accelerations, so that nodes are visited
 /// once. In 1-D and 2-D the four numbers of a node are sufficient.
+#[inline]
 pub(in crate::mpm) const fn are_beside<const D: usize>() -> bool {
     2 * D <= LANES
 }
@@ -54,7 +56,10 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
     #[inline(always)]
     fn reset(&mut self, simd: S, moments: bool, gradients: bool, left_out: impl Fn(usize) -> bool) {
         let zero = simd.splat(0.0);
-        for lane in (0..BATCH).filter(|lane| left_out(*lane)) {
+        for lane in 0..BATCH {
+            if !left_out(lane) {
+                continue;
+            }
             (self.change[lane], self.velocity[lane]) = (zero, zero);
             if moments {
                 (self.moment[lane], self.fit[lane]) = ([zero; D], [zero; D]);
@@ -78,6 +83,7 @@ fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
 
 impl<const D: usize, B: Basis> Gather<'_, D, B> {
     /// Whether the request needs moments, either directly or divided by D_p.
+    #[inline]
     fn takes_moments(&self) -> bool {
         self.request.moment.is_some() || self.request.fit.is_some()
     }
@@ -145,40 +151,36 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
     #[inline(always)]
     fn write<S: Simd>(&mut self, first: usize, moments: bool, sums: &G2pSums<S, D>) {
         let request = &mut self.request;
-        if let Some(value) = &mut request.value {
-            let value = value[first..].iter_mut();
-            if let Some(dt) = request.change {
-                let (change, at) = if const { are_beside::<D>() } {
-                    (&sums.velocity, D)
-                } else {
-                    (&sums.change, 0)
-                };
-                for (value, change) in value.zip(change) {
-                    *value += components::<D>(*change * dt, at);
-                }
-            }
+        if let (Some(value), Some(dt)) = (&mut request.value, request.change) {
+            let (change, at) =
+                if const { are_beside::<D>() } { (&sums.velocity, D) } else { (&sums.change, 0) };
+            pairs(&mut value[first..], change, |value, change| {
+                *value += components::<D>(*change * dt, at);
+            });
         }
         if let (Some(value), Some((keep, factor))) = (&mut request.value, request.mix) {
-            for (value, velocity) in value[first..].iter_mut().zip(&sums.velocity) {
+            pairs(&mut value[first..], &sums.velocity, |value, velocity| {
                 *value = *value * keep + components::<D>(*velocity * factor, 0);
-            }
+            });
         }
         if moments {
             let parts = [(&mut request.moment, &sums.moment), (&mut request.fit, &sums.fit)];
             for (part, sums) in parts {
-                let matrices = part.iter_mut().flat_map(|part| &mut part[first..]);
-                matrices.zip(sums).for_each(|(matrix, sums)| put_columns(matrix, sums, 0));
+                if let Some(part) = part {
+                    pairs(&mut part[first..], sums, |matrix, sums| put_columns(matrix, sums, 0));
+                }
             }
         }
         if let Some(gradient) = &mut request.gradient {
-            for (gradient, sums) in gradient[first..].iter_mut().zip(&sums.gradient) {
+            pairs(&mut gradient[first..], &sums.gradient, |gradient, sums| {
                 put_columns(gradient, sums, 0);
-            }
+            });
         }
         if let Some((dt, advected)) = &mut request.advected {
             let x = &self.particles.positions()[self.range.start + first..];
-            for ((advected, x), sums) in advected[first..].iter_mut().zip(x).zip(&sums.velocity) {
-                *advected = x + components::<D>(*sums * *dt, 0);
+            let advected = &mut advected[first..];
+            for k in 0..advected.len().min(BATCH) {
+                advected[k] = x[k] + components::<D>(sums.velocity[k] * *dt, 0);
             }
         }
     }

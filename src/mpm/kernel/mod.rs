@@ -31,7 +31,7 @@ mod workspace;
 use self::batch::inertia;
 use self::workspace::Workspace;
 use super::basis::{Basis, BasisName, Domain, with_basis};
-use super::foundation::algebra::{Matrix, Vector};
+use super::foundation::algebra::{Matrix, Vector, zeros};
 use super::foundation::grid::Grid;
 use super::foundation::moments::{InertiaTensor, Moments};
 use super::foundation::packed_grid::Columns;
@@ -231,7 +231,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         gradient: &mut [Vector<D>],
     ) {
         self.tally.add("p2g mass gradient", particles.len());
-        gradient.fill(Vector::zeros());
+        gradient.fill(zeros());
         for (p, m) in particles.mass.iter().enumerate() {
             B::visit(grid, particles, p, |i| gradient[i.node] += i.gradient * *m);
         }

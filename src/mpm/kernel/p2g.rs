@@ -42,7 +42,8 @@ fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4
 #[inline(always)]
 fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
     if !particles.current_position.is_empty() {
-        return columns(simd, &-particles.flux(p), force_lane(D));
+        let flux = columns(simd, &particles.flux(p), force_lane(D));
+        return array(flux[0], |axis| flux[axis] * -1.0);
     }
     // The columns are scaled separately. A product matrix in memory would be slow, because
     // store-to-load forwarding fails when its columns are loaded.
@@ -80,11 +81,12 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);
         let has_inertia = Self::HOLDS_ALL || !(FLUX || is_fit);
-        let here = first + lanes.start..first + lanes.end;
+        let (here, count) = (first + lanes.start, lanes.len());
+        let (mass, v) = (&particles.mass[here..][..count], &v[here..][..count]);
         patches.scatter(
             simd,
             self.field.reborrow(),
-            lanes.zip(particles.mass[here.clone()].iter().zip(&v[here])),
+            (0..count).map(|k| (lanes.start + k, (&mass[k], &v[k]))),
             #[inline(always)]
             |lane, (m, v)| {
                 let p = first + lane;

@@ -62,8 +62,8 @@ impl<const D: usize> P2g<'_, D> {
             (Some(columns), None)
         };
         let target = Target { field: field.shaped(grid), columns: at_once.unwrap_or_default() };
-        let colours = blocks.colours.each_ref().map(|colour| &colour[..]);
-        two_colour_schedule(grid, colours, target, &add);
+        let [one, other] = &blocks.colours;
+        two_colour_schedule(grid, [one, other], target, &add);
         let Some(columns) = after else { return };
         field.fold(grid);
         columns.unpack_all(grid, &field.shaped(grid));
@@ -107,7 +107,7 @@ impl Workspace {
     ) {
         let Self { level, fields, .. } = self;
         pack(fields, grid, field, request.change.is_some());
-        let fields = fields.each_ref().map(PackedField::view);
+        let fields = [fields[0].view(), fields[1].view()];
         par_split(0..particles.len(), request, &|range, request| {
             let basis = PhantomData;
             let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };

@@ -7,7 +7,7 @@
 use super::contract::Material;
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector, zeros};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::{Checkpoint, Column, Failure};
 
@@ -43,14 +43,14 @@ impl Axisymmetric {
 }
 
 fn none() -> Particles<3> {
-    let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
+    let (from, to) = (zeros(), Vector::from_element(1.0));
     Particles::fill_where(&Block { from, to, density: 1.0 }, 1.0, 1, |_| false)
 }
 
 /// Copies the state of a body to `space`. Allocates only the first time.
 fn enter<const D: usize>(particles: &Particles<D>, space: &mut Particles<3>) {
     let Particles { def_grad, grad_v, sigma, across, rate_across, stress_across, .. } = particles;
-    space.x.resize(particles.len(), Vector::zeros());
+    space.x.resize(particles.len(), zeros());
     space.mass.clone_from(&particles.mass);
     space.vol0.clone_from(&particles.vol0);
     space.vol.clone_from(&particles.vol);
@@ -59,7 +59,7 @@ fn enter<const D: usize>(particles: &Particles<D>, space: &mut Particles<3>) {
         (grad_v, rate_across, &mut space.grad_v),
         (sigma, stress_across, &mut space.sigma),
     ] {
-        into.resize(column.len(), Matrix::zeros());
+        into.resize(column.len(), zeros());
         for ((block, across), into) in column.iter().zip(across).zip(into) {
             into.fixed_view_mut::<D, D>(0, 0).copy_from(block);
             into[(2, 2)] = *across;

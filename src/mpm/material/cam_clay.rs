@@ -18,7 +18,7 @@ use super::plastic_flow::{MARGIN, length_squared};
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::turned_by_steps;
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
@@ -381,7 +381,7 @@ impl<const D: usize> Material<D> for CamClay {
                         let before = Clay { tau: turned.get(lane), ..*state };
                         *state = self.after(&before, &strains.get(lane));
                     }
-                    *vol *= det(&(Matrix::<D>::identity() + grad_v * dt));
+                    *vol *= det(&(identity() + grad_v * dt));
                     let inverse_j = vol0 / *vol;
                     *sigma = Matrix::from_fn(|i, k| state.tau[(i, k)] * inverse_j);
                 }

@@ -14,7 +14,7 @@ use super::linear_elastic::LinearElastic;
 use super::spectral::spectral;
 use super::stress_update::StressUpdate;
 use super::stretch::SquaredStretch;
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, product};
 use crate::mpm::foundation::particles::Particles;
 
 /// Fixed corotated elasticity.
@@ -33,7 +33,7 @@ impl Corotated {
 
     /// Returns the energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
-        let excess = spectral(&(f * f.transpose())).0.map(|square| square.sqrt() - 1.0);
+        let excess = spectral(&product(f, &f.transpose())).0.map(|square| square.sqrt() - 1.0);
         let dilation = det(f) - 1.0;
         0.5 * self.lambda * dilation * dilation + self.mu * excess.norm_squared()
     }

@@ -13,7 +13,7 @@ use super::plastic_flow::{
     ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
     modulus_of_invariants,
 };
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector, zeros};
 
 /// Drucker-Prager elastoplasticity at finite strain, without hardening.
 pub type DruckerPrager = ElastoPlastic<Cone>;
@@ -70,6 +70,7 @@ impl YieldSurface for Cone {
         }
     }
 
+    #[inline]
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
         let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =
             *self;
@@ -85,10 +86,7 @@ impl YieldSurface for Cone {
             }
         } else {
             // Here `friction` is above zero, because a cone without friction has no apex.
-            PrincipalStrain {
-                mean: strength / (3.0 * bulk * friction),
-                deviator: Vector::<3>::zeros(),
-            }
+            PrincipalStrain { mean: strength / (3.0 * bulk * friction), deviator: zeros() }
         };
         Some((after, trial.distance(&after)))
     }
@@ -109,7 +107,7 @@ impl YieldSurface for Cone {
         let (size, length) = (trial.deviator.norm(), 2.0 * mu * after.deviator.norm());
         if length == 0.0 {
             // At the apex, the stress does not depend on the strain.
-            return Some(Matrix::zeros());
+            return Some(zeros());
         }
         let one = Vector::<3>::from_element(1.0);
         let shear_slope = trial.deviator * (2.0_f64.sqrt() * mu / size);

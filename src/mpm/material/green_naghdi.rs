@@ -14,7 +14,7 @@ use super::linear_elastic::{LinearElastic, logarithm};
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, SquaredStretch};
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, identity, zeros};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Memory};
 
@@ -36,7 +36,7 @@ struct Unrotated {
 
 impl Default for Unrotated {
     fn default() -> Self {
-        Self { stress: Matrix::zeros(), inverse_stretch: Matrix::identity() }
+        Self { stress: zeros(), inverse_stretch: identity() }
     }
 }
 

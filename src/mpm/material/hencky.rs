@@ -13,7 +13,7 @@ use super::spectral::{assembled, half_log, spectral};
 use super::stress_update::StressUpdate;
 use super::stretch::SquaredStretch;
 use super::tangent::{StressResponse, isotropic_modulus};
-use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::algebra::{Matrix, identity, product};
 use crate::mpm::foundation::particles::Particles;
 
 /// Hencky elasticity.
@@ -31,7 +31,7 @@ impl Hencky {
     }
 
     fn cauchy<const D: usize>(&self, f: &Matrix<D>, j: f64) -> Matrix<D> {
-        let (squares, axes) = spectral(&(f * f.transpose()));
+        let (squares, axes) = spectral(&product(f, &f.transpose()));
         let strain = half_log(&squares);
         let pressure = self.lambda * strain.sum();
         assembled(&strain.map(|eps| (pressure + 2.0 * self.mu * eps) / j), &axes)
@@ -39,7 +39,7 @@ impl Hencky {
 
     /// Returns the energy density W (J/m^D).
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
-        let strain = half_log(&spectral(&(f * f.transpose())).0);
+        let strain = half_log(&spectral(&product(f, &f.transpose())).0);
         0.5 * self.lambda * strain.sum() * strain.sum() + self.mu * strain.norm_squared()
     }
 }
@@ -100,7 +100,7 @@ impl<const D: usize> Material<D> for Hencky {
 
     fn response(&self, _: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let modulus = isotropic_modulus(self.lambda, self.mu);
-        Some(StressResponse::new(f, &Matrix::identity(), |strain| (modulus * strain, modulus)))
+        Some(StressResponse::new(f, &identity(), |strain| (modulus * strain, modulus)))
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

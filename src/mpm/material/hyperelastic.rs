@@ -3,7 +3,7 @@
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::SquaredStretch;
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, pairs, zeros};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 
@@ -69,7 +69,7 @@ pub(super) fn set_stress_of_stretch<const D: usize>(
 /// Returns `pressure I + factor m`.
 #[inline(always)]
 pub(super) fn linear<const D: usize>(pressure: f64, factor: f64, m: &Matrix<D>) -> Matrix<D> {
-    let mut sum = Matrix::zeros();
+    let mut sum = zeros();
     for j in 0..D {
         for i in 0..D {
             sum[(i, j)] = if i == j { pressure } else { 0.0 } + factor * m[(i, j)];
@@ -91,11 +91,9 @@ fn by_batch<const D: usize>(
                 let results = vol.chunks_mut(BATCH).zip(sigma.chunks_mut(BATCH));
                 for ((def_grad, vol0), (vol, sigma)) in columns.zip(results) {
                     let mut j = F64Batch([1.0; BATCH]);
-                    for (j, f) in j.0.iter_mut().zip(def_grad) {
-                        *j = det(f);
-                    }
-                    for ((vol, vol0), j) in vol.iter_mut().zip(vol0).zip(&j.0) {
-                        *vol = j * vol0;
+                    pairs(&mut j.0, def_grad, |j, f| *j = det(f));
+                    for k in 0..vol.len() {
+                        vol[k] = j.get(k) * vol0[k];
                     }
                     set_stress(def_grad, &j, sigma);
                 }

@@ -49,6 +49,7 @@ impl YieldSurface for VonMises {
         YieldFunction { value: mises - self.yield_stress, size: mises + self.yield_stress }
     }
 
+    #[inline]
     fn return_from(&self, trial: &PrincipalStrain, flowed: f64) -> Option<(PrincipalStrain, f64)> {
         let mu = self.elasticity.mu;
         let mises = self.mises(trial.deviator.norm_squared());

@@ -12,7 +12,7 @@ use super::linear_elastic::LinearElastic;
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::turned_by_steps;
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{det, identity};
 use crate::mpm::foundation::simd::BATCH;
 
 /// Isotropic linear elasticity with the Jaumann rate.
@@ -66,7 +66,7 @@ impl<const D: usize> Material<D> for Jaumann {
                 let results = vol.iter_mut().zip(vol0).zip(sigma);
                 for (lane, (grad_v, ((vol, vol0), sigma))) in grad_v.iter().zip(results).enumerate()
                 {
-                    *vol *= det(&(Matrix::identity() + grad_v * dt));
+                    *vol *= det(&(identity() + grad_v * dt));
                     *sigma = linear(0.0, vol0 / *vol, &tau.get(lane));
                 }
             }
@@ -89,7 +89,7 @@ impl super::contract::ClosedForms for Jaumann {
         Some([(lambda + 2.0 * mu) * strain / stretch, lambda * strain / stretch])
     }
 
-    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
+    fn energy_density(&self, _: &crate::mpm::Matrix<3>) -> Option<f64> {
         None
     }
 

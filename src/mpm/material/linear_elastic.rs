@@ -17,7 +17,7 @@ use super::hyperelastic::linear;
 use super::plane_stress::RatePlaneStress;
 use super::spectral::MatrixBatch;
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det, inverse, product};
+use crate::mpm::foundation::algebra::{Matrix, det, identity, inverse, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::BATCH;
 use crate::subject::Failure;
@@ -41,8 +41,9 @@ impl LinearElastic {
         }
     }
 
+    #[inline]
     pub(super) fn increment<const D: usize>(&self, eps: &Matrix<D>) -> Matrix<D> {
-        Matrix::identity() * (self.lambda * eps.trace()) + eps * (2.0 * self.mu)
+        identity() * (self.lambda * eps.trace()) + eps * (2.0 * self.mu)
     }
 
     /// Returns the stress increments (Pa) of a batch of particles.
@@ -60,17 +61,19 @@ impl LinearElastic {
 
 /// Returns `eps e^eps - e^eps + 1`, the integral of `s e^s`. For small `eps` the terms would
 /// cancel, so a series is evaluated instead.
+#[inline]
 fn logarithmic_work(eps: f64) -> f64 {
     if eps.abs() > 0.05 {
         return eps * libm::exp(eps) - libm::expm1(eps);
     }
     // Terms of sum over n of (n - 1)/n! eps^n.
     let mut power = 1.0;
-    let terms = (1..=9).map(|n| {
+    let mut sum = 0.0;
+    for n in 1..=9 {
         power *= eps / f64::from(n);
-        power * f64::from(n - 1)
-    });
-    terms.sum()
+        sum += power * f64::from(n - 1);
+    }
+    sum
 }
 
 /// Maximum number of terms of the logarithm series, sufficient for stretches from 1/100 to 100.
@@ -80,8 +83,8 @@ const MOST_TERMS: u32 = 2000;
 /// does not converge: for stretches below 1/100 or above 100, and for rotations by 90 degrees.
 pub(super) fn logarithm<const D: usize>(f: &Matrix<D>) -> Matrix<D> {
     let nothing = Matrix::from_element(f64::NAN);
-    let Some(inverse) = inverse(&(f + Matrix::identity())) else { return nothing };
-    let z = product(&(f - Matrix::identity()), &inverse);
+    let Some(inverse) = inverse(&(f + identity())) else { return nothing };
+    let z = product(&(f - identity()), &inverse);
     let square = product(&z, &z);
     let (mut sum, mut power) = (z, z);
     for k in 1..MOST_TERMS {
@@ -162,7 +165,7 @@ impl<const D: usize> Material<D> for LinearElastic {
         body.by_block(|StressBlock { grad_v, vol, sigma, .. }| {
             for ((grad_v, vol), sigma) in grad_v.iter().zip(vol.iter_mut()).zip(sigma.iter_mut()) {
                 let step = grad_v * dt;
-                *vol *= det(&(Matrix::identity() + step));
+                *vol *= det(&(identity() + step));
                 *sigma += self.increment(&((step + step.transpose()) * 0.5));
             }
         });

@@ -10,7 +10,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{det, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
@@ -62,9 +62,9 @@ impl<const D: usize> Material<D> for LinearFluid {
         body.by_block(|StressBlock { grad_v, vol, vol0, sigma, .. }| {
             let volumes = vol.iter_mut().zip(vol0.iter());
             for ((grad_v, (vol, vol0)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
-                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                *vol *= det(&(identity() + grad_v * dt));
                 let dilation = *vol / vol0 - 1.0;
-                *sigma = Matrix::identity() * (self.bulk * dilation);
+                *sigma = identity() * (self.bulk * dilation);
             }
         });
     }
@@ -80,7 +80,7 @@ impl super::contract::ClosedForms for LinearFluid {
         Some([self.bulk * (stretch - 1.0); 2])
     }
 
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+    fn energy_density(&self, f: &crate::mpm::Matrix<3>) -> Option<f64> {
         let dilation = det(f) - 1.0;
         Some(0.5 * self.bulk * dilation * dilation)
     }

@@ -14,7 +14,7 @@ use super::hyperelastic::linear;
 use super::plastic_flow::{
     ElastoPlastic, LogElasticity, MARGIN, PrincipalStrain, YieldSurface, length_squared,
 };
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, product, zeros};
 use std::ops::{Div, Mul, Sub};
 
 /// Mohr-Coulomb elastoplasticity at finite strain, without hardening.
@@ -63,15 +63,17 @@ impl MohrCoulomb {
 
 impl Pyramid {
     /// Returns the yield function of a plane (Pa).
+    #[inline(always)]
     fn excess(&self, [high, low]: YieldPlane, stress: &Vector<3>) -> f64 {
         let sine = self.sines[0];
         (1.0 + sine) * stress[high] - (1.0 - sine) * stress[low] - self.strength
     }
 
     /// Returns the stress reduction per unit of flow on a plane (Pa).
+    #[inline(always)]
     fn relief(&self, [high, low]: YieldPlane) -> Vector<3> {
         let (LogElasticity { lambda, mu, .. }, sine) = (&self.elasticity, self.sines[1]);
-        let mut relief = Vector::<3>::from_element(2.0 * lambda * sine);
+        let mut relief = Vector::from([2.0 * lambda * sine; 3]);
         relief[high] += 2.0 * mu * (1.0 + sine);
         relief[low] -= 2.0 * mu * (1.0 - sine);
         relief
@@ -79,11 +81,13 @@ impl Pyramid {
 
     /// Returns the reduction of the yield function of one `plane` per unit of flow on another
     /// plane, the argument `of` (Pa).
+    #[inline(always)]
     fn slope(&self, plane: YieldPlane, of: YieldPlane) -> f64 {
         self.excess(plane, &self.relief(of)) + self.strength
     }
 
     /// Returns the stress after a return to the plane (Pa).
+    #[inline]
     fn on_plane(&self, plane: YieldPlane, trial: &Vector<3>) -> Vector<3> {
         let flow = self.excess(plane, trial) / self.slope(plane, plane);
         trial - self.relief(plane) * flow
@@ -154,7 +158,7 @@ impl Pyramid {
     /// strains.
     fn excess_slope(&self, [high, low]: YieldPlane) -> Vector<3> {
         let sine = self.sines[0];
-        let mut normal = Vector::<3>::zeros();
+        let mut normal = zeros();
         normal[high] += 1.0 + sine;
         normal[low] -= 1.0 - sine;
         self.elasticity.modulus() * normal
@@ -183,6 +187,7 @@ impl YieldSurface for Pyramid {
         }
     }
 
+    #[inline]
     fn return_from(&self, trial: &PrincipalStrain, _: f64) -> Option<(PrincipalStrain, f64)> {
         let LogElasticity { bulk, mu, .. } = self.elasticity;
         let (stress, order) = self.outside(trial)?;
@@ -245,7 +250,7 @@ impl YieldSurface for Pyramid {
                 let [flow_a, flow_b] = self.flows([a, b], slopes);
                 elastic - dyad(&self.relief(a), &flow_a) - dyad(&self.relief(b), &flow_b)
             }
-            Landing::Apex => Matrix::zeros(),
+            Landing::Apex => zeros(),
         })
     }
 

@@ -9,7 +9,7 @@ use super::linear_elastic::LinearElastic;
 use super::plane_stress::{FreeAcross, PlaneStress, thinning};
 use super::stress_update::StressUpdate;
 use super::tangent::{StressResponse, isotropic_modulus};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, identity, zeros};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
@@ -41,7 +41,7 @@ impl NeoHookean {
     /// computation uses `H = F - I` to avoid cancellation: for small strains, F : F - D and 2 ln J
     /// are nearly equal.
     fn density<const D: usize>(&self, f: &Matrix<D>) -> f64 {
-        let h = f - Matrix::identity();
+        let h = f - identity();
         let log = log_det(&h);
         0.5 * self.lambda * log * log + self.mu * (h.trace() - log + 0.5 * h.norm_squared())
     }
@@ -50,7 +50,7 @@ impl NeoHookean {
 /// Returns `pressure I + shear F F^T`.
 #[inline(always)]
 fn isotropic<const D: usize>(f: &Matrix<D>, [pressure, shear]: [f64; 2]) -> Matrix<D> {
-    let mut sigma = Matrix::zeros();
+    let mut sigma = zeros();
     for j in 0..D {
         for i in 0..D {
             let square = (1..D).fold(f[(i, 0)] * f[(j, 0)], |sum, k| sum + f[(i, k)] * f[(j, k)]);
@@ -95,7 +95,7 @@ impl FreeAcross for NeoHookean {
     }
 
     fn density<const D: usize>(&self, f: &Matrix<D>, across: f64) -> f64 {
-        let (h, thicker) = (f - Matrix::identity(), across - 1.0);
+        let (h, thicker) = (f - identity(), across - 1.0);
         let log = log_det(&h) + libm::log1p(thicker);
         let squares = h.norm_squared() + thicker * thicker;
         0.5 * self.lambda * log * log + self.mu * (h.trace() + thicker - log + 0.5 * squares)
@@ -142,7 +142,7 @@ impl<const D: usize> Material<D> for NeoHookean {
             let modulus = isotropic_modulus(lambda, 0.0);
             (stress, modulus + Matrix::<3>::from_diagonal(&(squares * (2.0 * mu))))
         };
-        Some(StressResponse::new(f, &Matrix::identity(), principal))
+        Some(StressResponse::new(f, &identity(), principal))
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

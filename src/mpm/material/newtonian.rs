@@ -10,7 +10,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{det, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
@@ -27,6 +27,7 @@ impl Newtonian {
         Self { bulk, viscosity }
     }
 
+    #[inline]
     fn pressure(&self, j: f64) -> f64 {
         let cube = 1.0 / (j * j * j);
         self.bulk / 7.0 * (cube * cube / j - 1.0)
@@ -85,11 +86,11 @@ impl<const D: usize> Material<D> for Newtonian {
         body.by_block(|StressBlock { grad_v, vol, vol0, sigma, .. }| {
             let volumes = vol.iter_mut().zip(vol0.iter());
             for ((grad_v, (vol, vol0)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
-                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                *vol *= det(&(identity() + grad_v * dt));
                 let pressure = self.pressure(*vol / vol0);
                 let isotropic = -pressure - 2.0 / 3.0 * self.viscosity * grad_v.trace();
                 let shear = (grad_v + grad_v.transpose()) * self.viscosity;
-                *sigma = Matrix::identity() * isotropic + shear;
+                *sigma = identity() * isotropic + shear;
             }
         });
     }
@@ -106,7 +107,7 @@ impl super::contract::ClosedForms for Newtonian {
         Some([-pressure; 2])
     }
 
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
+    fn energy_density(&self, f: &crate::mpm::Matrix<3>) -> Option<f64> {
         let j = det(f);
         Some(self.bulk / 7.0 * (libm::pow(j, -6.0) / 6.0 + j))
     }
@@ -116,7 +117,7 @@ impl super::contract::ClosedForms for Newtonian {
 mod tests {
     use super::super::MaterialPlan;
     use super::super::specimen::{FAST, Specimen};
-    use super::*;
+    use crate::mpm::Matrix;
     use approx::assert_abs_diff_eq;
 
     #[test]

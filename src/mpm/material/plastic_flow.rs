@@ -24,7 +24,9 @@ use super::spectral::{
 use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, excess};
 use super::tangent::{StressResponse, isotropic_modulus};
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_space, inverse, product};
+use crate::mpm::foundation::algebra::{
+    Matrix, Vector, det, dyad, identity, in_space, inverse, product,
+};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
 use crate::subject::{Checkpoint, Column, Entry, Failure, Memory, Site};
@@ -76,12 +78,14 @@ pub struct PrincipalStrain {
 }
 
 impl PrincipalStrain {
+    #[inline]
     pub(super) fn new(values: &Vector<3>) -> Self {
-        let mean = values.sum() / 3.0;
-        Self { mean, deviator: values.add_scalar(-mean) }
+        let mean = (values[0] + values[1] + values[2]) / 3.0;
+        Self { mean, deviator: Vector::from_fn(|i, _| values[i] - mean) }
     }
 
     /// Returns the equivalent strain `sqrt(2/3) |a - b|` of the difference of two strains.
+    #[inline]
     pub(super) fn distance(&self, other: &Self) -> f64 {
         let mean = self.mean - other.mean;
         let deviator = self.deviator - other.deviator;
@@ -101,8 +105,7 @@ pub(super) fn modulus_of_invariants(
 ) -> Matrix<3> {
     let size = strain.deviator.norm();
     let direction = strain.deviator / size;
-    let turn =
-        Matrix::<3>::identity() - Matrix::from_element(1.0 / 3.0) - dyad(&direction, &direction);
+    let turn = identity() - Matrix::from_element(1.0 / 3.0) - dyad(&direction, &direction);
     let one = Vector::from_element(1.0);
     dyad(&one, mean_slope) + dyad(&direction, length_slope) + turn * (length / size)
 }
@@ -207,7 +210,8 @@ impl<S: YieldSurface> ElastoPlastic<S> {
         let squares = elastic.deviator.map(|eps| libm::exp(2.0 * (elastic.mean + eps)));
         // If F has no inverse, the solver detects the invalid volume and the run fails.
         let back = inverse(f).unwrap_or(*f);
-        let inverse_metric = back * assembled(&squares, axes) * back.transpose();
+        let metric_in_axes = product(&back, &assembled(&squares, axes));
+        let inverse_metric = product(&metric_in_axes, &back.transpose());
         (stress(&elastic), Flowed { inverse_metric, strain: before.strain + flow })
     }
 
@@ -337,7 +341,9 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         let density = |p: usize, f: &Matrix<D>| {
             let before = self.flowed.get(p).unwrap_or(&Flowed::NOT);
             let f = in_space(f, 1.0);
-            let strain = half_log(&spectral(&(f * before.inverse_metric * f.transpose())).0);
+            let strain = half_log(
+                &spectral(&product(&product(&f, &before.inverse_metric), &f.transpose())).0,
+            );
             self.surface.elasticity().energy(&strain)
         };
         let all = particles.def_grad.iter().zip(&particles.vol0).enumerate();

@@ -10,7 +10,7 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::{StressBlock, StressUpdate};
-use crate::mpm::foundation::algebra::{Matrix, det};
+use crate::mpm::foundation::algebra::{Matrix, det, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::Failure;
 
@@ -79,7 +79,7 @@ impl<const D: usize> Material<D> for Polytropic {
         body.by_block(|StressBlock { grad_v, mass, vol, sigma, .. }| {
             let volumes = vol.iter_mut().zip(mass.iter());
             for ((grad_v, (vol, mass)), sigma) in grad_v.iter().zip(volumes).zip(sigma.iter_mut()) {
-                *vol *= det(&(Matrix::identity() + grad_v * dt));
+                *vol *= det(&(identity() + grad_v * dt));
                 *sigma = Matrix::from_diagonal_element(-self.pressure(mass / *vol));
             }
         });

@@ -9,7 +9,7 @@
 use super::contract::Material;
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
-use crate::mpm::foundation::algebra::{Matrix, in_body, in_space};
+use crate::mpm::foundation::algebra::{Matrix, identity, in_body, in_space, product};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
@@ -41,7 +41,7 @@ impl<const D: usize> Prestressed<D> {
         let Particles { sigma, def_grad, vol, vol0, .. } = particles;
         let states = def_grad.iter().zip(vol.iter().zip(vol0.iter()));
         for ((sigma, s0), (f, (vol, vol0))) in sigma.iter_mut().zip(&self.stress).zip(states) {
-            *sigma += f * s0 * f.transpose() * (vol0 / vol);
+            *sigma += product(&product(f, s0), &f.transpose()) * (vol0 / vol);
         }
     }
 }
@@ -75,8 +75,8 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         }
         let stored = |((f, s0), vol0): ((&Matrix<D>, &Matrix<D>), &f64)| {
             // E is computed from H = F - I to avoid cancellation for small strains.
-            let h = f - Matrix::identity();
-            vol0 * 0.5 * s0.dot(&(h + h.transpose() + h.transpose() * h))
+            let h = f - identity();
+            vol0 * 0.5 * s0.dot(&(h + h.transpose() + product(&h.transpose(), &h)))
         };
         let all = particles.def_grad.iter().zip(&self.stress).zip(&particles.vol0);
         Some(self.law.energy(particles)? + all.map(stored).sum::<f64>())
@@ -91,7 +91,9 @@ impl<const D: usize> Material<D> for Prestressed<D> {
     fn response(&self, p: usize, f: &Matrix<3>) -> Option<StressResponse> {
         let response = self.law.response(p, f)?;
         Some(match self.stress.get(p) {
-            Some(s0) => response.with_initial(f * in_space(s0, 0.0) * f.transpose()),
+            Some(s0) => {
+                response.with_initial(product(&product(f, &in_space(s0, 0.0)), &f.transpose()))
+            }
             None => response,
         })
     }

@@ -10,7 +10,7 @@
 //! without branches, so the compiler vectorises the loops. A test checks that both versions give
 //! identical bits.
 
-use crate::mpm::foundation::algebra::{Matrix, Vector, product};
+use crate::mpm::foundation::algebra::{Matrix, Vector, identity, product, zeros};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, ln};
 
 /// Maximum number of sweeps. Each sweep squares the off-diagonal entries, so a few sweeps suffice.
@@ -20,7 +20,7 @@ const MOST_SWEEPS: usize = 12;
 /// Computes the eigenvalues of the symmetric matrix `m` and its axes as columns:
 /// `m = A diag(values) A^T`.
 pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) {
-    let (mut m, mut axes) = (*m, Matrix::identity());
+    let (mut m, mut axes) = (*m, identity());
     for _ in 0..MOST_SWEEPS {
         let mut turned = false;
         for p in 0..D {
@@ -37,7 +37,10 @@ pub(super) fn spectral<const D: usize>(m: &Matrix<D>) -> (Vector<D>, Matrix<D>) 
 
 /// Returns the symmetric matrix with these eigenvalues and axes.
 pub(super) fn assembled<const D: usize>(values: &Vector<D>, axes: &Matrix<D>) -> Matrix<D> {
-    axes * Matrix::from_diagonal(values) * axes.transpose()
+    Matrix::from_fn(|i, j| {
+        let along = |k: usize| axes[(i, k)] * values[k] * axes[(j, k)];
+        (1..D).fold(along(0), |sum, k| sum + along(k))
+    })
 }
 
 /// Returns half the logarithm of each eigenvalue. For eigenvalues of F F^T this is the logarithmic
@@ -57,13 +60,13 @@ fn rotate<const D: usize>(m: &mut Matrix<D>, axes: &mut Matrix<D>, p: usize, q: 
     let tangent =
         libm::copysign(1.0, cotangent) / (cotangent.abs() + (1.0 + cotangent * cotangent).sqrt());
     let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-    let mut turn = Matrix::<D>::identity();
+    let mut turn = identity::<D>();
     turn[(p, p)] = cosine;
     turn[(q, q)] = cosine;
     turn[(p, q)] = tangent * cosine;
     turn[(q, p)] = -tangent * cosine;
-    *m = turn.transpose() * *m * turn;
-    *axes *= turn;
+    *m = product(&product(&turn.transpose(), m), &turn);
+    *axes = product(axes, &turn);
     // The diagonal entries are computed again, because the product above suffers from cancellation.
     m[(p, p)] = low - tangent * coupling;
     m[(q, q)] = high + tangent * coupling;
@@ -103,7 +106,7 @@ impl<const D: usize> MatrixBatch<D> {
     /// Returns the leading block of the matrix of a lane.
     #[inline(always)]
     pub(in crate::mpm::material) fn get<const C: usize>(&self, lane: usize) -> Matrix<C> {
-        let mut m = Matrix::zeros();
+        let mut m = zeros();
         for j in 0..C {
             for i in 0..C {
                 m[(i, j)] = self.0[i][j].get(lane);
@@ -165,7 +168,7 @@ pub(in crate::mpm::material) struct VectorBatch<const D: usize>(
 impl<const D: usize> VectorBatch<D> {
     #[inline(always)]
     pub(in crate::mpm::material) fn get(&self, lane: usize) -> Vector<D> {
-        let mut vector = Vector::zeros();
+        let mut vector = zeros();
         for i in 0..D {
             vector[i] = self.0[i].get(lane);
         }

@@ -5,7 +5,7 @@
 //! blocks    128 particles, whose columns fit into the L1 cache:  F  ->  law  ->  checks
 //! ```
 
-use crate::mpm::foundation::algebra::{Matrix, product};
+use crate::mpm::foundation::algebra::{Matrix, product, zeros};
 use crate::mpm::foundation::finite_check::all_finite;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::vectorized;
@@ -179,7 +179,7 @@ fn strain_by<const D: usize>(dt: f64, grad_v: &[Matrix<D>], def_grad: &mut [Matr
         #[inline(always)]
         || {
             for (f, grad_v) in def_grad.iter_mut().zip(grad_v) {
-                let mut step = Matrix::zeros();
+                let mut step = zeros();
                 for j in 0..D {
                     for i in 0..D {
                         let unit = if i == j { 1.0 } else { 0.0 };
@@ -214,10 +214,17 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
             }
         },
     );
-    let rest = rest_a.iter().zip(rest_b).map(|(a, b)| a / b);
-    let sound = rest.clone().fold(sound.iter().sum(), |sound: f64, ratio| sound + ratio * 0.0);
-    let least = least.into_iter().chain(rest).fold(f64::INFINITY, f64::min);
-    (least > 0.0 && sound.is_finite()).then_some(least)
+    let (mut all_sound, mut least_of_all) = (0.0, f64::INFINITY);
+    for k in 0..TOGETHER {
+        all_sound += sound[k];
+        least_of_all = least_of_all.min(least[k]);
+    }
+    for k in 0..rest_a.len() {
+        let ratio = rest_a[k] / rest_b[k];
+        all_sound += ratio * 0.0;
+        least_of_all = least_of_all.min(ratio);
+    }
+    (least_of_all > 0.0 && all_sound.is_finite()).then_some(least_of_all)
 }
 
 #[cfg(test)]

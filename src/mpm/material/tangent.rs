@@ -15,7 +15,7 @@
 //! limit `(d tau_A / d eps_A - d tau_A / d eps_B)/(2 b_A)`.
 
 use super::spectral::{assembled, half_log, spectral};
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector, product, times, zeros};
 
 /// Relative difference of two principal values below which the limit replaces the quotient. The
 /// error of the limit is the square of this difference. The relative rounding error of the quotient
@@ -49,10 +49,10 @@ impl StressResponse {
         metric: &Matrix<3>,
         principal: impl FnOnce(&Vector<3>) -> (Vector<3>, Matrix<3>),
     ) -> Self {
-        let (squares, axes) = spectral(&(f * metric * f.transpose()));
+        let (squares, axes) = spectral(&product(&product(f, metric), &f.transpose()));
         let (stresses, modulus) = principal(&half_log(&squares));
         let kirchhoff = assembled(&stresses, &axes);
-        Self { kirchhoff, initial: Matrix::zeros(), squares, axes, stresses, modulus }
+        Self { kirchhoff, initial: zeros(), squares, axes, stresses, modulus }
     }
 
     /// Adds the stress `initial = F S0 F^T` (Pa). A change `dF = dh F` changes this stress by
@@ -64,8 +64,8 @@ impl StressResponse {
     /// Returns the change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the
     /// deformation gradient.
     pub fn tangent(&self, dh: &Matrix<3>) -> Matrix<3> {
-        let in_axes = self.axes.transpose() * dh * self.axes;
-        let along = self.modulus * in_axes.diagonal();
+        let in_axes = product(&product(&self.axes.transpose(), dh), &self.axes);
+        let along = times(&self.modulus, &in_axes.diagonal());
         let change = Matrix::<3>::from_fn(|a, b| {
             if a == b {
                 return along[a];
@@ -73,8 +73,10 @@ impl StressResponse {
             let shear = in_axes[(a, b)] * self.squares[b] + self.squares[a] * in_axes[(b, a)];
             self.slope(a, b) * shear
         });
-        let initial = dh * self.initial;
-        self.axes * change * self.axes.transpose() + initial + initial.transpose()
+        let initial = product(dh, &self.initial);
+        product(&product(&self.axes, &change), &self.axes.transpose())
+            + initial
+            + initial.transpose()
     }
 
     /// Returns `(tau_a - tau_b)/(b_a - b_b)` (Pa), or its limit for nearly equal values.

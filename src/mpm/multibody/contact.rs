@@ -18,7 +18,7 @@
 
 use super::coupling::{Coupling, InterfaceNodes};
 use crate::mpm::boundary::ContactState;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::scheme::SchemeName;
 use crate::mpm::step::schedule::CouplingPoint;
@@ -41,7 +41,7 @@ pub(in crate::mpm) struct Contact<const D: usize> {
 
 impl<const D: usize> Contact<D> {
     pub(in crate::mpm) fn new(bodies: &[Solver<D>], friction: f64) -> Self {
-        let column = |body: &Solver<D>| vec![Vector::zeros(); body.grid().nodes()];
+        let column = |body: &Solver<D>| vec![zeros(); body.grid().nodes()];
         let strained_first = |body: &&Solver<D>| body.setup.scheme == SchemeName::Usf;
         let pairs: Vec<[usize; 2]> =
             (1..bodies.len()).flat_map(|b| (0..b).map(move |a| [a, b])).collect();
@@ -88,7 +88,7 @@ impl<const D: usize> Contact<D> {
     fn law(&self, relative: &Vector<D>, normal: &Vector<D>) -> (ContactState, Vector<D>) {
         let approach = relative.dot(normal);
         if !(approach > 0.0) {
-            return (ContactState::Separated, Vector::zeros());
+            return (ContactState::Separated, zeros());
         }
         let along = relative - normal * approach;
         let (speed, most) = (along.norm(), self.friction * approach);

@@ -1,7 +1,7 @@
 //! Couplings of bodies at their interface: the trait, the nodes to which more than one body
 //! contributes mass, and the coupling by one velocity field.
 
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::step::schedule::CouplingPoint;
 use crate::mpm::step::solver::Solver;
@@ -65,7 +65,7 @@ impl SharedVelocity {
         field: fn(&mut Grid<D>) -> &mut [Vector<D>],
     ) {
         for &i in self.0.nodes() {
-            let (mut mass, mut sum) = (0.0, Vector::zeros());
+            let (mut mass, mut sum) = (0.0, zeros());
             for body in bodies.iter_mut() {
                 let grid = &mut body.setup.grid;
                 mass += grid.mass[i];

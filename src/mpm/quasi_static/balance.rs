@@ -26,7 +26,9 @@
 
 use super::banded::BandedSystem;
 use crate::mpm::boundary::Boundary;
-use crate::mpm::foundation::algebra::{Matrix, Vector, det, dyad, in_body, in_space, inverse};
+use crate::mpm::foundation::algebra::{
+    Matrix, Vector, det, dyad, identity, in_body, in_space, inverse, product, times, zeros,
+};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
@@ -154,7 +156,7 @@ impl<const D: usize> StepEquations<D> {
     /// Returns `I + grad u` at particle `p` in 3-D. The hoop component of a body of revolution is
     /// `r'/r`.
     pub(super) fn stretch(&self, p: usize, increment: &[Vector<D>]) -> Matrix<3> {
-        let (mut stretch, mut hoop) = (Matrix::<D>::identity(), 0.0);
+        let (mut stretch, mut hoop) = (identity(), 0.0);
         for function in self.functions_of(p) {
             stretch += dyad(&increment[function.node], &function.gradient);
             hoop += increment[function.node][0] * function.hoop;
@@ -197,7 +199,7 @@ impl<const D: usize> StepEquations<D> {
     ) {
         let states = particles.def_grad.iter().zip(&particles.vol0);
         for (p, (s0, (f, vol0))) in stress.iter().zip(states).enumerate() {
-            let flux = s0 * f.transpose() * (share * vol0);
+            let flux = product(s0, &f.transpose()) * (share * vol0);
             for function in self.functions_of(p) {
                 load[function.node] += flux * function.gradient;
             }
@@ -232,11 +234,11 @@ impl<const D: usize> StepEquations<D> {
             if !response.kirchhoff.iter().all(|stress| stress.is_finite()) {
                 return Err(Failure::NonFinite { quantity: "stress", site });
             }
-            let flux = response.kirchhoff * inverse.transpose() * *vol0;
+            let flux = product(&response.kirchhoff, &inverse.transpose()) * *vol0;
             let (in_plane, hoop_flux) = (in_body::<D>(&flux), flux[(2, 2)]);
             for function in self.functions_of(p) {
                 let force = &mut residual[function.node];
-                *force += in_plane * function.gradient;
+                *force += times(&in_plane, &function.gradient);
                 force[0] += hoop_flux * function.hoop;
             }
             responses.push(response);
@@ -271,19 +273,19 @@ impl<const D: usize> StepEquations<D> {
         let functions = self.functions_of(p);
         let (push_in_plane, push_hoop) = (in_body::<D>(push), push[(2, 2)]);
         let pushed = |function: &NodeFunction<D>| {
-            (push_in_plane * function.gradient, push_hoop * function.hoop)
+            (times(&push_in_plane, &function.gradient), push_hoop * function.hoop)
         };
         let pushed: Vec<(Vector<D>, f64)> = functions.iter().map(pushed).collect();
         // Change of the stress due to a component of the displacement gradient.
         let change_by = |b: usize, d: usize| {
-            let mut direction = Matrix::<3>::zeros();
+            let mut direction = zeros();
             direction[(b, d)] = 1.0;
             response.tangent(&direction)
         };
         let changes: [[Matrix<3>; D]; D] = array::from_fn(|b| array::from_fn(|d| change_by(b, d)));
         let change_by_hoop = change_by(2, 2);
         for (j, (of_j, hoop_j)) in functions.iter().zip(&pushed) {
-            let pull = tau * of_j;
+            let pull = times(&tau, of_j);
             for b in 0..D {
                 let Some(column) = self.unknowns[j.node][b] else { continue };
                 let hoop_j = if b == 0 { *hoop_j } else { 0.0 };
@@ -292,7 +294,7 @@ impl<const D: usize> StepEquations<D> {
                 let in_plane = in_body::<D>(&change);
                 let change_hoop = change[(2, 2)] - tau_hoop * hoop_j;
                 for (i, (of_i, hoop_i)) in functions.iter().zip(&pushed) {
-                    let mut force = (in_plane * of_i - pull * of_i[b]) * vol0;
+                    let mut force = (times(&in_plane, of_i) - pull * of_i[b]) * vol0;
                     force[0] += change_hoop * hoop_i * vol0;
                     for a in 0..D {
                         if let Some(row) = self.unknowns[i.node][a] {

@@ -25,11 +25,13 @@ impl BandedSystem {
         rows.saturating_mul(3 * band + 1)
     }
 
+    #[inline]
     fn place(&self, i: usize, j: usize) -> usize {
         i * (3 * self.band + 1) + (j + self.band - i)
     }
 
     /// Adds `value` to the entry in row `i` and column `j`, which must be within the band.
+    #[inline]
     pub(super) fn add(&mut self, i: usize, j: usize, value: f64) {
         let place = self.place(i, j);
         self.entries[place] += value;

@@ -28,7 +28,7 @@ mod newton;
 use super::basis::Domain;
 use super::boundary::{Boundary, Side};
 use super::effect::Effect;
-use super::foundation::algebra::{Matrix, Vector, in_body};
+use super::foundation::algebra::{Matrix, Vector, identity, in_body, zeros};
 use super::foundation::grid::Grid;
 use super::foundation::particles::Particles;
 use super::kernel::contract::{Kernel, Tally};
@@ -87,12 +87,12 @@ impl<const D: usize> QuasiStatic<D> {
         let QuasiStaticSetup { grid, particles, kernel, material, .. } = &mut setup;
         particles.track_deformation();
         let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
-        if material.response(0, &Matrix::identity()).is_none() {
+        if material.response(0, &identity()).is_none() {
             return Err(Failure::Solve(NO_TANGENT.to_owned()));
         }
         let cell_tracker = CellTracker::new(grid, particles)?;
         let (advanced, transfers, residuals) = (0.0, 0, Vec::new());
-        let is_stressed = particles.sigma.iter().any(|stress| *stress != Matrix::<D>::zeros());
+        let is_stressed = particles.sigma.iter().any(|stress| *stress != zeros::<D, D>());
         let initial_stress = if is_stressed { particles.sigma.clone() } else { Vec::new() };
         Ok(Self { setup, advanced, transfers, min_j, cell_tracker, residuals, initial_stress })
     }
@@ -134,7 +134,7 @@ impl<const D: usize> QuasiStatic<D> {
     /// Computes the external nodal forces of the full load (N) and stores them in the grid.
     fn load(&mut self) {
         let QuasiStaticSetup { grid, particles, kernel, effects, .. } = &mut self.setup;
-        grid.force.fill(Vector::zeros());
+        grid.force.fill(zeros());
         kernel.p2g_mass(particles, grid);
         for effect in effects {
             self.transfers += effect.add_force(0.0, particles, kernel.as_ref(), grid);

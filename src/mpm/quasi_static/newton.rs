@@ -9,7 +9,7 @@
 //! halved.
 
 use super::balance::{Iterate, StepEquations};
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::Failure;
@@ -63,7 +63,7 @@ impl<const D: usize> LoadStep<'_, D> {
             let message = "no load acts on a node that is free to move".to_owned();
             return Err(Failure::Solve(message));
         }
-        let mut now = self.iterate(vec![Vector::zeros(); self.load.len()])?;
+        let mut now = self.iterate(vec![zeros(); self.load.len()])?;
         residuals.push(now.norm / scale);
         let (mut best, mut waited, mut searches) = (now.increment.clone(), 0, false);
         let mut best_norm = f64::INFINITY;

@@ -1,13 +1,12 @@
 //! The cell of each particle, and counters of crossings and of particles that leave the grid.
 
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, array};
 use crate::mpm::foundation::finite_check::is_finite;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::mpm::foundation::threads::{FEW, join};
 use crate::subject::{Checkpoint, Column, Failure, Memory, RunCounters, Site};
-use std::array;
 
 /// Cells of all particles, with counters of crossings and departures.
 #[derive(Debug)]
@@ -126,10 +125,10 @@ impl<const D: usize> Memory for CellTracker<D> {
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
     let mut stay = true;
-    for (cell, x) in cells.iter().zip(x) {
+    for p in 0..cells.len() {
         for axis in 0..D {
-            let s = grid.local(x, axis);
-            stay &= (s >= cell[axis]) & (s < cell[axis] + 1.0);
+            let (s, cell) = (grid.local(&x[p], axis), cells[p][axis]);
+            stay &= (s >= cell) & (s < cell + 1.0);
         }
     }
     stay
@@ -157,7 +156,7 @@ fn enter_each<const D: usize>(
 /// Returns the cell that contains `x`, if any. The cell is not wrapped on periodic axes.
 fn cell<const D: usize>(grid: &Grid<D>, x: &Vector<D>) -> Option<[f64; D]> {
     let inside = grid.cell(x)?;
-    Some(array::from_fn(|axis| {
+    Some(array(0.0, |axis| {
         let beyond = grid.periodic[axis].then(|| libm::floor(grid.local(x, axis)));
         beyond.unwrap_or(inside[axis] as f64)
     }))

@@ -7,7 +7,7 @@
 
 use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
-use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
+use crate::mpm::foundation::algebra::{Matrix, Vector, dyad, zeros};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Reaction, Samples, Totals};
 
@@ -17,11 +17,12 @@ impl<const D: usize> Particles<D> {
     /// transfer has such a field (Jiang et al. 2015).
     pub fn totals(&self, own: impl Fn(usize) -> Option<Matrix<D>>) -> Totals {
         let mut totals = Totals::default();
-        for (p, (m, v)) in self.mass.iter().zip(&self.v).enumerate() {
-            let spin = axial(&self.moment(p, own(p))).map(|component| m * component);
-            let v = std::array::from_fn(|i| if i < D { v[i] } else { 0.0 });
-            totals.add(*m, v, spin);
-            totals.add_second_moments(*m, self.position(p).as_slice(), self.x0[p].as_slice());
+        // Bodies at rest have no column of velocities.
+        for p in 0..self.v.len() {
+            let (m, mut v, axial) = (self.mass[p], [0.0; 3], axial(&self.moment(p, own(p))));
+            v[..D].copy_from_slice(self.v[p].as_slice());
+            totals.add(m, v, [m * axial[0], m * axial[1], m * axial[2]]);
+            totals.add_second_moments(m, self.position(p).as_slice(), self.x0[p].as_slice());
         }
         totals
     }
@@ -29,7 +30,7 @@ impl<const D: usize> Particles<D> {
     /// Returns a matrix whose axial vector is the angular momentum of particle p per unit mass:
     /// `v x^T` for the motion of its centre, plus the moment `own` about the centre.
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
-        dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(Matrix::zeros)
+        dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(zeros)
     }
 }
 
@@ -45,10 +46,12 @@ impl<const D: usize> Particles<D> {
     pub(in crate::mpm) fn sample(&self, samples: &mut Samples) {
         samples.dimension = D;
         for (p, x0) in self.x0.iter().enumerate() {
-            samples.label.extend(x0.iter());
-            samples.displacement.extend((self.position(p) - x0).iter());
+            samples.label.extend_from_slice(x0.as_slice());
+            samples.displacement.extend_from_slice((self.position(p) - x0).as_slice());
         }
-        samples.velocity.extend(self.v.iter().flat_map(|v| v.iter()));
+        for v in &self.v {
+            samples.velocity.extend_from_slice(v.as_slice());
+        }
         samples.weight.extend(&self.vol0);
         samples.mass.extend(&self.mass);
         samples.temperature.extend(&self.temperature);
@@ -58,7 +61,9 @@ impl<const D: usize> Particles<D> {
         ] {
             for matrix in column {
                 for i in 0..D {
-                    into.extend((0..D).map(|j| matrix[(i, j)]));
+                    for j in 0..D {
+                        into.push(matrix[(i, j)]);
+                    }
                 }
             }
         }
@@ -88,7 +93,7 @@ pub(in crate::mpm) fn wall_reaction<const D: usize>(
         }
     }
     let differences = unheld.iter().zip(force).map(|(unheld, force)| unheld - force);
-    let sum = differences.fold(Vector::<D>::zeros(), |sum, each| sum + each);
+    let sum = differences.fold(zeros(), |sum, each| sum + each);
     let mut reaction = [0.0; 3];
     reaction[..D].copy_from_slice(sum.as_slice());
     reaction

@@ -158,6 +158,7 @@ fn round_matrices<const D: usize>(column: &mut [Matrix<D>]) {
     }
 }
 
+#[inline]
 fn round(numbers: &mut [f64]) {
     for number in numbers {
         *number = f64::from(*number as f32);

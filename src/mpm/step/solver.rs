@@ -8,7 +8,7 @@ use super::volume_average::{PASSES, VolumeAverage, VolumeName};
 use crate::mpm::basis::Domain;
 use crate::mpm::boundary::Advance;
 use crate::mpm::effect::strain;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::{FrameName, Particles};
 use crate::mpm::foundation::simd::vectorized;
@@ -85,7 +85,7 @@ impl<const D: usize> Solver<D> {
             transfers: 0,
             min_j,
             cell_tracker,
-            advected: vec![Vector::zeros(); setup.particles.len()],
+            advected: vec![zeros(); setup.particles.len()],
             volume_average,
             setup,
         })

@@ -13,7 +13,7 @@ use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::{Setup, fields};
 use super::solver::Solver;
 use crate::mpm::boundary::{Advance, Side};
-use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::algebra::{Matrix, Vector, pairs};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Affine, G2pRequest};
 use crate::mpm::transfer::{Transfer, kick};
@@ -295,28 +295,40 @@ impl<const D: usize> Perturbable for Solver<D> {
     fn state(&self, state: &mut Vec<f64>) {
         let particles = &self.setup.particles;
         state.clear();
-        state.extend(particles.v.iter().flatten());
-        state.extend(matrices(particles).flatten());
+        for v in &particles.v {
+            state.extend_from_slice(v.as_slice());
+        }
+        for matrix in matrices(particles) {
+            state.extend_from_slice(matrix.as_slice());
+        }
         state.extend(&particles.vol);
         state.extend(particles.across.iter().chain(&particles.stress_across));
-        state.extend(affine(self).into_iter().flat_map(Affine::state).flatten());
+        let affine = affine(self).map_or(&[][..], Affine::state);
+        for matrix in affine {
+            state.extend_from_slice(matrix.as_slice());
+        }
     }
 
     fn set_state(&mut self, state: &[f64]) {
         let Particles { v, sigma, def_grad, vol, across, stress_across, .. } =
             &mut self.setup.particles;
         let affine_state = affine_state_mut(self.setup.transfer.as_mut());
-        let numbers = v
-            .iter_mut()
-            .flatten()
-            .chain(sigma.iter_mut().flatten())
-            .chain(def_grad.iter_mut().flatten())
-            .chain(vol.iter_mut())
-            .chain(across.iter_mut())
-            .chain(stress_across.iter_mut())
-            .chain(affine_state.iter_mut().flatten());
-        for (number, value) in numbers.zip(state) {
-            *number = *value;
+        let mut rest = state;
+        let mut set = |numbers: &mut [f64]| {
+            pairs(numbers, rest, |number, value| *number = *value);
+            rest = &rest[numbers.len().min(rest.len())..];
+        };
+        for v in v {
+            set(v.as_mut_slice());
+        }
+        for matrix in sigma.iter_mut().chain(def_grad) {
+            set(matrix.as_mut_slice());
+        }
+        for column in [vol, across, stress_across] {
+            set(column);
+        }
+        for matrix in affine_state {
+            set(matrix.as_mut_slice());
         }
     }
 

@@ -18,7 +18,7 @@
 //! A law that stores only J receives Jbar as its volume. With averaged ratios, the internal force
 //! is not the derivative of a stored energy.
 
-use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::algebra::{Matrix, Vector, det, identity, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Kernel, ParticleField};
@@ -68,10 +68,10 @@ impl<const D: usize> VolumeAverage<D> {
         }
         let total = particles.len();
         Ok(Self {
-            ratio: vec![Vector::zeros(); total],
-            nodal_ratio: vec![Vector::zeros(); grid.nodes()],
+            ratio: vec![zeros(); total],
+            nodal_ratio: vec![zeros(); grid.nodes()],
             own_volume: vec![0.0; total],
-            own_def_grad: vec![Matrix::zeros(); if reads_deformation { total } else { 0 }],
+            own_def_grad: vec![zeros(); if reads_deformation { total } else { 0 }],
         })
     }
 
@@ -118,7 +118,7 @@ impl<const D: usize> VolumeAverage<D> {
                 *ratio /= ratio[1];
             }
         }
-        self.ratio.fill(Vector::zeros());
+        self.ratio.fill(zeros());
         kernel.g2p(grid, &self.nodal_ratio, particles, (0.0, 1.0), &mut self.ratio);
     }
 
@@ -220,7 +220,7 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
             }
         } else {
             for (own, (vol, grad_v)) in own.zip(particles.vol.iter().zip(&particles.grad_v)) {
-                *own = vol * det(&(Matrix::identity() + grad_v * dt));
+                *own = vol * det(&(identity() + grad_v * dt));
             }
         }
         // The volume has already advanced, so a law that stores only J must not advance the volume

@@ -7,7 +7,7 @@
 //! `C = B D^-1` would lose angular momentum.
 
 use super::contract::{Transfer, TransferKind};
-use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::algebra::{Matrix, product};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::Moments;
 use crate::mpm::foundation::particles::Particles;
@@ -33,7 +33,7 @@ impl<const D: usize> Transfer<D> for Apic<D> {
         moments.resize(particles.len());
         kernel.moments(grid, particles, &mut moments);
         let gradients = particles.grad_v.iter().zip(&moments.second);
-        self.b = gradients.map(|(grad_v, second)| grad_v * second).collect();
+        self.b = gradients.map(|(grad_v, second)| product(grad_v, second)).collect();
     }
 
     fn columns(&self) -> Vec<Column<'_>> {

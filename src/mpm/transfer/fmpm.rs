@@ -8,7 +8,7 @@
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
 use crate::mpm::boundary::Boundary;
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
@@ -39,9 +39,9 @@ impl<const D: usize> Transfer<D> for Fmpm<D> {
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        self.mapped_back.resize(particles.len(), Vector::zeros());
-        self.remainder.resize(grid.nodes(), Vector::zeros());
-        self.nodal.resize(grid.nodes(), Vector::zeros());
+        self.mapped_back.resize(particles.len(), zeros());
+        self.remainder.resize(grid.nodes(), zeros());
+        self.nodal.resize(grid.nodes(), zeros());
     }
 
     fn columns(&self) -> Vec<Column<'_>> {

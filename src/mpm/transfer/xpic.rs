@@ -7,7 +7,7 @@
 //! only through the accelerations.
 
 use super::contract::{Transfer, TransferKind, TransferParameter};
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{G2pRequest, Kernel, ParticleField};
@@ -37,8 +37,8 @@ impl<const D: usize> Transfer<D> for Xpic<D> {
     }
 
     fn start(&mut self, _: &dyn Kernel<D>, grid: &Grid<D>, particles: &Particles<D>) {
-        self.remainder.resize(particles.len(), Vector::zeros());
-        self.nodal.resize(grid.nodes(), Vector::zeros());
+        self.remainder.resize(particles.len(), zeros());
+        self.nodal.resize(grid.nodes(), zeros());
     }
 
     fn columns(&self) -> Vec<Column<'_>> {

@@ -82,6 +82,7 @@ impl Norms {
 
     /// For each norm, returns the larger value; NaN if either value is NaN.
     #[must_use]
+    #[inline]
     pub fn larger(self, other: Self) -> Self {
         Self {
             rms: larger(self.rms, other.rms),
@@ -121,11 +122,14 @@ impl Norms {
         if linf == 0.0 {
             return Self { linf, mass_l2: None, ..Self::ZERO };
         }
-        let scaled = || lengths.iter().map(|e| e / linf);
-        let weighted = || scaled().zip(weights);
-        let squares: f64 = scaled().map(|e| e * e).sum();
-        let moment: f64 = weighted().map(|(e, w)| w * e).sum();
-        let weighted_squares: f64 = weighted().map(|(e, w)| w * (e * e)).sum();
+        let (mut squares, mut moment, mut weighted_squares) = (0.0, 0.0, 0.0);
+        for (length, weight) in lengths.iter().zip(weights) {
+            let scaled = length / linf;
+            let square = scaled * scaled;
+            squares += square;
+            moment += weight * scaled;
+            weighted_squares += weight * square;
+        }
         Self {
             rms: linf * (squares / lengths.len() as f64).sqrt(),
             l1: linf * (moment / total),
@@ -175,7 +179,11 @@ impl RunErrors {
 }
 
 pub(super) fn length(error: &[f64]) -> f64 {
-    error.iter().fold(0.0, |sum, &e| libm::hypot(sum, e))
+    let mut length = 0.0;
+    for component in error {
+        length = libm::hypot(length, *component);
+    }
+    length
 }
 
 /// Returns the largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
@@ -184,6 +192,7 @@ pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
 }
 
 /// Returns the larger of two lengths; NaN if either is NaN (`f64::max` would ignore NaN).
+#[inline]
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }

@@ -75,9 +75,13 @@ fn by_powers(matrix: &DMatrix<f64>) -> f64 {
 /// processor.
 fn square(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let mut square = DMatrix::zeros(matrix.nrows(), matrix.ncols());
-    for (mut into, factors) in square.column_iter_mut().zip(matrix.column_iter()) {
-        for (column, factor) in matrix.column_iter().zip(factors.iter()) {
-            into.axpy(*factor, &column, 1.0);
+    let rows = matrix.nrows();
+    let (from, into) = (matrix.as_slice(), square.as_mut_slice());
+    for (into, factors) in into.chunks_exact_mut(rows).zip(from.chunks_exact(rows)) {
+        for (column, factor) in from.chunks_exact(rows).zip(factors) {
+            for i in 0..rows {
+                into[i] += factor * column[i];
+            }
         }
     }
     square

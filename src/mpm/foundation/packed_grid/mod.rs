@@ -22,7 +22,7 @@
 
 mod node;
 
-use super::algebra::Vector;
+use super::algebra::{Vector, array, pairs};
 use super::grid::Grid;
 use super::simd::components;
 use super::threads::{FEW, RowChunks, join, split};
@@ -42,20 +42,22 @@ pub(in crate::mpm) struct PackedField<N> {
 
 /// Returns the number of nodes along each axis; one for axes that the grid does not have.
 fn counts<const D: usize>(grid: &Grid<D>) -> [usize; 3] {
-    std::array::from_fn(|axis| grid.counts.get(axis).copied().unwrap_or(1))
+    array(1, |axis| if axis < D { grid.counts[axis] } else { 1 })
 }
 
 /// Returns the components of a vector in the first lanes of a node, and zero in the others.
 #[inline(always)]
 fn lanes<const D: usize>(vector: &Vector<D>) -> [f64; 4] {
-    std::array::from_fn(|lane| if lane < D { vector[lane] } else { 0.0 })
+    array(0.0, |lane| if lane < D { vector[lane] } else { 0.0 })
 }
 
 impl<N: PackedNode> PackedField<N> {
     /// Gives the field the shape of `grid`. The values of the nodes are undefined afterwards.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::new(grid);
-        self.nodes.resize(layout.strides[3], N::default());
+        if self.nodes.len() != layout.strides[3] {
+            self.nodes.resize(layout.strides[3], N::default());
+        }
         self.layout = layout;
         FieldViewMut { nodes: &mut self.nodes, layout }
     }
@@ -112,14 +114,13 @@ impl PackedField<Node4> {
         RowChunks { length, few: FEW }.each(&mut self.nodes, &|k, here| {
             let there = if D == 1 { piece(k) } else { row_of_field(k) };
             let (here, beyond) = here.split_at_mut(there.len());
-            let values = here.iter_mut().zip(&field[there.clone()]);
+            pairs(here, &field[there.clone()], |Node4(here), value| *here = lanes(value));
             if let Some(second) = second {
-                for ((Node4(here), value), second) in values.zip(&second[there]) {
-                    *here = lanes(value);
-                    here[D..2 * D].copy_from_slice(second.as_slice());
-                }
-            } else {
-                values.for_each(|(Node4(here), value)| *here = lanes(value));
+                pairs(here, &second[there], |Node4(here), second| {
+                    for axis in 0..D {
+                        here[D + axis] = second[axis];
+                    }
+                });
             }
             // Functions with weight zero may read these nodes, so NaN from an earlier pass must be
             // removed.
@@ -164,6 +165,7 @@ fn nodes_of_layer<const D: usize>(grid: &Grid<D>) -> usize {
 }
 
 impl<const D: usize> Columns<'_, D> {
+    #[inline]
     pub(in crate::mpm) fn reborrow(&mut self) -> Columns<'_, D> {
         let Self { mass, momentum, force, added, before } = self;
         let (mass, momentum) = (mass.as_deref_mut(), momentum.as_deref_mut());
@@ -253,19 +255,22 @@ impl<const D: usize> Columns<'_, D> {
         let from = field.layout.number(index);
         let nodes = &field.nodes[from..from + count];
         if let Some(mass) = &mut self.mass {
-            mass[to.clone()].iter_mut().zip(nodes).for_each(|(m, node)| *m = node.inertia()[3]);
+            pairs(&mut mass[to.clone()], nodes, |m, node| *m = node.inertia()[3]);
         }
         if let Some(momentum) = &mut self.momentum {
-            let column = momentum[to.clone()].iter_mut();
-            column.zip(nodes).for_each(|(value, node)| *value = components(node.inertia(), 0));
+            pairs(&mut momentum[to.clone()], nodes, |value, node| {
+                *value = components(node.inertia(), 0);
+            });
         }
         if let Some(force) = &mut self.force {
-            let column = force[to.clone()].iter_mut().zip(nodes);
-            column.for_each(|(value, node)| *value = components(node.force(), force_lane(D)));
+            pairs(&mut force[to.clone()], nodes, |value, node| {
+                *value = components(node.force(), force_lane(D));
+            });
         }
         if let Some(added) = &mut self.added {
-            let column = added[to].iter_mut().zip(nodes);
-            column.for_each(|(value, node)| *value += components::<D>(node.inertia(), 0));
+            pairs(&mut added[to], nodes, |value, node| {
+                *value += components::<D>(node.inertia(), 0);
+            });
         }
     }
 }

@@ -49,19 +49,34 @@ pub trait PackedNode: Copy + Debug + Default + Send + Sync {
 
 /// Returns the position of a force within the four lanes that contain it. In 1-D these lanes also
 /// contain momentum and mass.
+#[inline]
 pub(in crate::mpm) const fn force_lane(dimension: usize) -> usize {
     if dimension == 1 { 1 } else { 0 }
 }
 
 /// Four numbers of a node, within one cache line.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(in crate::mpm) struct Node4(pub(in crate::mpm) [f64; LANES]);
 
 /// Eight numbers of a node, in one cache line.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(in crate::mpm) struct Node8([f64; 2 * LANES]);
+
+impl Default for Node4 {
+    #[inline(always)]
+    fn default() -> Self {
+        Self([0.0; LANES])
+    }
+}
+
+impl Default for Node8 {
+    #[inline(always)]
+    fn default() -> Self {
+        Self([0.0; 2 * LANES])
+    }
+}
 
 impl PackedNode for Node4 {
     const IS_WIDE: bool = false;
@@ -220,8 +235,9 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
         &mut self.nodes[start..start + K]
     }
 
+    #[inline]
     pub(in crate::mpm) fn clear(&mut self) {
-        self.nodes.fill(N::default());
+        self.nodes.iter_mut().for_each(|node| *node = N::default());
     }
 
     /// Splits the view at the first node of a layer. Layers are perpendicular to the last of the D

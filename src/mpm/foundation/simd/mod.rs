@@ -15,7 +15,7 @@
 //! where the source requests it, so results are bit-identical on every processor.
 
 mod register;
-use super::algebra::{Vector, array};
+use super::algebra::{Vector, array, zeros};
 use fearless_simd::{Level, Select, SimdBase, SimdFloat, SimdMask};
 use register::{Array, Pair};
 pub(in crate::mpm) use register::{F64x4, LANES, Plain, Register};
@@ -203,7 +203,9 @@ impl F64Batch {
 
     #[inline(always)]
     pub(in crate::mpm) fn store<F: F64x4>(&mut self, register: usize, values: F) {
-        self.0[register % REGISTERS * LANES..][..LANES].copy_from_slice(&values.into());
+        if let Some(four) = self.0[register % REGISTERS * LANES..].first_chunk_mut() {
+            *four = values.into();
+        }
     }
 }
 
@@ -218,7 +220,7 @@ pub(in crate::mpm) fn components<const D: usize>(
     first: usize,
 ) -> Vector<D> {
     let lanes = register.into();
-    let mut vector = Vector::zeros();
+    let mut vector = zeros();
     for axis in 0..D {
         vector[axis] = lanes[(first + axis) % LANES];
     }

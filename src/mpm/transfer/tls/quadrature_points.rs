@@ -2,7 +2,7 @@
 //! the body. Gauss points are not used in boundary cells, because a polynomial fitted to the
 //! particles would extend outside the body.
 
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Column, Entry};
@@ -63,7 +63,7 @@ impl<const D: usize> QuadraturePoints<D> {
         let cells: usize = grid.cells.iter().product();
         let most = particles.len().min(cells) * RULE.len().pow(D as u32) + particles.len();
         self.all.reserve(most);
-        self.x.resize(particles.len(), Vector::zeros());
+        self.x.resize(particles.len(), zeros());
         self.cell.resize(particles.len(), 0);
         self.order.resize(particles.len(), 0);
         self.first.resize(cells + 2, 0);
@@ -170,7 +170,7 @@ impl<const D: usize> QuadraturePoints<D> {
 /// Returns the Gauss points in a cell, relative to its centre (m), with their volumes (m^D).
 fn gauss<const D: usize>(h: f64) -> impl Iterator<Item = (Vector<D>, f64)> {
     (0..RULE.len().pow(D as u32)).map(move |k| {
-        let (mut rest, mut x, mut volume) = (k, Vector::zeros(), 1.0);
+        let (mut rest, mut x, mut volume) = (k, zeros(), 1.0);
         for axis in 0..D {
             let (abscissa, weight) = RULE[rest % RULE.len()];
             rest /= RULE.len();
