@@ -24,7 +24,7 @@ pub(super) fn tensor<T: Number, const D: usize>(
 }
 
 /// Returns the vector with these components. Loops over particles call this function, and
-/// `std::array::from_fn` is inlined only by link-time optimization.
+/// `std::array::from_fn` is not always inlined.
 #[inline]
 pub(super) fn vector<const D: usize>(component: impl Fn(usize) -> f64) -> [f64; D] {
     let mut vector = [0.0; D];

@@ -192,13 +192,13 @@ pub trait PatchBatch<const D: usize>: Debug {
     /// Multiplies the matrix with these columns by the inverse inertia tensor of patch `lane`.
     fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
 
-    /// Adds the terms of particles, each with its lane, to their nodes in `field`.
-    fn scatter<S: Simd, N: PackedNode, T>(
+    /// Adds the term of the particle in each of the `lanes` to its nodes in `field`.
+    fn scatter<S: Simd, N: PackedNode>(
         &self,
         simd: S,
         field: FieldViewMut<'_, N>,
-        particles: impl Iterator<Item = (usize, T)>,
-        term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
+        lanes: Range<usize>,
+        term: impl Fn(usize) -> NodeTerm<N::Lanes<S>, D>,
     );
 
     /// Returns `sum_i field_i N_i`.

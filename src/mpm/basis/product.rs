@@ -300,16 +300,16 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     }
 
     #[inline(always)]
-    fn scatter<S: Simd, N: PackedNode, T>(
+    fn scatter<S: Simd, N: PackedNode>(
         &self,
         simd: S,
         field: FieldViewMut<'_, N>,
-        particles: impl Iterator<Item = (usize, T)>,
-        term: impl Fn(usize, T) -> NodeTerm<N::Lanes<S>, D>,
+        lanes: Range<usize>,
+        term: impl Fn(usize) -> NodeTerm<N::Lanes<S>, D>,
     ) {
         let mut accumulator = NodeAccumulator::new(simd, field);
-        for (lane, particle) in particles {
-            self.add(lane, term(lane, particle), &mut accumulator);
+        for lane in lanes {
+            self.add(lane, term(lane), &mut accumulator);
         }
         accumulator.flush();
     }

@@ -3,7 +3,7 @@
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
 use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
-use crate::mpm::foundation::algebra::pairs;
+use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::FieldView;
@@ -150,39 +150,49 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
     /// Writes the sums of a batch to the columns of the request, starting at entry `first`.
     #[inline(always)]
     fn write<S: Simd>(&mut self, first: usize, moments: bool, sums: &G2pSums<S, D>) {
-        let request = &mut self.request;
+        // Indices are below BATCH. The remainder only avoids a bounds check.
+        let (request, count) = (&mut self.request, BATCH.min(self.range.len() - first));
         if let (Some(value), Some(dt)) = (&mut request.value, request.change) {
             let (change, at) =
                 if const { are_beside::<D>() } { (&sums.velocity, D) } else { (&sums.change, 0) };
-            pairs(&mut value[first..], change, |value, change| {
-                *value += components::<D>(*change * dt, at);
-            });
+            let value = &mut value[first..][..count];
+            for k in 0..count {
+                value[k] += components::<D>(change[k % BATCH] * dt, at);
+            }
         }
         if let (Some(value), Some((keep, factor))) = (&mut request.value, request.mix) {
-            pairs(&mut value[first..], &sums.velocity, |value, velocity| {
-                *value = *value * keep + components::<D>(*velocity * factor, 0);
-            });
+            let value = &mut value[first..][..count];
+            for k in 0..count {
+                let velocity = components::<D>(sums.velocity[k % BATCH] * factor, 0);
+                value[k] = value[k] * keep + velocity;
+            }
         }
         if moments {
             let parts = [(&mut request.moment, &sums.moment), (&mut request.fit, &sums.fit)];
             for (part, sums) in parts {
                 if let Some(part) = part {
-                    pairs(&mut part[first..], sums, |matrix, sums| put_columns(matrix, sums, 0));
+                    put_all(&mut part[first..][..count], sums);
                 }
             }
         }
         if let Some(gradient) = &mut request.gradient {
-            pairs(&mut gradient[first..], &sums.gradient, |gradient, sums| {
-                put_columns(gradient, sums, 0);
-            });
+            put_all(&mut gradient[first..][..count], &sums.gradient);
         }
         if let Some((dt, advected)) = &mut request.advected {
-            let x = &self.particles.positions()[self.range.start + first..];
-            let advected = &mut advected[first..];
-            for k in 0..advected.len().min(BATCH) {
-                advected[k] = x[k] + components::<D>(sums.velocity[k] * *dt, 0);
+            let x = &self.particles.positions()[self.range.start + first..][..count];
+            let advected = &mut advected[first..][..count];
+            for k in 0..count {
+                advected[k] = x[k] + components::<D>(sums.velocity[k % BATCH] * *dt, 0);
             }
         }
+    }
+}
+
+/// Writes the matrices of a batch.
+#[inline(always)]
+fn put_all<const D: usize, F: F64x4>(matrices: &mut [Matrix<D>], columns: &[[F; D]; BATCH]) {
+    for k in 0..matrices.len() {
+        put_columns(&mut matrices[k], &columns[k % BATCH], 0);
     }
 }
 

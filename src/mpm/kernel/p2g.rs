@@ -81,16 +81,16 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
             request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
         let is_fit = request.force == Some(Divergence::Fit);
         let has_inertia = Self::HOLDS_ALL || !(FLUX || is_fit);
-        let (here, count) = (first + lanes.start, lanes.len());
-        let (mass, v) = (&particles.mass[here..][..count], &v[here..][..count]);
+        // With these lengths, indices below `lanes.end` need no check.
+        let (mass, v) = (&particles.mass[first..][..lanes.end], &v[first..][..lanes.end]);
         patches.scatter(
             simd,
             self.field.reborrow(),
-            (0..count).map(|k| (lanes.start + k, (&mass[k], &v[k]))),
+            lanes,
             #[inline(always)]
-            |lane, (m, v)| {
+            |lane| {
                 let p = first + lane;
-                let value = if has_inertia { inertial(simd, *m, v) } else { zero };
+                let value = if has_inertia { inertial(simd, mass[lane], &v[lane]) } else { zero };
                 let mut term = NodeTerm::NONE;
                 if Self::HOLDS_ALL || !FLUX {
                     term.value = Some(N::of_inertia(simd, value));
@@ -110,7 +110,7 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                         fit = Some(divide::<B, S, D>(simd, patches, lane, of_all, &force, from, h));
                     }
                     for axis in 0..D {
-                        let growth = growth[axis] * *m;
+                        let growth = growth[axis] * mass[lane];
                         slope[axis] = match &fit {
                             Some(fit) => N::join(simd, growth, fit[axis]),
                             None => N::of_inertia(simd, growth),

@@ -92,9 +92,8 @@ fn by_batch<const D: usize>(
                 for ((def_grad, vol0), (vol, sigma)) in columns.zip(results) {
                     let mut j = F64Batch([1.0; BATCH]);
                     pairs(&mut j.0, def_grad, |j, f| *j = det(f));
-                    for k in 0..vol.len() {
-                        vol[k] = j.get(k) * vol0[k];
-                    }
+                    pairs(vol, vol0, |vol, vol0| *vol = *vol0);
+                    pairs(vol, &j.0, |vol, j| *vol *= j);
                     set_stress(def_grad, &j, sigma);
                 }
             },

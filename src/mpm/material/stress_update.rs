@@ -219,8 +219,8 @@ fn least_ratio(a: &[f64], b: &[f64]) -> Option<f64> {
         all_sound += sound[k];
         least_of_all = least_of_all.min(least[k]);
     }
-    for k in 0..rest_a.len() {
-        let ratio = rest_a[k] / rest_b[k];
+    for (a, b) in rest_a.iter().zip(rest_b) {
+        let ratio = a / b;
         all_sound += ratio * 0.0;
         least_of_all = least_of_all.min(ratio);
     }

@@ -124,7 +124,7 @@ impl<const D: usize> Memory for CellTracker<D> {
 #[inline(always)]
 #[allow(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch")]
 fn stay<const D: usize>(grid: &Grid<D>, cells: &[[f64; D]], x: &[Vector<D>]) -> bool {
-    let mut stay = true;
+    let (mut stay, x) = (true, &x[..cells.len()]);
     for p in 0..cells.len() {
         for axis in 0..D {
             let (s, cell) = (grid.local(&x[p], axis), cells[p][axis]);
