@@ -23,11 +23,11 @@ pub(super) fn tensor<T: Number, const D: usize>(
     tensor
 }
 
-/// Returns the vector with these components. Loops over particles call this function, and
+/// Returns the vector with these components. Loops over particles call this function, because
 /// `std::array::from_fn` is not always inlined.
 #[inline]
-pub(super) fn vector<const D: usize>(component: impl Fn(usize) -> f64) -> [f64; D] {
-    let mut vector = [0.0; D];
+pub(super) fn vector<T: Number, const D: usize>(component: impl Fn(usize) -> T) -> [T; D] {
+    let mut vector = [T::from(0.0); D];
     for i in 0..D {
         vector[i] = component(i);
     }

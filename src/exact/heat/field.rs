@@ -130,11 +130,7 @@ fn pulled_back<T: Number, const D: usize>(grad_u: &Tensor<T, D>, grad: &[T; D]) 
     let cofactor: Tensor<T, D> = tensor(|i, j| cofactor(&f, i, j));
     let j = det(&f, &cofactor);
     let metric = |a: usize, b: usize| sum::<T, D>(|i| cofactor[i][a] * cofactor[i][b]) / j;
-    let mut flow = [T::from(0.0); D];
-    for a in 0..D {
-        flow[a] = sum::<T, D>(|b| metric(a, b) * grad[b]);
-    }
-    flow
+    vector(|a| sum::<T, D>(|b| metric(a, b) * grad[b]))
 }
 
 /// Computes `J C^-1 Grad T` (K/m). The inflow per reference area is k times its normal component.

@@ -55,6 +55,7 @@ impl<N: PackedNode> PackedField<N> {
     /// Gives the field the shape of `grid`. The values of the nodes are undefined afterwards.
     pub(in crate::mpm) fn shaped<const D: usize>(&mut self, grid: &Grid<D>) -> FieldViewMut<'_, N> {
         let layout = Layout::new(grid);
+        // `resize` would be called even if the length does not change.
         if self.nodes.len() != layout.strides[3] {
             self.nodes.resize(layout.strides[3], N::default());
         }

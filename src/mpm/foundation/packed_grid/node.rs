@@ -64,6 +64,7 @@ pub(in crate::mpm) struct Node4(pub(in crate::mpm) [f64; LANES]);
 #[repr(align(64))]
 pub(in crate::mpm) struct Node8([f64; 2 * LANES]);
 
+// A derived `Default` would call the function of arrays, which is not always inlined.
 impl Default for Node4 {
     #[inline(always)]
     fn default() -> Self {
@@ -237,6 +238,7 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
 
     #[inline]
     pub(in crate::mpm) fn clear(&mut self) {
+        // `fill` is not always inlined.
         self.nodes.iter_mut().for_each(|node| *node = N::default());
     }
 
