@@ -1,7 +1,7 @@
 //! Sample values of required keys, for error messages with text to paste.
 
 use super::{ConvergenceSpec, Head, StudyName, SuiteSpec};
-use crate::suite::yaml::{CheckedShape, Diagnostic, Source, TopValue};
+use crate::suite::yaml::{Diagnostic, Source, Step, parse};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
@@ -120,19 +120,16 @@ impl SuiteSpec {
     /// # Errors
     /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
-        let checked = CheckedShape::new(source, "study")?;
-        match StudyName::of_checked(&checked)? {
+        match StudyName::of(source)? {
             StudyName::Convergence => {
-                read(&checked, "convergence").map(Box::new).map(Self::Convergence)
+                read(source, "convergence").map(Box::new).map(Self::Convergence)
             }
             StudyName::InternalForce => {
-                read(&checked, "internal_force").map(Box::new).map(Self::InternalForce)
+                read(source, "internal_force").map(Box::new).map(Self::InternalForce)
             }
-            StudyName::Stability => read(&checked, "stability").map(Box::new).map(Self::Stability),
-            StudyName::Gradient => {
-                read(&checked, "gradient_study").map(Box::new).map(Self::Gradient)
-            }
-            StudyName::Spectrum => read(&checked, "spectrum_study")
+            StudyName::Stability => read(source, "stability").map(Box::new).map(Self::Stability),
+            StudyName::Gradient => read(source, "gradient_study").map(Box::new).map(Self::Gradient),
+            StudyName::Spectrum => read(source, "spectrum_study")
                 .map(Box::new)
                 .map(Self::Spectrum)
                 .map_err(with_regular_particles),
@@ -146,18 +143,19 @@ impl ConvergenceSpec {
     /// # Errors
     /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
-        read(&CheckedShape::new(source, "study")?, "convergence")
+        read(source, "convergence")
     }
 }
 
 impl StudyName {
-    fn of_checked(checked: &CheckedShape<'_>) -> Result<Self, Diagnostic> {
-        let known = match checked.top() {
-            TopValue::Absent => Some(Self::default_study()),
-            TopValue::Text(name) => Self::deserialize(StrDeserializer::<Error>::new(name)).ok(),
-            TopValue::Other => None,
-        };
-        known.map_or_else(|| read::<Head>(checked, "").map(|head| head.study), Ok)
+    fn of(source: &Source) -> Result<Self, Diagnostic> {
+        let path = [Step::from("study")];
+        if source.value_at(&path).is_none() {
+            return Ok(Self::default_study());
+        }
+        let name = source.text_at(&path).map(StrDeserializer::<Error>::new);
+        let known = name.and_then(|name| Self::deserialize(name).ok());
+        known.map_or_else(|| read::<Head>(source, "").map(|head| head.study), Ok)
     }
 }
 
@@ -174,8 +172,8 @@ fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     }
 }
 
-fn read<T: DeserializeOwned>(checked: &CheckedShape<'_>, study: &str) -> Result<T, Diagnostic> {
-    checked.read(&|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
+fn read<T: DeserializeOwned>(source: &Source, study: &str) -> Result<T, Diagnostic> {
+    parse(source, &|owner, key| sample(if owner.is_empty() { study } else { owner }, key))
 }
 
 fn sample(owner: &str, key: &str) -> Option<&'static str> {

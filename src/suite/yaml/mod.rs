@@ -1,7 +1,7 @@
 //! Safe parsing of handwritten YAML, with a position for every error.
 //!
 //! ```text
-//! path -> Source          checks size, encoding, characters and nesting before parsing
+//! path -> Source          checks size, encoding, characters, nesting and numbers of entries
 //!      -> read::<Suite>   typed; every error becomes a Diagnostic with file:line:column
 //!      -> Source::value_at, within   the position of a value that is rejected later
 //! ```
@@ -29,13 +29,12 @@ pub(crate) mod diagnostic;
 pub(crate) mod locate;
 pub(crate) mod number;
 pub(crate) mod one_or_many;
+pub(crate) mod ordered;
 pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
-pub(crate) mod scalars;
-pub(crate) mod scan;
-pub(crate) mod shape;
 pub(crate) mod source;
+pub(crate) mod tree;
 
 #[cfg(test)]
 mod tests;
@@ -46,11 +45,10 @@ pub use locate::Step;
 pub use number::NumberText;
 pub(crate) use number::{InPlaceOfNumber, NumberOr};
 pub use one_or_many::OneOrMany;
+pub use ordered::Ordered;
 pub use place::Place;
-pub use read::read;
-pub(crate) use read::{CheckedShape, read_again, written};
-pub(crate) use shape::TopValue;
-pub use shape::{Ordered, refuse};
+pub(crate) use read::{parse, read_again, written};
+pub use read::{read, refuse};
 pub use source::{MAX_BYTES, Source};
 
 /// Maximum number of entries in a list or a map.

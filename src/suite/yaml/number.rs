@@ -1,6 +1,5 @@
 //! A number, a formula, or a map that replaces a number.
 
-use super::shape::finite;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
 use std::fmt;
@@ -81,7 +80,7 @@ impl Visitor<'_> for NumberOrFormula {
     }
 
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<NumberText, E> {
-        finite(value, "a finite number or a formula").map(NumberText::Number)
+        Ok(NumberText::Number(value))
     }
 
     fn visit_str<E: de::Error>(self, text: &str) -> Result<NumberText, E> {

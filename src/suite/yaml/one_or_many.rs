@@ -1,7 +1,6 @@
 //! A value, or a list of alternatives.
 
 use super::refuse;
-use super::shape::within_cap;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, Deserialize, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 use std::fmt;
@@ -92,7 +91,6 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Alternatives<T> {
         let mut values = Vec::new();
         while let Some(value) = list.next_element()? {
             values.push(value);
-            within_cap(values.len(), "list")?;
         }
         if values.is_empty() {
             return Err(refuse(

@@ -65,19 +65,15 @@ pub(crate) fn listed(names: &[&str]) -> String {
     quoted.join(", ")
 }
 
-/// Returns message and help for an error about invalid YAML.
+/// Returns message and help for an error of the YAML parser about invalid text.
 pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
-    const TABLE: [(&str, &str, &str); 14] = [
+    const TABLE: [(&str, &str, &str); 13] = [
         (
-            "did not find expected ',' or ']'",
+            "expected ',' or ']'",
             "expected `,` or `]` here",
             "entries of a list are separated by `,`",
         ),
-        (
-            "did not find expected ',' or '}'",
-            "expected `,` or `}` here",
-            "keys of a map are separated by `,`",
-        ),
+        ("expected ',' or '}'", "expected `,` or `}` here", "keys of a map are separated by `,`"),
         (
             "did not find expected key",
             "expected a key here",
@@ -89,9 +85,15 @@ pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
             "check the indentation",
         ),
         (
-            "mapping values are not allowed in this context",
+            "mapping values are not allowed",
             "`:` is not possible here",
             "check the indentation; put text that holds `: ` in quotes",
+        ),
+        ("invalid trailing content", "text after a closing quote", "put the whole value in quotes"),
+        (
+            "must be followed by a valid YAML whitespace",
+            "expected a blank before this",
+            "write `key: value`",
         ),
         (
             "block sequence entries are not allowed",
@@ -99,9 +101,9 @@ pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
             "start the list on a line of its own",
         ),
         ("mapping keys are not allowed", "a key is not possible here", "check the indentation"),
-        ("could not find expected ':'", "expected `:` after the key", "write `key: value`"),
+        ("simple key expect", "expected `:` after the key", "write `key: value`"),
         (
-            "found character that cannot start any token",
+            "unexpected character",
             "a value cannot start with this character",
             "put the value in quotes",
         ),
@@ -110,15 +112,12 @@ pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
             "unknown escape in double quotes",
             "use single quotes to keep `\\` as it is",
         ),
-        ("found a tab character", "tab used for indentation; YAML needs spaces", ""),
         (
-            "did not find expected <document start>",
-            "expected the end of the file here",
-            "check the indentation",
+            "invalid indentation",
+            "text in brackets or quotes needs more indentation than its key",
+            "indent the following lines",
         ),
-        ("recursion limit exceeded", "lists and maps nest too deeply", ""),
-        ("repetition limit exceeded", "aliases are not supported", ""),
     ];
-    let (_, message, help) = TABLE.iter().find(|(problem, ..)| error.starts_with(problem))?;
+    let (_, message, help) = TABLE.iter().find(|(problem, ..)| error.contains(problem))?;
     Some((message, help))
 }

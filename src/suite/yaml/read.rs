@@ -1,12 +1,11 @@
-//! Converts a checked text to a typed value, and rewrites errors of the YAML library for authors of
+//! Converts a text to a typed value, and rewrites errors of the YAML library for authors of
 //! suites. Also reads and writes YAML that only this program uses.
 
 use super::phrase::{expected, found, listed, syntax};
-use super::shape::{TopValue, refused};
-use super::{Diagnostic, Source, shape};
+use super::{Diagnostic, Source};
 use crate::nearest::nearest;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, Error};
 
 /// Parses a file into a type.
 ///
@@ -18,33 +17,21 @@ use serde::de::DeserializeOwned;
 /// # Errors
 /// The first error in the file, with its position.
 pub fn read<T: DeserializeOwned>(source: &Source) -> Result<T, Diagnostic> {
-    CheckedShape::new(source, "")?.read(&|_, _| None)
+    parse(source, &|_, _| None)
 }
 
-/// A file that has passed the checks in `shape`, ready to be parsed into a type.
-pub(crate) struct CheckedShape<'s> {
-    source: &'s Source,
-    top: TopValue,
-}
-
-impl<'s> CheckedShape<'s> {
-    /// Applies the checks in `shape` to `source`, and stores the value of the top-level key `key`.
-    pub(crate) fn new(source: &'s Source, key: &str) -> Result<Self, Diagnostic> {
-        let top = shape::check(source, key);
-        let top = top.map_err(|error| diagnostic(source, &error, &|_, _| None))?;
-        Ok(Self { source, top })
+/// Parses a file into a type. The error for a missing key shows a value from `sample`.
+pub(crate) fn parse<T: DeserializeOwned>(
+    source: &Source,
+    sample: &SampleOf<'_>,
+) -> Result<T, Diagnostic> {
+    if source.is_empty() {
+        let message = "the file is empty; a suite starts with `suite: NAME`";
+        return Err(Fault { source, offset: 0 }.at_token(message));
     }
-
-    pub(crate) fn top(&self) -> &TopValue {
-        &self.top
-    }
-
-    /// Parses the file into a type. The error for a missing key shows a value from `sample`.
-    pub(crate) fn read<T: DeserializeOwned>(&self, sample: &SampleOf<'_>) -> Result<T, Diagnostic> {
-        let parser = serde_yaml::Deserializer::from_str(self.source.text());
-        serde_yaml::with::singleton_map_recursive::deserialize(parser)
-            .map_err(|error| diagnostic(self.source, &error, sample))
-    }
+    let parser = serde_yaml::Deserializer::from_str(source.text());
+    serde_yaml::with::singleton_map_recursive::deserialize(parser)
+        .map_err(|error| diagnostic(source, &error, sample))
 }
 
 /// Error of the YAML library for a value that it cannot write.
@@ -234,4 +221,24 @@ impl<'a> Fault<'a> {
             .and_then(|scalar| scalar.verbatim(self.source.text()))
             .is_some_and(|inside| self.source.text()[inside].parse::<f64>().is_ok())
     }
+}
+
+/// Separates the three texts of a refusal, because the error type of a deserializer holds one
+/// string, to which the YAML library adds a path and a position. A file cannot forge the separator,
+/// because sources with control characters are refused.
+const FENCE: char = '\u{1f}';
+
+/// Creates the error for a value that is refused during deserialization.
+///
+/// `label` and `help` may be empty. [`read`] shows the three texts unchanged, at the
+/// position of the innermost value being parsed.
+pub fn refuse<E: Error>(message: &str, label: &str, help: &str) -> E {
+    let [message, label, help] = [message, label, help].map(|part| part.replace(FENCE, " "));
+    E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
+}
+
+/// Returns message, label and help, if `error` is the text of a refusal.
+fn refused(error: &str) -> Option<[&str; 3]> {
+    let mut parts = error.split(FENCE).skip(1);
+    Some([parts.next()?, parts.next()?, parts.next()?])
 }

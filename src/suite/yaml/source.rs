@@ -1,6 +1,6 @@
 //! A suite file in memory, checked before parsing.
 
-use super::scan::{Scalar, scan};
+use super::tree::{Scalar, TreeNode, tree};
 use super::{Diagnostic, Place};
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
@@ -16,6 +16,7 @@ pub struct Source {
     name: String,
     text: String,
     scalars: Vec<Scalar>,
+    root: TreeNode,
 }
 
 impl Source {
@@ -49,9 +50,8 @@ impl Source {
     /// Checks a text in memory, such as a suite embedded in the program.
     ///
     /// # Errors
-    /// If the text is too large, nests too deeply or is indented with tabs. Also if it contains
-    /// control characters, unclosed brackets or quotes, anchors, aliases, tags, or more than one
-    /// document.
+    /// If the text is too large, contains control characters, is not YAML, or violates a rule for
+    /// all files: see [`tree`](super::tree).
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
@@ -62,8 +62,8 @@ impl Source {
             text.remove(0);
         }
         characters(&name, &text)?;
-        let scalars = scan(&name, &text)?;
-        Ok(Self { name, text, scalars })
+        let (scalars, root) = tree(&name, &text)?;
+        Ok(Self { name, text, scalars, root })
     }
 
     /// Returns the paths of the suites (`.yaml` and `.yml`) in a folder and its subfolders, sorted
@@ -112,6 +112,25 @@ impl Source {
     /// Returns the first scalar that starts at or after byte `offset`.
     pub(crate) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
+    }
+
+    pub(crate) fn root(&self) -> &TreeNode {
+        &self.root
+    }
+
+    pub(crate) fn scalar(&self, index: usize) -> &Scalar {
+        &self.scalars[index]
+    }
+
+    /// Whether the file has no value, or the value `null`.
+    pub(crate) fn is_empty(&self) -> bool {
+        match &self.root {
+            TreeNode::Empty(_) => true,
+            TreeNode::Scalar(scalar) => {
+                matches!(&self.text[self.scalars[*scalar].range.clone()], "~" | "null")
+            }
+            TreeNode::List(_) | TreeNode::Map(_) => false,
+        }
     }
 
     pub(crate) fn scalar_at(&self, offset: usize) -> Option<&Scalar> {

@@ -16,13 +16,15 @@ fn lines(count: usize, line: impl Fn(usize) -> String) -> String {
 }
 
 const DEEP: &str = "lists and maps nest more than 64 deep";
+const LONG_LIST: &str = "this list has more than 1000 entries";
+const LONG_MAP: &str = "this map has more than 1000 entries";
 
 #[rstest]
 #[case::huge("[".repeat(200_000), "the file is too large: 196 KiB, at most 64 KiB")]
 #[case::flow_lists("[".repeat(60_000), DEEP)]
 #[case::flow_maps("{a: ".repeat(16_000), DEEP)]
 #[case::dashes("- ".repeat(30_000), DEEP)]
-#[case::questions("? ".repeat(30_000), DEEP)]
+#[case::questions("? ".repeat(30_000), "expected a name as key, found a map (`key: value`)")]
 #[case::block_maps(lines(300, |n| format!("{}a:", " ".repeat(n))), DEEP)]
 #[case::mixed(format!("{}{}", "- ".repeat(40), "[".repeat(40)), DEEP)]
 #[case::hidden_behind_quoted_closers(format!("{}{}", "['x]]]]]',".repeat(4_000), "]"), DEEP)]
@@ -36,11 +38,14 @@ const DEEP: &str = "lists and maps nest more than 64 deep";
 #[case::itself("&a [*a]".to_owned(), "anchors and aliases are not supported")]
 #[case::tag("a: !box 1".to_owned(), "tags are not supported")]
 #[case::merge("a: {b: 1}\n<<: {c: 1}".to_owned(), "merge keys are not supported")]
-#[case::long_list(format!("[{}]", "0,".repeat(1001)), "this list has more than 1000 entries")]
-#[case::long_map(
-    lines(1001, |n| format!("k{n}: 0")),
-    "this map has more than 1000 entries"
-)]
+#[case::long_list(format!("[{}]", "0,".repeat(1001)), LONG_LIST)]
+#[case::long_map(lines(1001, |n| format!("k{n}: 0")), LONG_MAP)]
+#[case::long_list_in_a_map(format!("{{a: [{}0], b: 1}}", "[0],".repeat(1000)), LONG_LIST)]
+#[case::long_list_of_lines(lines(1001, |_| "- {a: 1, b: 2}".to_owned()), LONG_LIST)]
+#[case::long_list_of_a_key(format!("a:\n{}\nb: 1", lines(1001, |_| "- 0".to_owned())), LONG_LIST)]
+#[case::long_map_in_a_list(format!("[{{{}}}]", lines(1001, |n| format!("k{n}: [0, 0],"))), LONG_MAP)]
+#[case::long_map_of_bare_keys(format!("{{{}}}", lines(1001, |n| format!("k{n},"))), LONG_MAP)]
+#[case::long_map_of_stated_keys(lines(1001, |n| format!("? k{n}")), LONG_MAP)]
 #[case::long_line(format!("a: {}: b", "x".repeat(65_000)), "`:` is not possible here")]
 #[case::control("a: \u{1b}[2J".to_owned(), "character U+001B is not allowed")]
 #[case::line_separator("a: \u{2028}b".to_owned(), "character U+2028 is not allowed")]
@@ -60,10 +65,15 @@ fn is_refused_at_once(#[case] yaml: String, #[case] message: &str) {
     assert!(is_quick, "took a tenth of a second, twenty times");
 }
 
-#[test]
-fn nesting_up_to_the_maximum_is_accepted() {
-    let yaml = format!("{}{}", "[".repeat(64), "]".repeat(64));
-    read::<IgnoredAny>(&Source::from_text("deep", yaml).unwrap()).unwrap();
+#[rstest]
+#[case::nesting(format!("{}{}", "[".repeat(64), "]".repeat(64)))]
+#[case::list(format!("[{}]", "0,".repeat(1000)))]
+#[case::lists_of_two_keys(format!("a:\n{0}\nb:\n{0}", lines(1000, |_| "- 0".to_owned())))]
+#[case::map_of_lists(lines(1000, |n| format!("k{n}:\n- [0, 0]\n- {{a: 0}}")))]
+#[case::map_of_stated_keys(lines(1000, |n| format!("? k{n}\n: 0")))]
+#[case::maps_in_a_list(lines(1000, |n| format!("- a: {n}\n  b: [{n}, {n}]")))]
+fn up_to_the_maximum_is_accepted(#[case] yaml: String) {
+    read::<IgnoredAny>(&Source::from_text("long", yaml).unwrap()).unwrap();
 }
 
 #[test]
