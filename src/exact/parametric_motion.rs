@@ -92,6 +92,7 @@ impl ParametricMotion {
 mod tests {
     use super::super::formula::{Expr, Scope};
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     fn motion(text: &str) -> ParametricMotion {
         let expr = Expr::parse(text).expect("a formula");
@@ -115,7 +116,7 @@ mod tests {
         let factor = |text: &str| motion(text).velocity_factor();
         assert_eq!(factor("sin(X)*sin(t)"), Some(0.0));
         let scaled = factor("sin(X)*sin(q*t)").expect("a factor");
-        assert!((scaled - 0.5).abs() < 1e-14);
+        assert_abs_diff_eq!(scaled, 0.5, epsilon = 1e-14);
         assert_eq!(factor("sin(q*X)*sin(t)"), None);
     }
 }

@@ -226,6 +226,7 @@ fn interpolation(by: &str, rows: &[(f64, f64)]) -> Result<Expr, FormulaError> {
 mod tests {
     use super::super::{Formula, Jet};
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn a_free_variable_is_differentiated_through_definitions_and_functions()
@@ -238,8 +239,9 @@ mod tests {
         let formula = Formula::bind(&Expr::parse("s(t)*E")?, &scope, &["t", "E"])?;
         let value = formula.eval(&[Jet::<2>::variable(3.0, 0), Jet::variable(8.0, 1)]);
         // The function is t E sqrt(E/2), whose derivative with respect to E is 3/2 t sqrt(E/2).
-        assert!((value.value() - 48.0).abs() < 1e-12);
-        assert!((value.d(1) - 9.0).abs() < 1e-12 && (value.dd(0, 1) - 3.0).abs() < 1e-12);
+        assert_abs_diff_eq!(value.value(), 48.0, epsilon = 1e-12);
+        assert_abs_diff_eq!(value.d(1), 9.0, epsilon = 1e-12);
+        assert_abs_diff_eq!(value.dd(0, 1), 3.0, epsilon = 1e-12);
         assert!(
             scope.constant("w", 1.0).is_err() && scope.definition("s", Expr::parse("1")?).is_err()
         );

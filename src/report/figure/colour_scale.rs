@@ -97,11 +97,12 @@ pub(super) fn colour(share: f64) -> (String, &'static str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn a_range_of_decades_has_a_logarithmic_scale() {
         let scale = ColourScale::of([1e-2, 1.0, 1e8, f64::INFINITY].into_iter());
-        assert!((scale.share(1e3) - 0.5).abs() <= 1e-12);
+        assert_abs_diff_eq!(scale.share(1e3), 0.5, epsilon = 1e-12);
         let scale = ColourScale::of([0.0, 1e8].into_iter());
         assert_eq!(scale.share(5e7), 0.5);
     }

@@ -2,6 +2,7 @@
 
 use super::{BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use crate::common::vtk::{attribute, numbers, parts};
+use approx::assert_abs_diff_eq;
 use serde_json::Value;
 use std::fs;
 
@@ -57,7 +58,8 @@ fn the_errors_of_the_particles_are_those_of_the_report() {
     assert_eq!((x.len(), u.len(), label.len()), (3 * 48, 48, 48));
     assert!((0..48).all(|p| x[3 * p] == label[p] + u[p] && x[3 * p + 1] == 0.0));
     let mass = |file: &[u8]| numbers(file, "mass").iter().sum::<f64>();
-    assert!((mass(grid) - 1.0).abs() < 1e-12 && (mass(particles) - 1.0).abs() < 1e-12);
+    assert_abs_diff_eq!(mass(grid), 1.0, epsilon = 1e-12);
+    assert_abs_diff_eq!(mass(particles), 1.0, epsilon = 1e-12);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! finished documents.
 
 use super::samples;
+use approx::assert_abs_diff_eq;
 use mpm_verify::report::figure::Mark;
 use proptest::prelude::*;
 use rstest::rstest;
@@ -138,5 +139,5 @@ fn distance_of_intersecting_shapes_is_not_positive() {
     let square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
     assert!(distance(&square, ((-1.0, 1.0), (3.0, 1.0))) <= 0.0);
     assert!(distance(&square, ((1.0, 1.0), (1.5, 1.0))) <= 0.0);
-    assert!((distance(&square, ((5.0, -9.0), (5.0, 9.0))) - 3.0).abs() < 1e-12);
+    assert_abs_diff_eq!(distance(&square, ((5.0, -9.0), (5.0, 9.0))), 3.0, epsilon = 1e-12);
 }

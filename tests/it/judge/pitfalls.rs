@@ -109,7 +109,7 @@ fn an_order_inside_with_an_interval_outside_does_not_pass(#[case] order: f64) {
     let mut series = halved(5, |h| libm::pow(h, order));
     series.iter_mut().zip(noise).for_each(|(level, noise)| level.error *= noise);
     let judgement = judge(&series, &OrderHypothesis::formal(2.0));
-    assert!((judgement.order.unwrap().value - 2.0).abs() < 0.1);
+    assert_abs_diff_eq!(judgement.order.unwrap().value, 2.0, epsilon = 0.1);
     assert_eq!(judgement.verdict, Verdict::PreAsymptotic, "{}", judgement.reason);
     assert!(judgement.reason.contains("extends beyond"));
 }

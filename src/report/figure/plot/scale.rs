@@ -183,6 +183,7 @@ impl std::fmt::Display for Label {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
     const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
@@ -197,7 +198,8 @@ mod tests {
     fn linear_ranges(#[case] values: &[f64], #[case] power: i32, #[case] lo: f64, #[case] hi: f64) {
         let scale = Scale::linear(values.iter().copied(), NONE);
         assert_eq!(scale.kind(), ScaleKind::Linear { power });
-        assert!((scale.ends().0 - lo).abs() < 1e-12 && (scale.ends().1 - hi).abs() < 1e-12);
+        assert_abs_diff_eq!(scale.ends().0, lo, epsilon = 1e-12);
+        assert_abs_diff_eq!(scale.ends().1, hi, epsilon = 1e-12);
     }
 
     #[rstest]
@@ -206,14 +208,15 @@ mod tests {
     #[case(&[0.0, -1.0, f64::NAN], -1.0, 0.0)]
     fn log_ranges(#[case] values: &[f64], #[case] lo: f64, #[case] hi: f64) {
         let (a, b) = Scale::log(values.iter().copied(), NONE).ends();
-        assert!((a - lo).abs() < 1e-12 && (b - hi).abs() < 1e-12);
+        assert_abs_diff_eq!(a, lo, epsilon = 1e-12);
+        assert_abs_diff_eq!(b, hi, epsilon = 1e-12);
     }
 
     #[test]
     fn padding_is_a_fraction_of_the_whole_axis() {
         let scale = Scale::linear([0.0, 7.0].into_iter(), Pad { lo: 0.1, hi: 0.2 });
-        assert!((scale.fraction(0.0) - 0.1).abs() < 1e-12);
-        assert!((scale.fraction(7.0) - 0.8).abs() < 1e-12);
+        assert_abs_diff_eq!(scale.fraction(0.0), 0.1, epsilon = 1e-12);
+        assert_abs_diff_eq!(scale.fraction(7.0), 0.8, epsilon = 1e-12);
     }
 
     #[test]
