@@ -72,7 +72,10 @@ const PLAIN_RATE: &str = "the solver integrates the plain rate, sigma' = C : D, 
                           an objective rate";
 
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
-    let mut page = format!("{}: {}\n\n{}\n\n", suite.name, suite.title, suite.about.trim());
+    let mut page = format!("{}: {}\n\n", suite.name, suite.title);
+    if !suite.about.trim().is_empty() {
+        page += &format!("{}\n\n", suite.about.trim());
+    }
     for (row, text) in sketch_text(suite).iter().enumerate() {
         page += &line(if row == 0 { "sketch" } else { "" }, text);
     }

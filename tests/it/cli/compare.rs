@@ -39,19 +39,26 @@ fn doubled_particles_are_reported_as_more_work() {
     let folder = two_runs();
     let found = folder.call(&["compare", "old.json", "new.json"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
-    assert_contains(
-        &found.out,
-        &[
-            "worse: 1 more expensive, 1 gone, 2 targets more expensive to reach\n",
-            "\nmore expensive\n",
-            "  short-bar::mpm-linear-flip-musl  converging ",
-            // Different levels do not prevent the comparison, because both series have a common
-            // range.
-            "levels: 4 -> 4, 0 in common\n",
-            " x at 1e-7\n",
-            "\ngone\n",
-        ],
-    );
+    // Different levels do not prevent the comparison, because both series have a common range.
+    insta::assert_snapshot!(found.out, @"
+    worse: 1 more expensive, 1 gone, 2 targets more expensive to reach
+
+    more expensive
+      case                             verdict     order  for the same error
+      short-bar::mpm-linear-flip-musl  converging   2.01      1.98 x at 1e-7
+        short-bar::mpm-linear-flip-musl: levels: 4 -> 4, 0 in common
+
+    gone
+      case                          verdict     order
+      short-bar::fem-linear-lumped  converging   2.02
+
+    cheapest for an error
+      suite                                                          error    times                    work  cheapest
+      short-bar, until t = 0.05 s, compared with the exact solution   1e-3        -  4.803e3 -> not reached  fem-linear-lumped -> not reached
+      short-bar, until t = 0.05 s, compared with the exact solution   1e-2  14.92 x      1.616e3 -> 2.410e4  fem-linear-lumped -> mpm-linear-flip-musl
+
+    Values count as equal within a relative difference of 0.001.
+    ");
 }
 
 #[test]

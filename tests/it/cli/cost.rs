@@ -118,7 +118,7 @@ fn impossible_budget_is_reported() {
     assert_contains(&poor.errors, &["no setting is predicted to run within"]);
     let time = folder.call(&["cost", "heat-temporal-order", "--budget", "1s"]);
     assert_eq!(time.code, FAILED);
-    assert_contains(&time.errors, &["does not refine its cells"]);
+    insta::assert_snapshot!(time.errors, @"error: --budget: heat-temporal-order: the suite does not refine its cells");
 }
 
 #[test]

@@ -52,7 +52,10 @@ fn a_series_without_a_limit_is_refused_with_the_reason() {
     let folder = Folder::with("series", "4 1.000\n2 2.000\n1 1.500\n0.5 1.800\n");
     let answer = folder.call(&["estimate", "series"]);
     assert_eq!(answer.code, FAILED);
-    assert!(answer.out.contains("refused  oscillation: "), "{}", answer.out);
+    insta::assert_snapshot!(answer.out, @"
+    series   4 levels
+    refused  oscillation: the changes between the finest levels alternate in sign
+    ");
     let answer = folder.call(&["estimate", "series", "--format", "json"]);
     assert_eq!(answer.code, FAILED);
     let document: Value = serde_json::from_str(&answer.out).expect("JSON");
@@ -65,7 +68,15 @@ fn invalid_input_is_reported_with_its_position() {
     let folder = Folder::with("series", "4 1.0\n2 x\n");
     let answer = folder.call(&["estimate", "series"]);
     assert_eq!((answer.code, answer.out.as_str()), (BAD_INPUT, ""));
-    assert!(answer.errors.contains("series:2:3"), "{}", answer.errors);
+    insta::assert_snapshot!(answer.errors, @"
+    error: expected a finite number as value, found `x`
+     --> series:2:3
+      |
+    2 | 2 x
+      |   ^
+      |
+      = help: each line has a spacing and a value, such as `0.125 1.0625`
+    ");
     let answer = folder.call(&["estimate", "no-such-file"]);
     assert_eq!(answer.code, BAD_INPUT);
     assert!(answer.errors.contains("cannot be read"), "{}", answer.errors);

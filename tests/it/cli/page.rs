@@ -91,5 +91,5 @@ fn unwritable_page_is_refused_before_the_run() {
     folder.write("a.yaml", BAR);
     folder.write("b.yaml", BAR);
     let errors = folder.refused(&["run", "a.yaml", "b.yaml", "--html", "page.html"]);
-    assert_contains(&errors, &["two suites have the name `short-bar`"]);
+    insta::assert_snapshot!(errors, @"error: --html: two suites have the name `short-bar` and would share one section");
 }

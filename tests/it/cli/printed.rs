@@ -124,10 +124,25 @@ fn suite_is_read_from_standard_input(#[case] arguments: &[&str], #[case] words: 
 fn standard_input_has_a_name_and_a_limit() {
     let folder = Folder::new();
     let (code, _, errors) = fed(&folder, &["check", "-"], &super::mistaken());
-    assert!(code == Some(BAD_INPUT) && errors.contains("<stdin>:9:3"), "{errors}");
+    assert_eq!(code, Some(BAD_INPUT));
+    insta::assert_snapshot!(errors, @"
+    error: unknown key `dimensions`
+     --> <stdin>:9:3
+      |
+    9 |   dimensions: 1
+      |   ^^^^^^^^^^ not a known key
+      |
+      = help: did you mean `dimension`?
+    1 error
+    ");
     // The input is short enough for a pipe whose reader stops early.
     let (code, _, errors) = fed(&folder, &["check", "-"], &"a".repeat(65 * 1024));
-    assert!(code == Some(BAD_INPUT) && errors.contains("too large"), "{errors}");
+    assert_eq!(code, Some(BAD_INPUT));
+    insta::assert_snapshot!(errors, @"
+    error: the file is too large: at most 64 KiB
+    --> <stdin>
+    1 error
+    ");
 }
 
 #[test]
