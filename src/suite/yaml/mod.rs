@@ -34,6 +34,7 @@ pub(crate) mod phrase;
 pub(crate) mod place;
 pub(crate) mod read;
 pub(crate) mod source;
+pub(crate) mod syntax;
 pub(crate) mod tree;
 
 #[cfg(test)]

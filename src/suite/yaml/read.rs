@@ -1,7 +1,8 @@
 //! Converts a text to a typed value, and rewrites errors of the YAML library for authors of
 //! suites. Also reads and writes YAML that only this program uses.
 
-use super::phrase::{expected, found, listed, syntax};
+use super::phrase::{expected, found, listed};
+use super::syntax::{syntax, tab};
 use super::{Diagnostic, Source};
 use crate::nearest::nearest;
 use serde::Serialize;
@@ -67,6 +68,12 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
     let fault = Fault { source, offset };
     if let Some([message, label, help]) = refused(&text) {
         return fault.at_token(message).with_label(label).with_help(help);
+    }
+    // The other parser has accepted the text, with a few exceptions, most of them about tabs.
+    if source.text().get(offset..).is_some_and(|rest| rest.starts_with('\t'))
+        || text.contains(" tab ")
+    {
+        return tab(source.name(), source.text(), offset.min(source.text().len()));
     }
     if let Some((message, help)) = syntax(&text) {
         return fault.at_token(message).with_help(help);

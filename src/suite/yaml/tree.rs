@@ -6,8 +6,8 @@
 //! duplicate key only after the value of the key, accepts `.nan`, and its cost is quadratic in the
 //! nesting depth.
 
-use super::phrase::syntax;
-use super::{Diagnostic, MAX_ENTRIES, MAX_NESTING, Place};
+use super::syntax::{InvalidText, is_indented_by_tab, tab, too_deep, unneeded};
+use super::{Diagnostic, MAX_ENTRIES, MAX_NESTING};
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -78,17 +78,16 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
     } else {
         text.char_indices().map(|(offset, _)| offset).collect()
     };
-    let mut builder = TreeBuilder { name, text, offsets, scalars: Vec::new(), open: Vec::new() };
+    let mut builder =
+        TreeBuilder { name, text, offsets, scalars: Vec::new(), open: Vec::new(), read: 0 };
     let mut documents = 0;
     let mut root = TreeNode::Empty(text.len());
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| builder.not_yaml(&error))?;
         let range = builder.offset(span.start.index())..builder.offset(span.end.index());
-        let is_content = !matches!(event, Event::DocumentStart(_) | Event::DocumentEnd);
-        if let Event::DocumentStart(_) = event {
-            documents += 1;
-        }
-        if documents > 1 && (is_content || !range.is_empty()) && event != Event::DocumentEnd {
+        documents += usize::from(matches!(event, Event::DocumentStart(_)));
+        let is_in_text = !matches!(event, Event::DocumentStart(false) | Event::DocumentEnd);
+        if documents > 1 && is_in_text {
             return Err(builder.second_document(range.start));
         }
         if let Some(node) = builder.event(event, range)? {
@@ -99,13 +98,19 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
 }
 
 /// A list or map whose end is not reached.
-enum OpenNode {
+struct OpenNode {
+    collection: Collection,
+    /// Whether it is in brackets.
+    is_flow: bool,
+}
+
+enum Collection {
     List(ListNode),
     /// The key is that of the next value.
     Map(MapNode, Option<usize>),
 }
 
-impl OpenNode {
+impl Collection {
     fn start(&self) -> usize {
         match self {
             Self::List(list) => list.start,
@@ -121,6 +126,8 @@ struct TreeBuilder<'t> {
     offsets: Vec<usize>,
     scalars: Vec<Scalar>,
     open: Vec<OpenNode>,
+    /// End of the events so far.
+    read: usize,
 }
 
 impl TreeBuilder<'_> {
@@ -131,39 +138,57 @@ impl TreeBuilder<'_> {
         range: Range<usize>,
     ) -> Result<Option<TreeNode>, Diagnostic> {
         let start = range.start;
-        if self.bracket().is_none() && is_node(&event) && self.is_indented_by_tab(start) {
-            return Err(self.tab(start));
+        let in_brackets = self.brackets().next().is_some();
+        let is_flow = self.text[start..range.end.max(start)].starts_with(['[', ']', '{', '}']);
+        if !in_brackets && is_node(&event) && is_indented_by_tab(self.text, start) {
+            return Err(tab(self.name, self.text, start));
         }
+        let node = self.node(event, &range, is_flow)?;
+        self.read = self.read.max(range.end);
+        Ok(node)
+    }
+
+    fn node(
+        &mut self,
+        event: Event<'_>,
+        range: &Range<usize>,
+        is_flow: bool,
+    ) -> Result<Option<TreeNode>, Diagnostic> {
+        let start = range.start;
         match event {
-            Event::Alias(_) => Err(self.unneeded("anchors and aliases", start)),
-            Event::Scalar(_, _, 1.., _)
+            Event::Alias(_)
+            | Event::Scalar(_, _, 1.., _)
             | Event::SequenceStart(1.., _)
-            | Event::MappingStart(1.., _) => {
-                Err(self.unneeded("anchors and aliases", self.last('&', start)))
-            }
+            | Event::MappingStart(1.., _) => Err(self.unneeded("anchors and aliases", '&', start)),
             Event::Scalar(_, _, _, Some(_))
             | Event::SequenceStart(_, Some(_))
-            | Event::MappingStart(_, Some(_)) => Err(self.unneeded("tags", self.last('!', start))),
+            | Event::MappingStart(_, Some(_)) => Err(self.unneeded("tags", '!', start)),
             Event::Scalar(value, style, ..) => {
-                let node = self.scalar(&value, style, range)?;
+                let node = self.scalar(&value, style, range.clone())?;
                 self.add(node)
             }
             Event::SequenceStart(..) => {
-                let is_flow = self.text[start..].starts_with('[');
-                // The list of a key may have the indentation of the key. The event of such a list
-                // is after the dash.
-                let start = if is_flow { start } else { self.last('-', start) };
-                self.open(OpenNode::List(ListNode { start, entries: Vec::new() }))
+                let start = if is_flow { start } else { self.dash(start) };
+                let list = ListNode { start, entries: Vec::new() };
+                self.open(OpenNode { collection: Collection::List(list), is_flow })
             }
             Event::MappingStart(..) => {
                 let map = MapNode { start, entries: Vec::new(), keys: HashMap::new() };
-                self.open(OpenNode::Map(map, None))
+                self.open(OpenNode { collection: Collection::Map(map, None), is_flow })
             }
-            Event::SequenceEnd | Event::MappingEnd => match self.open.pop() {
-                Some(OpenNode::List(list)) => self.add(TreeNode::List(list)),
-                Some(OpenNode::Map(map, _)) => self.add(TreeNode::Map(map)),
-                None => Ok(None),
-            },
+            Event::SequenceEnd | Event::MappingEnd => {
+                let Some(OpenNode { collection, is_flow: opened }) = self.open.pop() else {
+                    return Ok(None);
+                };
+                // The parser accepts `}` as the end of `a: 1` in `[a: 1}`.
+                if is_flow && !opened {
+                    return Err(self.invalid(start, "misplaced bracket"));
+                }
+                self.add(match collection {
+                    Collection::List(list) => TreeNode::List(list),
+                    Collection::Map(map, _) => TreeNode::Map(map),
+                })
+            }
             _ => Ok(None),
         }
     }
@@ -175,9 +200,12 @@ impl TreeBuilder<'_> {
         Range { mut start, mut end }: Range<usize>,
     ) -> Result<TreeNode, Diagnostic> {
         match style {
-            ScalarStyle::Plain if value.is_empty() => return Ok(TreeNode::Empty(start)),
+            ScalarStyle::Plain if value.is_empty() => {
+                let colon = usize::from(self.text[start..].starts_with(':'));
+                return Ok(TreeNode::Empty(start + colon));
+            }
             ScalarStyle::Plain => {
-                let is_key = matches!(self.open.last(), Some(OpenNode::Map(_, None)));
+                let is_key = self.is_at_key();
                 if let Some(found) = not_finite(value).filter(|_| !is_key) {
                     let message = format!("expected a finite number, found {found}");
                     let label = "a finite number is expected here";
@@ -222,13 +250,14 @@ impl TreeBuilder<'_> {
     }
 
     fn open(&mut self, node: OpenNode) -> Result<Option<TreeNode>, Diagnostic> {
-        if let Some(OpenNode::Map(_, None)) = self.open.last() {
-            let is_list = matches!(node, OpenNode::List(_));
+        let start = node.collection.start();
+        if self.is_at_key() {
+            let is_list = matches!(node.collection, Collection::List(_));
             let found = if is_list { "a list" } else { "a map (`key: value`)" };
-            return Err(self.key_is_no_name(node.start(), found));
+            return Err(self.key_is_no_name(start, found));
         }
         if self.open.len() >= MAX_NESTING {
-            return Err(self.too_deep(node.start()));
+            return Err(too_deep(self.name, self.text, start));
         }
         self.open.push(node);
         Ok(None)
@@ -237,13 +266,13 @@ impl TreeBuilder<'_> {
     /// Adds a key or value to the innermost list or map. Returns the node if there is none.
     fn add(&mut self, node: TreeNode) -> Result<Option<TreeNode>, Diagnostic> {
         let Self { open, scalars, .. } = self;
-        let (start, entries, what) = match open.last_mut() {
+        let (start, entries, what) = match open.last_mut().map(|open| &mut open.collection) {
             None => return Ok(Some(node)),
-            Some(OpenNode::List(list)) => {
+            Some(Collection::List(list)) => {
                 list.entries.push(node);
                 (list.start, list.entries.len(), "list")
             }
-            Some(OpenNode::Map(map, key)) => match (key.take(), node) {
+            Some(Collection::Map(map, key)) => match (key.take(), node) {
                 (Some(name), value) => {
                     map.entries.push((name, value));
                     (map.start, map.entries.len(), "map")
@@ -278,26 +307,37 @@ impl TreeBuilder<'_> {
         self.offsets.get(character).copied().unwrap_or(self.text.len())
     }
 
-    /// Whether a tab is in the indentation of the line of offset `at`. The YAML parser accepts some
-    /// such tabs, but not the parser of the typed values.
-    fn is_indented_by_tab(&self, at: usize) -> bool {
-        let line = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
-        self.text[line..at].trim_start_matches(' ').starts_with('\t')
+    /// Whether the next value is a key.
+    fn is_at_key(&self) -> bool {
+        let innermost = self.open.last().map(|open| &open.collection);
+        matches!(innermost, Some(Collection::Map(_, None)))
     }
 
-    /// Returns the offset of the last `c` at or before the offset `at`.
-    fn last(&self, c: char, at: usize) -> usize {
-        let end = at + self.text[at..].chars().next().map_or(0, char::len_utf8);
-        self.text[..end].rfind(c).unwrap_or(at)
+    /// Returns the offsets of the open brackets.
+    fn brackets(&self) -> impl Iterator<Item = usize> {
+        let brackets = self.open.iter().filter(|open| open.is_flow);
+        brackets.map(|open| open.collection.start())
+    }
+
+    /// Returns the offset of the dash of a block list whose event is at `start`. If the list has
+    /// the indentation of its key, the event is at its first entry, and the dash is in the text
+    /// before.
+    fn dash(&self, start: usize) -> usize {
+        let mut line_start = self.read.min(start);
+        for line in self.text[line_start..start].split_inclusive('\n') {
+            let rest = line.trim_start();
+            if rest.starts_with('-') {
+                return line_start + line.len() - rest.len();
+            }
+            line_start += line.len();
+        }
+        start
     }
 }
 
 fn is_node(event: &Event<'_>) -> bool {
     matches!(event, Event::Scalar(..) | Event::SequenceStart(..) | Event::MappingStart(..))
 }
-
-/// The characters after a backslash in a quoted text.
-const ESCAPES: &str = "0abt\tnvfre \"/\\N_LPxuU\n";
 
 /// Returns what a plain scalar is, if it is a number for YAML but not finite.
 fn not_finite(text: &str) -> Option<&'static str> {
@@ -320,16 +360,11 @@ impl TreeBuilder<'_> {
             .with_help("put each suite in a file of its own")
     }
 
-    fn unneeded(&self, what: &str, at: usize) -> Diagnostic {
-        let start = self.text[at..].chars().next().unwrap_or_default();
-        self.diagnostic(at..at + 1, &format!("{what} are not supported"))
-            .with_label(&format!("a value cannot start with `{start}`"))
-            .with_help("put text in quotes; give a value a name under `parameters`")
-    }
-
-    fn too_deep(&self, at: usize) -> Diagnostic {
-        let message = format!("lists and maps nest more than {MAX_NESTING} deep");
-        self.diagnostic(at..at + 1, &message)
+    /// Returns the error for the indicator `c` at or before the offset `at`, or an alias there.
+    fn unneeded(&self, what: &str, c: char, at: usize) -> Diagnostic {
+        let is_here = self.text[at..].starts_with(['&', '*', '!']);
+        let at = if is_here { at } else { self.text[..at].rfind(c).unwrap_or(at) };
+        unneeded(self.name, self.text, what, at)
     }
 
     fn key_is_no_name(&self, at: usize, found: &str) -> Diagnostic {
@@ -350,99 +385,12 @@ impl TreeBuilder<'_> {
             .with_help("keep one of the two")
     }
 
-    /// Returns the error for a text that is not YAML. Unclosed brackets and quotes are located
-    /// where they start.
     fn not_yaml(&self, error: &ScanError) -> Diagnostic {
-        let at = self.offset(error.marker().index());
-        let rest = &self.text[at..];
-        let first = rest.chars().next();
-        let here = |message: &str| self.diagnostic(at..at + 1, message);
-        let is = |problem: &str| error.info().contains(problem);
-        match (first, self.bracket()) {
-            _ if is("recursion limit") => self.too_deep(at),
-            _ if is("unknown anchor") => self.unneeded("anchors and aliases", at),
-            _ if is("tab") => self.tab(at),
-            (Some(quote @ ('"' | '\'')), _) if !rest[1..].contains(quote) => {
-                here("this quote is never closed").with_label("no matching quote")
-            }
-            (Some(closing @ (']' | '}')), None) if is("misplaced bracket") => {
-                let opening = if closing == ']' { '[' } else { '{' };
-                here(&format!("`{closing}` without a `{opening}` before it"))
-            }
-            (Some(closing @ (']' | '}')), Some(start)) if !self.closes(start, closing) => {
-                self.crossed(start, at, closing)
-            }
-            (_, Some(start)) if rest.trim().is_empty() => {
-                let (opening, closing) =
-                    if self.closes(start, ']') { ('[', ']') } else { ('{', '}') };
-                self.diagnostic(start..start + 1, &format!("this `{opening}` is never closed"))
-                    .with_label(&format!("no matching `{closing}`"))
-            }
-            (_, Some(start)) if is("invalid indentation") || is("illegal placement") => {
-                let (bracket, line) = (&self.text[start..=start], error.marker().line());
-                let message = format!("this `{bracket}` is not closed before line {line}");
-                self.diagnostic(start..start + 1, &message)
-                    .with_label("no matching bracket")
-                    .with_help("lines inside brackets need more indentation than their key")
-            }
-            _ => {
-                let (message, help) = syntax(error.info()).unwrap_or((error.info(), ""));
-                self.diagnostic(self.word_or_escape(at), message).with_help(help)
-            }
-        }
+        self.invalid(self.offset(error.marker().index()), error.info())
     }
 
-    /// Returns the offset of the innermost bracket that is open.
-    fn bracket(&self) -> Option<usize> {
-        let mut open = self.open.iter().rev().map(OpenNode::start);
-        open.find(|start| self.text[*start..].starts_with(['[', '{']))
-    }
-
-    /// Returns the range of the name at `at`, or of the first unknown escape in a quoted text, or
-    /// of one character.
-    fn word_or_escape(&self, at: usize) -> Range<usize> {
-        let rest = &self.text[at..];
-        if rest.starts_with('"') {
-            let mut escapes = rest.match_indices('\\').map(|(offset, _)| at + offset);
-            let known =
-                |offset: &usize| self.text[offset + 1..].starts_with(|c| ESCAPES.contains(c));
-            while let Some(offset) = escapes.next() {
-                if !known(&offset) {
-                    return offset..offset + 1;
-                }
-                if self.text[offset + 1..].starts_with('\\') {
-                    escapes.next();
-                }
-            }
-        }
-        let is_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
-        let length = rest.find(|c| !is_name(c)).unwrap_or(rest.len());
-        at..at + length.max(1)
-    }
-
-    fn closes(&self, start: usize, closing: char) -> bool {
-        self.text[start..].starts_with('[') == (closing == ']')
-    }
-
-    /// Returns the error for the first tab in the line of offset `at`.
-    fn tab(&self, at: usize) -> Diagnostic {
-        let line = self.text[..at].rfind('\n').map_or(0, |end| end + 1);
-        let at = self.text[line..].find('\t').map_or(at, |tab| line + tab);
-        self.diagnostic(at..at + 1, "tab used for indentation; YAML needs spaces")
-            .with_label("a tab")
-    }
-
-    /// Returns the error for a closing bracket at `end` that does not match the opening bracket at
-    /// `start`.
-    fn crossed(&self, start: usize, end: usize, closing: char) -> Diagnostic {
-        let bracket = &self.text[start..=start];
-        let place = Place::of(self.text, end..end + 1);
-        let (line, column) = (place.line(), place.column());
-        self.diagnostic(
-            start..start + 1,
-            &format!("this `{bracket}` is not closed before a `{closing}`"),
-        )
-        .with_label("no matching bracket")
-        .with_help(&format!("the `{closing}` is on line {line}, column {column}"))
+    fn invalid(&self, at: usize, problem: &str) -> Diagnostic {
+        let (name, text, read, brackets) = (self.name, self.text, self.read, self.brackets());
+        InvalidText { name, text, at, problem, read, brackets: brackets.collect() }.explain()
     }
 }

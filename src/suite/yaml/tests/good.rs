@@ -130,6 +130,32 @@ fn a_key_is_found_and_what_is_not_there_is_not() {
     }
 }
 
+/// Forms that are valid, but rare in suites.
+#[rstest]
+#[case::stated_keys("a:\n- b:\n    ? c\n    : 1\n    d: 2\n  e: 3\n- {? f : g}\n")]
+#[case::closed_at_the_key("a:\n  b: {\n    c: 1,\n  }\n  d: [\n    1\n  ]\n")]
+#[case::json("{\"a\": [\n1,\n{\"b\": \"c: [d\"}\n]}")]
+#[case::marks("%YAML 1.2\n---\na: 1\n...\n")]
+#[case::brackets_in_text("a: b [c] {d\ne: 'f [' # ] {\ng: |\n  [h\n  \ti\n")]
+#[case::lines("a: b\n  c\nd: \"e\n  f\"\n")]
+fn a_valid_form_is_read(#[case] yaml: &str) {
+    let values: serde_yaml::Value = text(yaml);
+    assert_eq!(values, serde_yaml::from_str::<serde_yaml::Value>(yaml).unwrap());
+}
+
+#[rstest]
+#[case::of_negative_numbers("a:\n- -1\n- 2", (2, 1))]
+#[case::behind_a_comment("a:\n- # c - d\n    U\n", (2, 1))]
+#[case::nested("a:\n- - 1\n  - 2", (2, 1))]
+#[case::indented("a:\n  - b", (2, 3))]
+#[case::in_brackets("a: # -\n  [-1]", (2, 3))]
+#[case::missing("a:", (1, 3))]
+fn the_start_of_a_value_is_found(#[case] yaml: &str, #[case] want: (usize, usize)) {
+    let source = Source::from_text("list.yaml", yaml).unwrap();
+    let place = source.value_at(&["a".into()]).unwrap();
+    assert_eq!((place.line(), place.column()), want);
+}
+
 #[rstest]
 #[case::plain("é: 2*L+M", 4..5, (1, 8, 1))]
 #[case::double_quoted("é: \"2*L+M\"", 4..5, (1, 9, 1))]

@@ -3,7 +3,7 @@
 use super::{SAMPLE, Suite};
 use crate::suite::yaml::{Diagnostic, OneOrMany, Ordered, Source, read, refuse};
 use rstest::rstest;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Deserializer};
 
 fn wrong<T: DeserializeOwned>(yaml: &str) -> Diagnostic {
@@ -59,10 +59,10 @@ fn check(diagnostic: &Diagnostic, place: (usize, usize, usize), message: &str, h
 #[case::tab("  dimension", "\tdimension", (4, 1, 1), "tab used for indentation; YAML needs spaces", "")]
 #[case::tab_after_spaces("  - {order", "  \t- {order", (13, 3, 1), "tab used for indentation; YAML needs spaces", "")]
 #[case::tab_under_a_value("  body", "\tbody", (5, 1, 1), "tab used for indentation; YAML needs spaces", "")]
-#[case::open_bracket("[5, 10, 20]", "[5, 10, 20", (9, 17, 1), "this `[` is not closed before line 10", "lines inside brackets need more indentation than their key")]
+#[case::open_bracket("[5, 10, 20]", "[5, 10, 20", (9, 17, 1), "this `[` is not closed before a `}`", "the `}` is on line 9, column 35")]
 #[case::crossed_brackets("to: [L]}}", "to: [L}}}", (5, 31, 1), "this `[` is not closed before a `}`", "the `}` is on line 5, column 33")]
-#[case::open_bracket_before_a_key("[5, 10, 20], ppc: 4}", "[5, 10, 20", (9, 17, 1), "this `[` is not closed before line 10", "lines inside brackets need more indentation than their key")]
-#[case::indentation_in_brackets("poisson: 0, ", "\npoisson: 0, ", (6, 30, 1), "this `{` is not closed before line 7", "lines inside brackets need more indentation than their key")]
+#[case::open_bracket_before_a_key("[5, 10, 20], ppc: 4}", "[5, 10, 20", (9, 17, 1), "this `[` is not closed before line 10", "close it; lines inside brackets need more indentation than their key")]
+#[case::indentation_in_brackets("poisson: 0, ", "\npoisson: 0, ", (6, 30, 1), "this `{` is not closed before line 7", "close it; lines inside brackets need more indentation than their key")]
 #[case::after_a_quote("vibrating-bar", "'vibrating' bar", (1, 20, 3), "text after a closing quote", "put the whole value in quotes")]
 #[case::tab_in_the_first_line("suite:", "\tsuite:", (1, 1, 1), "tab used for indentation; YAML needs spaces", "")]
 #[case::tab_after_a_key("dimension: 1", "dimension:\t1", (4, 14, 1), "expected a blank before this", "write `key: value`")]
@@ -87,6 +87,46 @@ fn in_the_sample(
 ) {
     assert!(SAMPLE.contains(right), "{right}");
     check(&wrong::<Suite>(&SAMPLE.replacen(right, mistaken, 1)), place, message, help);
+}
+
+/// Mistakes in a file of a few lines: message, and start of the place.
+#[rstest]
+#[case::bracket_before_a_key("a: {b: 2, c: 4\nd: {e: 1}", (1, 4), "this `{` is not closed before line 2")]
+#[case::bracket_before_an_entry("a:\n  - {b: {c: d}\n  - {e: f}", (2, 5), "this `{` is not closed before line 3")]
+#[case::bracket_in_a_list("a:\n  b:\n  - [0, 0]\n  - [1, 0\n  - [1, 1]", (4, 5), "this `[` is not closed before line 5")]
+#[case::crossed_before_an_entry("a:\n  - {b: {c: d, e: [f, g}}\n  - h", (2, 19), "this `[` is not closed before a `}`")]
+#[case::crossed_by_the_next_value("a: {b: [0, c: [8]}}", (1, 8), "this `[` is not closed before a `}`")]
+#[case::crossed_by_the_map("a: {b: [0, c: 8}", (1, 8), "this `[` is not closed before a `}`")]
+#[case::crossed_in_a_line("a: {b: [0, c: 8}\nd: 1", (1, 8), "this `[` is not closed before a `}`")]
+#[case::stray_after_a_list("a:\n- [0, 0]\n- [1, 0]]", (3, 9), "`]` without a `[` before it")]
+#[case::stray_in_a_list("a:\n- [0, 0]\n- }", (3, 3), "`}` without a `{` before it")]
+#[case::stray_in_text("a: x]\nb: [1, 2", (2, 4), "this `[` is never closed")]
+#[case::no_comma_in_json("{\n\"a\": 1\n\"b\": 2\n}", (3, 4), "expected `,` or `}` here")]
+#[case::closed_too_far_left("a:\n  b: {c: 1\n}", (3, 1), "text in brackets needs more indentation than its key")]
+#[case::no_comma_in_lines("a: {b: 1,\n    c: 2\n    d: 3}", (3, 6), "expected `,` or `}` here")]
+#[case::comment_then_indentation("a:\n  b: 1 # m\n   c: 2", (3, 4), "expected a key here")]
+#[case::comment_then_tab("a: b # name\n\tc: d", (2, 1), "tab used for indentation; YAML needs spaces")]
+#[case::tab_after_a_map("a: {b: 2}\n\tc: {d: 1}", (2, 1), "tab used for indentation; YAML needs spaces")]
+#[case::tab_after_a_block("a: |\n  Some text.\n\tMore text.\nb: c", (3, 1), "tab used for indentation; YAML needs spaces")]
+#[case::tab_in_a_block("a:\n  b: {c: 1}\n  \td: 1", (3, 3), "tab used for indentation; YAML needs spaces")]
+#[case::tab_in_a_list("a:\n- [0, 0]\n\t- [1, 0]", (3, 1), "tab used for indentation; YAML needs spaces")]
+#[case::tab_alone("a: b\n\t\nc: d", (2, 1), "tab used for indentation; YAML needs spaces")]
+#[case::tab_before_a_comment("\t# c\na: b", (1, 1), "tab used for indentation; YAML needs spaces")]
+#[case::quote_closed_later("a: {b: \"0.1*h, c: 1}\nd: 2\ne: [\"x\"]", (1, 8), "this quote is closed only on line 3")]
+#[case::quote_not_on_its_line("a: \"b\nc: \"d\"", (1, 4), "this quote is not closed on its line")]
+#[case::bullet("a:\n  * b: 1", (2, 3), "anchors and aliases are not supported")]
+#[case::ampersand("a: & b", (1, 4), "anchors and aliases are not supported")]
+#[case::exclamation("a: !important! b", (1, 4), "tags are not supported")]
+#[case::exclamations("a: !foo!bar b", (1, 4), "tags are not supported")]
+#[case::stray_dash("a:\n  b: 1\n  - c: 2", (3, 3), "expected a key here")]
+#[case::no_blank_before_a_comment("a: \"b\"#c", (1, 7), "expected a blank before the comment")]
+#[case::bar_in_brackets("a: [U, |V|]", (1, 8), "a value cannot start with this character")]
+#[case::blanks_before_a_block("a: |\n      \n  b", (3, 3), "the indentation of this block of text is unclear")]
+#[case::indented_first_line(" a: b\nc: d", (2, 1), "expected the end of the file here")]
+fn in_a_few_lines(#[case] yaml: &str, #[case] place: (usize, usize), #[case] message: &str) {
+    let found = wrong::<IgnoredAny>(yaml);
+    let at = found.place().expect("a place");
+    assert_eq!(((at.line(), at.column()), found.message()), (place, message), "\n{found}");
 }
 
 #[rstest]

@@ -87,13 +87,14 @@ fn refused_on_purpose(message: &str) -> bool {
         "expected a finite number",
         "expected a name as key",
         "given twice",
-        "needs more indentation",
         "not closed before line",
+        "needs more indentation",
         "expected a blank",
         "expected `:` after the key",
-        "comments must be separated",
+        "before the comment",
         "plain scalar cannot start with",
-        "wrongly indented line",
+        "block of text is unclear",
+        "this quote is",
     ]
     .iter()
     .any(|reason| message.contains(reason))
