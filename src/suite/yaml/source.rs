@@ -50,8 +50,9 @@ impl Source {
     /// Checks a text in memory, such as a suite embedded in the program.
     ///
     /// # Errors
-    /// If the text is too large, contains control characters, is not YAML, or violates a rule for
-    /// all files: see [`tree`](super::tree).
+    /// If the text is too large, contains control characters or is not YAML. Also if it nests too
+    /// deeply or has too long lists or maps, duplicate keys, keys that are not names, infinite
+    /// numbers, anchors, aliases, tags, merge keys, or more than one document.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
