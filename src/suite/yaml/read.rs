@@ -69,14 +69,11 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
     if let Some([message, label, help]) = refused(&text) {
         return fault.at_token(message).with_label(label).with_help(help);
     }
-    // The other parser has accepted the text, with a few exceptions, most of them about tabs.
-    if source.text().get(offset..).is_some_and(|rest| rest.starts_with('\t'))
-        || text.contains(" tab ")
-    {
-        return tab(source.name(), source.text(), offset.min(source.text().len()));
-    }
-    if let Some((message, help)) = syntax(&text) {
-        return fault.at_token(message).with_help(help);
+    // The parser of the tree has accepted the text. With a few exceptions, only the use of tabs is
+    // left to refuse.
+    let is_at_tab = source.text().as_bytes().get(offset) == Some(&b'\t');
+    if is_at_tab || text.starts_with("found a tab character") {
+        return tab(source.name(), source.text(), offset);
     }
     let position = error
         .location()
@@ -88,6 +85,7 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
         .or_else(|| fault.missing(path, problem, sample))
         .or_else(|| fault.wrong_type(problem))
         .or_else(|| fault.wrong_length(problem))
+        .or_else(|| fault.invalid_text(problem))
         .unwrap_or_else(|| fault.at_token(problem))
 }
 
@@ -220,6 +218,11 @@ impl<'a> Fault<'a> {
             self.at_token(&format!("expected {wanted}, found {length}"))
                 .with_label(&format!("{wanted} is expected here")),
         )
+    }
+
+    fn invalid_text(self, problem: &str) -> Option<Diagnostic> {
+        let (message, help) = syntax(problem)?;
+        Some(self.at_token(message).with_help(help))
     }
 
     fn is_quoted_number(self) -> bool {

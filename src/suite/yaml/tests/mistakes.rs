@@ -26,6 +26,8 @@ fn check(diagnostic: &Diagnostic, place: (usize, usize, usize), message: &str, h
 #[case::unknown_bare_name("left: fixed", "left: fxied", (7, 20, 5), "unknown name `fxied`", "did you mean `fixed`?")]
 #[case::unknown_in_a_list("musl, usl", "musl, leapfrog", (11, 57, 8), "unknown name `leapfrog`", "possible names: `musl`, `usl`")]
 #[case::forged("cells:", "\"x`, expected `y\":", (9, 10, 17), "unknown key `x`, expected `y`", "possible keys: `cells`, `ppc`, `until`")]
+#[case::like_an_error("basis: linear", "basis: invalid indentation", (11, 18, 19), "unknown name `invalid indentation`", "possible names: `linear`, `quadratic_bspline`")]
+#[case::like_another_error("ppc: 4", "ppc: found a tab character", (9, 35, 21), "expected a whole number from 0 to 65535, found the string \"found a tab character\"", "")]
 #[case::missing(", density: rho", "", (6, 30, 1), "missing key `density` in `linear_elastic`", "add `density: VALUE` in `linear_elastic`")]
 #[case::missing_at_the_root("suite: vibrating-bar\n", "", (1, 1, 10), "missing key `suite`", "add `suite: VALUE`")]
 #[case::missing_in_a_block("  dimension: 1\n", "", (4, 3, 4), "missing key `dimension` in `scene`", "add `dimension: VALUE` in `scene`")]
