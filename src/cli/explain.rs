@@ -73,8 +73,9 @@ const PLAIN_RATE: &str = "the solver integrates the plain rate, sigma' = C : D, 
 
 fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let mut page = format!("{}: {}\n\n", suite.name, suite.title);
-    if !suite.about.trim().is_empty() {
-        page += &format!("{}\n\n", suite.about.trim());
+    let about = suite.about.trim();
+    if !about.is_empty() {
+        page += &format!("{about}\n\n");
     }
     for (row, text) in sketch_text(suite).iter().enumerate() {
         page += &line(if row == 0 { "sketch" } else { "" }, text);
