@@ -116,10 +116,10 @@ fn only_one_file_lists_all_dimensions() {
 }
 
 #[test]
-fn only_the_yaml_module_names_the_yaml_library() {
-    for library in ["serde_yaml", "yaml_serde"] {
+fn only_the_yaml_module_names_the_yaml_libraries() {
+    for library in ["serde_yaml", "yaml_serde", "saphyr_parser"] {
         hold(
-            "only src/suite/yaml/ names the YAML library",
+            "only src/suite/yaml/ names the YAML libraries",
             "every text passes the same checks, and another library would change one folder",
             &rules::mentions(&source::of_crate(), &[&[library]], "src/suite/yaml/"),
         );

@@ -1,12 +1,12 @@
 //! Safe parsing of handwritten YAML, with a position for every error.
 //!
 //! ```text
-//! path -> Source          checks size, encoding, characters, nesting and numbers of entries
+//! path -> Source          checks size, encoding, syntax and rules for all keys; has all positions
 //!      -> read::<Suite>   typed; every error becomes a Diagnostic with file:line:column
 //!      -> Source::value_at, within   the position of a value that is rejected later
 //! ```
 //!
-//! Only this module uses the YAML library. Features that suites do not need are refused: anchors,
+//! Only this module uses the YAML libraries. Features that suites do not need are refused: anchors,
 //! aliases, tags, merge keys and a second document. A suite defines a repeated value once under
 //! `parameters`. Because aliases are refused, a small file cannot expand into a large value.
 //!

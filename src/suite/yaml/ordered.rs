@@ -4,7 +4,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Names and their values, in the order of the file, without duplicates.
+/// Names and their values, in the order of the file. A [`Source`](super::Source) has no duplicates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ordered<T>(Vec<(String, T)>);
 

@@ -2,7 +2,7 @@
 //! suites. Also reads and writes YAML that only this program uses.
 
 use super::phrase::{expected, found, listed};
-use super::syntax::{syntax, tab};
+use super::syntax::tab;
 use super::{Diagnostic, Source};
 use crate::nearest::nearest;
 use serde::Serialize;
@@ -69,11 +69,15 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
     if let Some([message, label, help]) = refused(&text) {
         return fault.at_token(message).with_label(label).with_help(help);
     }
-    // The parser of the tree has accepted the text. With a few exceptions, only the use of tabs is
-    // left to refuse.
+    // The parser of the tree accepts some tabs and indicators that this library refuses.
     let is_at_tab = source.text().as_bytes().get(offset) == Some(&b'\t');
-    if is_at_tab || text.starts_with("found a tab character") {
+    let is_no_value = text.starts_with("found character that cannot start any token");
+    if text.starts_with("found a tab character") || (is_no_value && is_at_tab) {
         return tab(source.name(), source.text(), offset);
+    }
+    if is_no_value {
+        let message = "a value cannot start with this character";
+        return fault.at_token(message).with_help("put the value in quotes");
     }
     let position = error
         .location()
@@ -85,7 +89,6 @@ fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>)
         .or_else(|| fault.missing(path, problem, sample))
         .or_else(|| fault.wrong_type(problem))
         .or_else(|| fault.wrong_length(problem))
-        .or_else(|| fault.invalid_text(problem))
         .unwrap_or_else(|| fault.at_token(problem))
 }
 
@@ -121,12 +124,8 @@ impl<'a> Fault<'a> {
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
-        let name = scalar.and_then(|scalar| {
-            let inside =
-                scalar.verbatim(self.source.text()).unwrap_or_else(|| scalar.range.clone());
-            self.source.text().get(inside)
-        });
-        (Self { offset, ..self }, name.unwrap_or("this"))
+        let name = scalar.map_or("this", |scalar| &scalar.value);
+        (Self { offset, ..self }, name)
     }
 
     fn unknown(self, problem: &str) -> Option<Diagnostic> {
@@ -220,16 +219,9 @@ impl<'a> Fault<'a> {
         )
     }
 
-    fn invalid_text(self, problem: &str) -> Option<Diagnostic> {
-        let (message, help) = syntax(problem)?;
-        Some(self.at_token(message).with_help(help))
-    }
-
     fn is_quoted_number(self) -> bool {
         let scalar = self.source.scalar_at(self.offset).filter(|scalar| scalar.is_quoted());
-        scalar
-            .and_then(|scalar| scalar.verbatim(self.source.text()))
-            .is_some_and(|inside| self.source.text()[inside].parse::<f64>().is_ok())
+        scalar.is_some_and(|scalar| scalar.value.parse::<f64>().is_ok())
     }
 }
 

@@ -51,8 +51,8 @@ impl Source {
     ///
     /// # Errors
     /// If the text is too large, contains control characters or is not YAML. Also if it nests too
-    /// deeply or has too long lists or maps, duplicate keys, keys that are not names, infinite
-    /// numbers, anchors, aliases, tags, merge keys, or more than one document.
+    /// deeply or has too long lists or maps, duplicate keys, keys that are not names, numbers that
+    /// are not finite, anchors, aliases, tags, merge keys, directives, or more than one document.
     pub fn from_text(name: impl Into<String>, text: impl Into<String>) -> Result<Self, Diagnostic> {
         let (name, mut text) = (name.into(), text.into());
         if text.len() > MAX_BYTES {
@@ -128,7 +128,10 @@ impl Source {
         match &self.root {
             TreeNode::Empty(_) => true,
             TreeNode::Scalar(scalar) => {
-                matches!(&self.text[self.scalars[*scalar].range.clone()], "~" | "null")
+                matches!(
+                    &self.text[self.scalars[*scalar].range.clone()],
+                    "~" | "null" | "Null" | "NULL"
+                )
             }
             TreeNode::List(_) | TreeNode::Map(_) => false,
         }

@@ -1,6 +1,7 @@
 //! Errors about text that is not YAML, in plain English, at the place of the mistake.
 
 use super::{Diagnostic, MAX_NESTING, Place};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A text that is not YAML, with the error of the parser.
@@ -11,9 +12,9 @@ pub(crate) struct InvalidText<'t> {
     pub(crate) at: usize,
     /// Message of the parser.
     pub(crate) problem: &'t str,
-    /// End of the text that the parser has read completely.
-    pub(crate) read: usize,
-    /// Offsets of the brackets that are open there.
+    /// End of the last event of the parser (byte offset).
+    pub(crate) events_end: usize,
+    /// Offsets of the brackets that are open at the end of this event.
     pub(crate) brackets: Vec<usize>,
 }
 
@@ -45,19 +46,24 @@ impl InvalidText<'_> {
         if is("comment intercepting") {
             return self.unexpected_line();
         }
+        if is("must be followed by a valid YAML whitespace") && text[..at].ends_with('\t') {
+            return self
+                .at(at - 1..at, "expected a space here, found a tab")
+                .with_help("replace the tab by a space");
+        }
         if matches!(first, '"' | '\'') || is("invalid trailing content") {
             return self.quote();
         }
         match (self.brackets(), first) {
             (Brackets::Crossed(start, end), _) => self.crossed(start, end),
-            (Brackets::Open(start), _) if self.is_behind(start) => self.unclosed(start),
+            (Brackets::Open(start), _) if self.shows_unclosed(start) => self.unclosed(start),
             (Brackets::Closed, ']' | '}') if is("misplaced bracket") => {
                 let opening = if first == ']' { '[' } else { '{' };
                 self.here(&format!("`{first}` without a `{opening}` before it"))
             }
             (Brackets::Closed, _) if is_indented_by_tab(text, at) => tab(self.name, text, at),
             _ if is("tab") => tab(self.name, text, at),
-            _ => self.rephrased(),
+            _ => self.translated(),
         }
     }
 
@@ -73,17 +79,25 @@ impl InvalidText<'_> {
         Place::of(self.text, at..at).line()
     }
 
-    fn rephrased(&self) -> Diagnostic {
+    fn translated(&self) -> Diagnostic {
         let Self { text, mut at, .. } = *self;
-        let (message, help) = syntax(self.problem).unwrap_or((self.problem, ""));
+        let (message, help) = self.message_and_help();
         let before = text[line_start(text, at)..at].trim_end();
         if message == KEY_EXPECTED && before.trim_start() == "-" {
             at = line_start(text, at) + before.len() - 1;
         }
-        self.at(word(text, at), message).with_help(help)
+        self.at(name_range(text, at), &message).with_help(help)
     }
 
-    /// Returns the error for the line after the comment at this place, which belongs to no key.
+    fn message_and_help(&self) -> (Cow<'static, str>, &'static str) {
+        let known = MESSAGES.iter().find(|(problem, ..)| self.problem.contains(problem));
+        match known {
+            Some((_, message, help)) => (Cow::Borrowed(message), help),
+            None => (Cow::Owned(format!("this is not valid YAML: {}", self.problem)), ""),
+        }
+    }
+
+    /// Returns the error for the line after a comment, if this line continues no value.
     fn unexpected_line(&self) -> Diagnostic {
         let Self { text, at, .. } = *self;
         let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
@@ -91,7 +105,7 @@ impl InvalidText<'_> {
         if is_indented_by_tab(text, at) {
             return tab(self.name, text, at);
         }
-        self.at(word(text, at), KEY_EXPECTED).with_help(KEY_HELP)
+        self.at(name_range(text, at), KEY_EXPECTED).with_help(KEY_HELP)
     }
 
     /// Returns the error for a quoted text.
@@ -108,7 +122,7 @@ impl InvalidText<'_> {
                     let message = format!("this quote is closed only on line {}", self.line(at));
                     unclosed(start, &message).with_help("close it on its line")
                 }
-                None => self.rephrased(),
+                None => self.translated(),
             };
         }
         match rest.chars().next() {
@@ -118,22 +132,23 @@ impl InvalidText<'_> {
                     .with_help("close it, or indent the following lines more than their key")
             }
             _ => {
-                let (message, help) = syntax(self.problem).unwrap_or((self.problem, ""));
-                self.at(unknown_escape(text, at), message).with_help(help)
+                let (message, help) = self.message_and_help();
+                self.at(unknown_escape(text, at), &message).with_help(help)
             }
         }
     }
 
-    /// Returns the offset of the first quote after the text that is read.
+    /// Returns the offset of the first quote after the last event.
     fn opening_quote(&self) -> Option<usize> {
-        let rest = self.text.get(self.read..self.at)?;
-        let found = rest.find(['"', '\''])?;
-        Some(self.read + found)
+        let rest = self.text.get(self.events_end..self.at)?;
+        let quote = rest.find(['"', '\''])?;
+        Some(self.events_end + quote)
     }
 
-    /// Whether the error is in a line that cannot be inside the bracket at `start`, because it is
-    /// not indented, or after the end of the text.
-    fn is_behind(&self, start: usize) -> bool {
+    /// Whether the error shows that the bracket at `start` is not closed: it is at the end of the
+    /// text, or in a line that is indented at most as much as the line of the bracket. If the whole
+    /// file is in brackets, lines need no indentation.
+    fn shows_unclosed(&self, start: usize) -> bool {
         let Self { text, at, .. } = *self;
         if text[at..].trim().is_empty() {
             return true;
@@ -172,13 +187,18 @@ impl InvalidText<'_> {
     /// Finds the brackets at the error. The parser reads at most a few lines ahead of its events,
     /// so only these lines are searched.
     fn brackets(&self) -> Brackets {
-        let Self { text, at, read, .. } = *self;
+        let Self { text, at, events_end, .. } = *self;
         let mut open = self.brackets.clone();
         let (mut quote, mut is_comment, mut before) = (None, false, '\n');
         let end = at + usize::from(text[at..].starts_with([']', '}']));
-        for (offset, c) in text[..end].char_indices().filter(|(offset, _)| *offset >= read) {
+        let mut characters =
+            text[..end].char_indices().skip_while(|(offset, _)| *offset < events_end);
+        while let Some((offset, c)) = characters.next() {
             let can_start = matches!(before, '\n' | ':' | ',' | '[' | '{' | '-' | '?');
             match c {
+                '\\' if quote == Some('"') => {
+                    characters.next();
+                }
                 _ if quote.is_some() => quote = quote.filter(|quote| *quote != c),
                 '\n' => is_comment = false,
                 _ if is_comment => continue,
@@ -231,13 +251,18 @@ fn line_start(text: &str, at: usize) -> usize {
     text[..at].rfind('\n').map_or(0, |end| end + 1)
 }
 
+/// Returns the indentation of the line of offset `at`, including the dashes of lists.
 fn indentation(text: &str, at: usize) -> usize {
     let line = &text[line_start(text, at)..];
-    line.len() - line.trim_start_matches([' ', '-']).len()
+    let mut rest = line.trim_start_matches(' ');
+    while let Some(entry) = rest.strip_prefix("- ") {
+        rest = entry.trim_start_matches(' ');
+    }
+    line.len() - rest.len()
 }
 
 /// Returns the range of the name at `at`, or of one character.
-fn word(text: &str, at: usize) -> Range<usize> {
+fn name_range(text: &str, at: usize) -> Range<usize> {
     let is_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
     let rest = &text[at..];
     let length = rest.find(|c| !is_name(c)).unwrap_or(rest.len());
@@ -264,87 +289,75 @@ const KEY_EXPECTED: &str = "expected a key here";
 const KEY_HELP: &str =
     "check the indentation, and quotes around text that holds `:`, `#` or quotes";
 
-/// Returns message and help for an error of a YAML parser about invalid text.
-pub(crate) fn syntax(error: &str) -> Option<(&'static str, &'static str)> {
-    const TABLE: [(&str, &str, &str); 21] = [
-        (
-            "expected ',' or ']'",
-            "expected `,` or `]` here",
-            "entries of a list are separated by `,`",
-        ),
-        ("expected ',' or '}'", "expected `,` or `}` here", "keys of a map are separated by `,`"),
-        ("did not find expected key", KEY_EXPECTED, KEY_HELP),
-        (
-            "did not find expected '-' indicator",
-            "expected `- ` here, as in the entries above",
-            "check the indentation",
-        ),
-        (
-            "mapping values are not allowed",
-            "`:` is not possible here",
-            "check the indentation; put text that holds `: ` in quotes",
-        ),
-        (
-            "illegal placement of ':'",
-            "`:` is not possible here",
-            "check the brackets; put text that holds `: ` in quotes",
-        ),
-        (
-            "block sequence entries are not allowed",
-            "`- ` is not possible here",
-            "start the list on a line of its own",
-        ),
-        (
-            "is only valid inside a block",
-            "`- ` is not possible inside brackets",
-            "entries of a list in brackets are separated by `,`",
-        ),
-        ("mapping keys are not allowed", "a key is not possible here", "check the indentation"),
-        ("simple key expect", "expected `:` after the key", "write `key: value`"),
-        ("invalid trailing content", "text after a closing quote", "put the whole value in quotes"),
-        (
-            "must be followed by a valid YAML whitespace",
-            "expected a blank before this",
-            "write `key: value`",
-        ),
-        ("comments must be separated", "expected a blank before the comment", "write ` # comment`"),
-        ("expected node content", "expected a value here", ""),
-        (
-            "expected comment or line break",
-            "text after `|` or `>` starts on the next line",
-            "put text that starts with `|` or `>` in quotes",
-        ),
-        (
-            "invalid indentation",
-            "text in brackets needs more indentation than its key",
-            "indent this line",
-        ),
-        (
-            "wrongly indented line",
-            "the indentation of this block of text is unclear",
-            "remove the blanks in empty lines before the text",
-        ),
-        (
-            "expected <document",
-            "expected the end of the file here",
-            "check the indentation and the brackets",
-        ),
-        (
-            "unexpected character",
-            "a value cannot start with this character",
-            "put the value in quotes",
-        ),
-        (
-            "found character that cannot start any token",
-            "a value cannot start with this character",
-            "put the value in quotes",
-        ),
-        (
-            "found unknown escape character",
-            "unknown escape in double quotes",
-            "use single quotes to keep `\\` as it is",
-        ),
-    ];
-    let (_, message, help) = TABLE.iter().find(|(problem, ..)| error.contains(problem))?;
-    Some((message, help))
-}
+/// Parts of messages of the parser, with message and help for authors of suites.
+const MESSAGES: &[(&str, &str, &str)] = &[
+    ("expected ',' or ']'", "expected `,` or `]` here", "entries of a list are separated by `,`"),
+    ("expected ',' or '}'", "expected `,` or `}` here", "keys of a map are separated by `,`"),
+    ("did not find expected key", KEY_EXPECTED, KEY_HELP),
+    (
+        "did not find expected '-' indicator",
+        "expected `- ` here, as in the entries above",
+        "check the indentation",
+    ),
+    (
+        "mapping values are not allowed",
+        "`:` is not possible here",
+        "check the indentation; put text that holds `: ` in quotes",
+    ),
+    (
+        "illegal placement of ':'",
+        "`:` is not possible here",
+        "check the brackets; put text that holds `: ` in quotes",
+    ),
+    (
+        "block sequence entries are not allowed",
+        "`- ` is not possible here",
+        "start the list on a line of its own",
+    ),
+    (
+        "is only valid inside a block",
+        "`- ` is not possible inside brackets",
+        "entries of a list in brackets are separated by `,`",
+    ),
+    ("mapping keys are not allowed", "a key is not possible here", "check the indentation"),
+    ("simple key expect", "expected `:` after the key", "write `key: value`"),
+    ("invalid trailing content", "text after a closing quote", "put the whole value in quotes"),
+    (
+        "must be followed by a valid YAML whitespace",
+        "expected a space before this",
+        "write `key: value`",
+    ),
+    ("comments must be separated", "expected a blank before the comment", "write ` # comment`"),
+    ("expected node content", "expected a value here", ""),
+    (
+        "a block scalar, did not find expected comment or line break",
+        "text after `|` or `>` starts on the next line",
+        "put text that starts with `|` or `>` in quotes",
+    ),
+    (
+        "a block scalar, found an indentation indicator",
+        "text after `|` or `>` starts on the next line",
+        "put text that starts with `|` or `>` in quotes",
+    ),
+    (
+        "invalid indentation",
+        "text in brackets needs more indentation than its key",
+        "indent this line",
+    ),
+    (
+        "wrongly indented line",
+        "the indentation of this block of text is unclear",
+        "remove the blanks in empty lines before the text",
+    ),
+    (
+        "expected <document",
+        "expected the end of the file here",
+        "check the indentation and the brackets",
+    ),
+    ("unexpected character", "a value cannot start with this character", "put the value in quotes"),
+    (
+        "found unknown escape character",
+        "unknown escape in double quotes",
+        "use single quotes to keep `\\` as it is",
+    ),
+];

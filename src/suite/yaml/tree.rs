@@ -78,10 +78,20 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
     } else {
         text.char_indices().map(|(offset, _)| offset).collect()
     };
-    let mut builder =
-        TreeBuilder { name, text, offsets, scalars: Vec::new(), open: Vec::new(), read: 0 };
+    if let Some(at) = directive(text) {
+        let message = "directives are not supported";
+        return Err(Diagnostic::at(name, text, at..at + 1, message).with_help("delete this line"));
+    }
+    let mut builder = TreeBuilder {
+        name,
+        text,
+        offsets,
+        scalars: Vec::new(),
+        open: Vec::new(),
+        events_end: 0,
+        root: TreeNode::Empty(text.len()),
+    };
     let mut documents = 0;
-    let mut root = TreeNode::Empty(text.len());
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| builder.not_yaml(&error))?;
         let range = builder.offset(span.start.index())..builder.offset(span.end.index());
@@ -90,23 +100,37 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
         if documents > 1 && is_in_text {
             return Err(builder.second_document(range.start));
         }
-        if let Some(node) = builder.event(event, range)? {
-            root = node;
-        }
+        builder.event(event, range)?;
     }
-    Ok((builder.scalars, root))
+    Ok((builder.scalars, builder.root))
+}
+
+/// Returns the offset of the first directive other than the version of YAML. The positions of the
+/// parser are wrong after some directives.
+fn directive(text: &str) -> Option<usize> {
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        if line.starts_with('%') && !(line.starts_with("%YAML ") && line.is_ascii()) {
+            return Some(at);
+        }
+        if !line.starts_with(['%', '#']) && !line.trim().is_empty() {
+            return None;
+        }
+        at += line.len();
+    }
+    None
 }
 
 /// A list or map whose end is not reached.
 struct OpenNode {
     collection: Collection,
-    /// Whether it is in brackets.
+    /// Whether the list or map is written in brackets.
     is_flow: bool,
 }
 
 enum Collection {
     List(ListNode),
-    /// The key is that of the next value.
+    /// The map, and the key whose value has not been parsed yet.
     Map(MapNode, Option<usize>),
 }
 
@@ -126,34 +150,33 @@ struct TreeBuilder<'t> {
     offsets: Vec<usize>,
     scalars: Vec<Scalar>,
     open: Vec<OpenNode>,
-    /// End of the events so far.
-    read: usize,
+    /// End of the last event (byte offset).
+    events_end: usize,
+    /// The value of the file, when it is complete.
+    root: TreeNode,
 }
 
 impl TreeBuilder<'_> {
-    /// Adds an event. Returns the value of the file when it is complete.
-    fn event(
-        &mut self,
-        event: Event<'_>,
-        range: Range<usize>,
-    ) -> Result<Option<TreeNode>, Diagnostic> {
+    fn event(&mut self, event: Event<'_>, range: Range<usize>) -> Result<(), Diagnostic> {
         let start = range.start;
         let in_brackets = self.brackets().next().is_some();
         let is_flow = self.text[start..range.end.max(start)].starts_with(['[', ']', '{', '}']);
         if !in_brackets && is_node(&event) && is_indented_by_tab(self.text, start) {
             return Err(tab(self.name, self.text, start));
         }
-        let node = self.node(event, &range, is_flow)?;
-        self.read = self.read.max(range.end);
-        Ok(node)
+        let end = range.end;
+        self.content(event, range, is_flow)?;
+        self.events_end = self.events_end.max(end);
+        Ok(())
     }
 
-    fn node(
+    /// Adds the value that an event starts, completes or contains.
+    fn content(
         &mut self,
         event: Event<'_>,
-        range: &Range<usize>,
+        range: Range<usize>,
         is_flow: bool,
-    ) -> Result<Option<TreeNode>, Diagnostic> {
+    ) -> Result<(), Diagnostic> {
         let start = range.start;
         match event {
             Event::Alias(_)
@@ -164,7 +187,7 @@ impl TreeBuilder<'_> {
             | Event::SequenceStart(_, Some(_))
             | Event::MappingStart(_, Some(_)) => Err(self.unneeded("tags", '!', start)),
             Event::Scalar(value, style, ..) => {
-                let node = self.scalar(&value, style, range.clone())?;
+                let node = self.scalar(&value, style, range)?;
                 self.add(node)
             }
             Event::SequenceStart(..) => {
@@ -178,7 +201,7 @@ impl TreeBuilder<'_> {
             }
             Event::SequenceEnd | Event::MappingEnd => {
                 let Some(OpenNode { collection, is_flow: opened }) = self.open.pop() else {
-                    return Ok(None);
+                    return Ok(());
                 };
                 // The parser accepts `}` as the end of `a: 1` in `[a: 1}`.
                 if is_flow && !opened {
@@ -189,10 +212,11 @@ impl TreeBuilder<'_> {
                     Collection::Map(map, _) => TreeNode::Map(map),
                 })
             }
-            _ => Ok(None),
+            _ => Ok(()),
         }
     }
 
+    /// Stores a scalar, unless it is empty.
     fn scalar(
         &mut self,
         value: &str,
@@ -206,8 +230,8 @@ impl TreeBuilder<'_> {
             }
             ScalarStyle::Plain => {
                 let is_key = self.is_at_key();
-                if let Some(found) = not_finite(value).filter(|_| !is_key) {
-                    let message = format!("expected a finite number, found {found}");
+                if let Some(kind) = not_finite(value).filter(|_| !is_key) {
+                    let message = format!("expected a finite number, found {kind}");
                     let label = "a finite number is expected here";
                     return Err(self.diagnostic(start..end, &message).with_label(label));
                 }
@@ -227,29 +251,35 @@ impl TreeBuilder<'_> {
     /// also contains the blanks and the comment that follow.
     fn end_of_quoted(&self, start: usize) -> usize {
         let bytes = self.text.as_bytes();
-        let (quote, mut at) = (bytes[start], start + 1);
-        while at < bytes.len() {
-            let is_pair = bytes[at] == b'\'' && bytes.get(at + 1) == Some(&b'\'');
-            match bytes[at] {
+        let Some(&quote) = bytes.get(start) else { return start };
+        let mut at = start + 1;
+        while let Some(&byte) = bytes.get(at) {
+            match byte {
                 b'\\' if quote == b'"' => at += 2,
-                b'\'' if quote == b'\'' && is_pair => at += 2,
-                byte if byte == quote => return at + 1,
+                b'\'' if quote == byte && bytes.get(at + 1) == Some(&byte) => at += 2,
+                _ if byte == quote => return at + 1,
                 _ => at += 1,
             }
         }
         bytes.len()
     }
 
-    /// Returns the offset of the `|` or `>` of a block scalar with content at offset `content`.
+    /// Returns the offset of the `|` or `>` of a block scalar whose event is at `content`. Only
+    /// blanks, dashes, a colon and comments can precede it after the last event.
     fn block_indicator(&self, content: usize) -> usize {
-        let header = self.text[..content].trim_end();
-        let line = header.rfind('\n').map_or(0, |at| at + 1);
-        let header = &header[line..];
-        let header = header.find(" #").map_or(header, |comment| &header[..comment]);
-        header.rfind(['|', '>']).map_or(content, |at| line + at)
+        let mut at = self.events_end.min(content);
+        for line in self.text[at..content].split_inclusive('\n') {
+            let before_comment = line.find('#').map_or(line, |comment| &line[..comment]);
+            if let Some(indicator) = before_comment.find(['|', '>']) {
+                return at + indicator;
+            }
+            at += line.len();
+        }
+        content
     }
 
-    fn open(&mut self, node: OpenNode) -> Result<Option<TreeNode>, Diagnostic> {
+    /// Starts a list or map.
+    fn open(&mut self, node: OpenNode) -> Result<(), Diagnostic> {
         let start = node.collection.start();
         if self.is_at_key() {
             let is_list = matches!(node.collection, Collection::List(_));
@@ -260,41 +290,42 @@ impl TreeBuilder<'_> {
             return Err(too_deep(self.name, self.text, start));
         }
         self.open.push(node);
-        Ok(None)
+        Ok(())
     }
 
-    /// Adds a key or value to the innermost list or map. Returns the node if there is none.
-    fn add(&mut self, node: TreeNode) -> Result<Option<TreeNode>, Diagnostic> {
-        let Self { open, scalars, .. } = self;
-        let (start, entries, what) = match open.last_mut().map(|open| &mut open.collection) {
-            None => return Ok(Some(node)),
-            Some(Collection::List(list)) => {
+    /// Adds a complete key or value to the innermost list or map. Outside of all, it is the root.
+    fn add(&mut self, node: TreeNode) -> Result<(), Diagnostic> {
+        let Some(OpenNode { collection, .. }) = self.open.last_mut() else {
+            self.root = node;
+            return Ok(());
+        };
+        let (start, entries, what) = match collection {
+            Collection::List(list) => {
                 list.entries.push(node);
                 (list.start, list.entries.len(), "list")
             }
-            Some(Collection::Map(map, key)) => match (key.take(), node) {
+            Collection::Map(map, key) => match (key.take(), node) {
                 (Some(name), value) => {
                     map.entries.push((name, value));
                     (map.start, map.entries.len(), "map")
                 }
                 (None, TreeNode::Scalar(name)) => {
-                    let text = scalars[name].value.clone();
+                    let text = self.scalars[name].value.clone();
                     let is_merge = text == "<<";
                     let is_second = map.keys.insert(text, map.entries.len()).is_some();
                     *key = Some(name);
                     if is_merge || is_second {
-                        return Err(self.refused_key(name, is_merge));
+                        return Err(self.key_error(name, is_merge));
                     }
-                    return Ok(None);
+                    return Ok(());
                 }
-                (None, node) => {
-                    let at = if let TreeNode::Empty(at) = node { at } else { map.start };
-                    return Err(self.key_is_no_name(at, "nothing"));
-                }
+                (None, TreeNode::Empty(at)) => return Err(self.key_is_no_name(at, "nothing")),
+                // `open` refuses them.
+                (None, TreeNode::List(_) | TreeNode::Map(_)) => return Ok(()),
             },
         };
         if entries <= MAX_ENTRIES {
-            return Ok(None);
+            return Ok(());
         }
         let message = format!("this {what} has more than {MAX_ENTRIES} entries");
         Err(self.diagnostic(start..start + 1, &message))
@@ -323,7 +354,7 @@ impl TreeBuilder<'_> {
     /// the indentation of its key, the event is at its first entry, and the dash is in the text
     /// before.
     fn dash(&self, start: usize) -> usize {
-        let mut line_start = self.read.min(start);
+        let mut line_start = self.events_end.min(start);
         for line in self.text[line_start..start].split_inclusive('\n') {
             let rest = line.trim_start();
             if rest.starts_with('-') {
@@ -339,11 +370,13 @@ fn is_node(event: &Event<'_>) -> bool {
     matches!(event, Event::Scalar(..) | Event::SequenceStart(..) | Event::MappingStart(..))
 }
 
-/// Returns what a plain scalar is, if it is a number for YAML but not finite.
+/// Returns `infinity` or `NaN` if a plain scalar is such a number.
 fn not_finite(text: &str) -> Option<&'static str> {
+    if let ".nan" | ".NaN" | ".NAN" = text {
+        return Some("NaN");
+    }
     match text.strip_prefix(['+', '-']).unwrap_or(text) {
         ".inf" | ".Inf" | ".INF" => Some("infinity"),
-        ".nan" | ".NaN" | ".NAN" => Some("NaN"),
         _ => None,
     }
 }
@@ -360,7 +393,8 @@ impl TreeBuilder<'_> {
             .with_help("put each suite in a file of its own")
     }
 
-    /// Returns the error for the indicator `c` at or before the offset `at`, or an alias there.
+    /// Returns the error for an anchor, alias or tag of the value at offset `at`. The indicator `c`
+    /// may precede the value.
     fn unneeded(&self, what: &str, c: char, at: usize) -> Diagnostic {
         let is_here = self.text[at..].starts_with(['&', '*', '!']);
         let at = if is_here { at } else { self.text[..at].rfind(c).unwrap_or(at) };
@@ -372,7 +406,7 @@ impl TreeBuilder<'_> {
             .with_label("a name as key is expected here")
     }
 
-    fn refused_key(&self, key: usize, is_merge: bool) -> Diagnostic {
+    fn key_error(&self, key: usize, is_merge: bool) -> Diagnostic {
         let Scalar { range, value, .. } = &self.scalars[key];
         if is_merge {
             return self
@@ -390,7 +424,7 @@ impl TreeBuilder<'_> {
     }
 
     fn invalid(&self, at: usize, problem: &str) -> Diagnostic {
-        let (name, text, read, brackets) = (self.name, self.text, self.read, self.brackets());
-        InvalidText { name, text, at, problem, read, brackets: brackets.collect() }.explain()
+        let (name, text, brackets) = (self.name, self.text, self.brackets().collect());
+        InvalidText { name, text, at, problem, events_end: self.events_end, brackets }.explain()
     }
 }

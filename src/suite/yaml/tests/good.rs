@@ -167,6 +167,8 @@ fn the_start_of_a_value_is_found(#[case] yaml: &str, #[case] want: (usize, usize
 #[case::single_quoted_before_a_comment("é: '2*L'  # it's so", 2..9, (1, 4, 5))]
 #[case::double_quoted_before_a_comment("é: \"2\\\"L\" # \"so\"", 2..3, (1, 4, 6))]
 #[case::block_before_a_comment("é: > # a|b\n  2*L", 2..3, (1, 4, 7))]
+#[case::block_after_a_key_with_a_bar("'b|c': |\n  x\né: |\t# x | y\n  2*L", 2..3, (3, 4, 9))]
+#[case::empty_block("b|é: 1\né: |", 2..3, (2, 4, 1))]
 #[case::block("é: |\n  2*L", 2..3, (1, 4, 1))]
 #[case::after_a_block_of_stated_indentation("t: |2-\n    deep\n  [no list\né: 2*L+M", 4..5, (4, 8, 1))]
 #[case::folded("é: 2*\n  L", 2..3, (1, 4, 2))]

@@ -46,6 +46,8 @@ const LONG_MAP: &str = "this map has more than 1000 entries";
 #[case::long_map_in_a_list(format!("[{{{}}}]", lines(1001, |n| format!("k{n}: [0, 0],"))), LONG_MAP)]
 #[case::long_map_of_bare_keys(format!("{{{}}}", lines(1001, |n| format!("k{n},"))), LONG_MAP)]
 #[case::long_map_of_stated_keys(lines(1001, |n| format!("? k{n}")), LONG_MAP)]
+#[case::directive("%é😀😀@😀\n---\n''".to_owned(), "directives are not supported")]
+#[case::directive_after_the_end("a: 1\n...\n%é😀😀@😀\n---\n''".to_owned(), "a second document starts here")]
 #[case::long_line(format!("a: {}: b", "x".repeat(65_000)), "`:` is not possible here")]
 #[case::control("a: \u{1b}[2J".to_owned(), "character U+001B is not allowed")]
 #[case::line_separator("a: \u{2028}b".to_owned(), "character U+2028 is not allowed")]

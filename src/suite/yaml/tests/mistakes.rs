@@ -67,7 +67,7 @@ fn check(diagnostic: &Diagnostic, place: (usize, usize, usize), message: &str, h
 #[case::indentation_in_brackets("poisson: 0, ", "\npoisson: 0, ", (6, 30, 1), "this `{` is not closed before line 7", "close it; lines inside brackets need more indentation than their key")]
 #[case::after_a_quote("vibrating-bar", "'vibrating' bar", (1, 20, 3), "text after a closing quote", "put the whole value in quotes")]
 #[case::tab_in_the_first_line("suite:", "\tsuite:", (1, 1, 1), "tab used for indentation; YAML needs spaces", "")]
-#[case::tab_after_a_key("dimension: 1", "dimension:\t1", (4, 14, 1), "expected a blank before this", "write `key: value`")]
+#[case::tab_after_a_key("dimension: 1", "dimension:\t1", (4, 13, 1), "expected a space here, found a tab", "replace the tab by a space")]
 #[case::no_comma_in_a_map("L: 25, E", "L: 25 E", (2, 21, 1), "expected `,` or `}` here", "keys of a map are separated by `,`")]
 #[case::open_to_the_end("\"...\"}", "\"...\"", (13, 5, 1), "this `{` is never closed", "")]
 #[case::stray_bracket("dimension: 1", "dimension: ]", (4, 14, 1), "`]` without a `[` before it", "")]
@@ -120,6 +120,11 @@ fn in_the_sample(
 #[case::ampersand("a: & b", (1, 4), "anchors and aliases are not supported")]
 #[case::exclamation("a: !important! b", (1, 4), "tags are not supported")]
 #[case::exclamations("a: !foo!bar b", (1, 4), "tags are not supported")]
+#[case::bracket_in_an_escaped_text("a: {b: \"c\\\"[\", d: 1\ne: 2", (1, 4), "this `{` is not closed before line 2")]
+#[case::negative_number("a: [1,\n-1\nb: 2", (1, 4), "this `[` is not closed before line 2")]
+#[case::no_value_before_a_tab("a: {b: 1}\nc:\t\nd: [", (3, 4), "this `[` is never closed")]
+#[case::version_and_text("%YAML 1.2 x\n---\na: 1", (1, 1), "this is not valid YAML: while scanning a directive, did not find expected comment or line break")]
+#[case::indicator_in_text("a: |0 b\n", (1, 4), "text after `|` or `>` starts on the next line")]
 #[case::stray_dash("a:\n  b: 1\n  - c: 2", (3, 3), "expected a key here")]
 #[case::no_blank_before_a_comment("a: \"b\"#c", (1, 7), "expected a blank before the comment")]
 #[case::bar_in_brackets("a: [U, |V|]", (1, 8), "a value cannot start with this character")]
@@ -131,12 +136,20 @@ fn in_a_few_lines(#[case] yaml: &str, #[case] place: (usize, usize), #[case] mes
     assert_eq!(((at.line(), at.column()), found.message()), (place, message), "\n{found}");
 }
 
+#[test]
+fn an_empty_value_before_a_tab_is_no_tab_error() {
+    let found =
+        wrong::<Suite>(&SAMPLE.replace("refine: {cells: [5, 10, 20], ppc: 4}", "refine:\t"));
+    assert_eq!(found.message(), "missing key `cells` in `refine`");
+}
+
 #[rstest]
 #[case::empty("")]
 #[case::blank("  \n\n")]
 #[case::comments("# nothing\n# yet\n")]
 #[case::mark("---\n")]
 #[case::null("~\n")]
+#[case::capital_null("Null\n")]
 fn an_empty_file(#[case] yaml: &str) {
     let diagnostic = wrong::<Suite>(yaml);
     assert_eq!(diagnostic.message(), "the file is empty; a suite starts with `suite: NAME`");
