@@ -164,7 +164,9 @@ impl TreeBuilder<'_> {
         if !in_brackets && is_node(&event) && is_indented_by_tab(self.text, start) {
             return Err(tab(self.name, self.text, start));
         }
-        let end = range.end;
+        // The event of a document without `---` has the range of the first token.
+        let is_ahead = matches!(event, Event::DocumentStart(false));
+        let end = if is_ahead { 0 } else { range.end };
         self.content(event, range, is_flow)?;
         self.events_end = self.events_end.max(end);
         Ok(())

@@ -119,6 +119,12 @@ fn a_value_is_found(
 }
 
 #[test]
+fn a_block_of_text_may_be_the_whole_file() {
+    let source = Source::from_text("text.yaml", "|\n  a\n").unwrap();
+    assert_eq!(source.scalar_at(0).map(|scalar| scalar.range.clone()), Some(0..5));
+}
+
+#[test]
 fn a_key_is_found_and_what_is_not_there_is_not() {
     let source = Source::from_text("sample.yaml", SAMPLE).unwrap();
     let key = source.key_at(&steps("scene.loads.1.traction.on")).unwrap();
