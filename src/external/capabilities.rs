@@ -4,92 +4,104 @@ use crate::members::{each_effect, each_material};
 use crate::nearest::nearest;
 use serde::{Deserialize, Serialize};
 
-/// Capabilities of a solver. A capability that is not listed is missing.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
-#[serde(default)]
-#[expect(clippy::struct_excessive_bools, reason = "independent abilities, each asked by name")]
-pub struct Capabilities {
-    /// Supported numbers of space dimensions.
-    pub dimensions: Vec<usize>,
-    /// Materials, by their names in suites.
-    pub laws: Vec<String>,
-    /// Conditions on faces, by their names in suites.
-    pub conditions: Vec<String>,
-    /// Loads and effects, by their names in suites.
-    pub loads: Vec<String>,
-    /// Columns of the reported state in addition to displacement and velocity.
-    pub columns: Vec<String>,
-    /// Parameters for which the solver returns derivatives of functionals of the final state.
-    pub gradients: Vec<String>,
-    /// Whether the body force may be given by values only, without a formula.
-    pub manufactured: bool,
-    /// Whether particles may start with a displacement, a deformation gradient and a stress.
-    pub initial_deformation: bool,
-    /// Whether there may be more than one body.
-    pub several_bodies: bool,
-    /// Whether bodies may be in contact, with Coulomb friction.
-    pub contact: bool,
-    /// Whether bodies in two dimensions may be plates in plane stress.
-    pub plane_stress: bool,
-    /// Whether bodies in two dimensions may be meridian planes of bodies of revolution.
-    pub axisymmetric: bool,
-    /// Whether there may be a stress in the reference configuration.
-    pub initial_stress: bool,
-    /// Whether the body force may depend on the displacement.
-    pub displacement_force: bool,
-    /// Whether the reference density may vary over a body. The given particle masses include this
-    /// variation.
-    pub varying_density: bool,
-    /// Whether loads may act on the rims of disks and annuli.
-    pub loaded_rims: bool,
-    /// Whether the load may be applied in quasi-static load steps, without time.
-    pub load_steps: bool,
-    /// Whether columns may be sent as raw bytes.
-    pub binary: bool,
+/// Declares the capabilities that a solver either has or lacks. Each line has the name of the
+/// capability and of the requirement, then a description of each.
+macro_rules! flags {
+    ($($name:ident: $capability:literal, $need:literal;)+) => {
+        /// Capabilities of a solver. A capability that is not listed is missing.
+        #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[cfg_attr(feature = "schemas", derive(schemars::JsonSchema))]
+        #[serde(default)]
+        pub struct Capabilities {
+            /// Supported numbers of space dimensions.
+            pub dimensions: Vec<usize>,
+            /// Materials, by their names in suites.
+            pub laws: Vec<String>,
+            /// Conditions on faces, by their names in suites.
+            pub conditions: Vec<String>,
+            /// Loads and effects, by their names in suites.
+            pub loads: Vec<String>,
+            /// Columns of the reported state in addition to displacement and velocity.
+            pub columns: Vec<String>,
+            #[doc = "Parameters for which the solver returns derivatives of functionals of the final \
+                state."]
+            pub gradients: Vec<String>,
+            $(#[doc = $capability] pub $name: bool,)+
+            /// Whether columns may be sent as raw bytes.
+            pub binary: bool,
+        }
+
+        /// Requirements of a problem. Names are those in suites and capabilities.
+        #[derive(Debug, Clone, Default, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub struct ProblemNeeds {
+            /// Number of space dimensions.
+            pub dimension: usize,
+            /// Names of the laws.
+            pub laws: Vec<&'static str>,
+            /// Names of the conditions on faces.
+            pub conditions: Vec<&'static str>,
+            /// Names of the loads and effects.
+            pub loads: Vec<&'static str>,
+            /// Optional column with the quantity whose error is measured, if the study needs one.
+            pub column: Option<&'static str>,
+            /// Parameters for which the study needs derivatives.
+            pub gradients: Vec<&'static str>,
+            $(#[doc = $need] pub $name: bool,)+
+            /// Parts of the scene that the protocol does not support.
+            pub beyond: Vec<&'static str>,
+        }
+
+        const FLAGS: &[&str] = &[$(stringify!($name)),+];
+
+        #[cfg(feature = "external-programs")]
+        const KEYS: &[&str] = &[
+            "dimensions", "laws", "conditions", "loads", "columns", "gradients",
+            $(stringify!($name),)+ "binary",
+        ];
+
+        impl Capabilities {
+            /// Returns the values of [`FLAGS`].
+            fn flags(&self) -> [bool; FLAGS.len()] {
+                [$(self.$name),+]
+            }
+        }
+
+        impl ProblemNeeds {
+            /// Returns the values of [`FLAGS`].
+            fn flags(&self) -> [bool; FLAGS.len()] {
+                [$(self.$name),+]
+            }
+        }
+    };
 }
 
-/// Requirements of a problem. Names are those in suites and capabilities.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-#[non_exhaustive]
-#[expect(clippy::struct_excessive_bools, reason = "independent needs, each with its ability")]
-pub struct ProblemNeeds {
-    /// Number of space dimensions.
-    pub dimension: usize,
-    /// Names of the laws.
-    pub laws: Vec<&'static str>,
-    /// Names of the conditions on faces.
-    pub conditions: Vec<&'static str>,
-    /// Names of the loads and effects.
-    pub loads: Vec<&'static str>,
-    /// Optional column with the quantity whose error is measured, if the study needs one.
-    pub column: Option<&'static str>,
-    /// Parameters for which the study needs derivatives.
-    pub gradients: Vec<&'static str>,
-    /// Whether the body force is manufactured.
-    pub manufactured: bool,
-    /// Whether the body starts deformed.
-    pub initial_deformation: bool,
-    /// Whether there are several bodies.
-    pub several_bodies: bool,
-    /// Whether bodies are in contact.
-    pub contact: bool,
-    /// Whether the bodies are plates in plane stress.
-    pub plane_stress: bool,
-    /// Whether the bodies are bodies of revolution.
-    pub axisymmetric: bool,
-    /// Whether there is a stress in the reference configuration.
-    pub initial_stress: bool,
-    /// Whether the body force depends on the displacement.
-    pub displacement_force: bool,
-    /// Whether the reference density varies over a body.
-    pub varying_density: bool,
-    /// Whether a load acts on the rim of a disk or an annulus.
-    pub loaded_rims: bool,
-    /// Whether the load is applied in load steps.
-    pub load_steps: bool,
-    /// Parts of the scene that the protocol does not support.
-    pub beyond: Vec<&'static str>,
+flags! {
+    manufactured: "Whether the body force may be given by values only, without a formula.",
+        "Whether the body force is manufactured.";
+    initial_deformation:
+        "Whether particles may start with a displacement, a deformation gradient and a stress.",
+        "Whether the body starts deformed.";
+    several_bodies: "Whether there may be more than one body.", "Whether there are several bodies.";
+    contact: "Whether bodies may be in contact, with Coulomb friction.",
+        "Whether bodies are in contact.";
+    plane_stress: "Whether bodies in two dimensions may be plates in plane stress.",
+        "Whether the bodies are plates in plane stress.";
+    axisymmetric:
+        "Whether bodies in two dimensions may be meridian planes of bodies of revolution.",
+        "Whether the bodies are bodies of revolution.";
+    initial_stress: "Whether there may be a stress in the reference configuration.",
+        "Whether there is a stress in the reference configuration.";
+    displacement_force: "Whether the body force may depend on the displacement.",
+        "Whether the body force depends on the displacement.";
+    varying_density:
+        "Whether the reference density may vary over a body. The given particle masses include this\n\
+        variation.",
+        "Whether the reference density varies over a body.";
+    loaded_rims: "Whether loads may act on the rims of disks and annuli.",
+        "Whether a load acts on the rim of a disk or an annulus.";
+    load_steps: "Whether the load may be applied in quasi-static load steps, without time.",
+        "Whether the load is applied in load steps.";
 }
 
 impl Capabilities {
@@ -127,33 +139,14 @@ impl Capabilities {
                 None => format!("{capability}: {name}"),
             }));
         }
-        for ((capability, wanted), has) in needs.flags().into_iter().zip(self.flags()) {
+        for ((capability, wanted), has) in FLAGS.iter().zip(needs.flags()).zip(self.flags()) {
             if wanted && !has {
-                lacking.push(capability.to_owned());
+                lacking.push((*capability).to_owned());
             }
         }
         let beyond = needs.beyond.iter();
         lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not support")));
         lacking
-    }
-}
-
-impl Capabilities {
-    /// Returns the boolean capabilities, in the order of [`ProblemNeeds::flags`].
-    fn flags(&self) -> [bool; 11] {
-        [
-            self.manufactured,
-            self.initial_deformation,
-            self.several_bodies,
-            self.contact,
-            self.plane_stress,
-            self.axisymmetric,
-            self.initial_stress,
-            self.displacement_force,
-            self.varying_density,
-            self.loaded_rims,
-            self.load_steps,
-        ]
     }
 }
 
@@ -188,23 +181,6 @@ impl Capabilities {
 }
 
 impl ProblemNeeds {
-    /// Returns the boolean requirements, with the names of the corresponding capabilities.
-    fn flags(&self) -> [(&'static str, bool); 11] {
-        [
-            ("manufactured", self.manufactured),
-            ("initial_deformation", self.initial_deformation),
-            ("several_bodies", self.several_bodies),
-            ("contact", self.contact),
-            ("plane_stress", self.plane_stress),
-            ("axisymmetric", self.axisymmetric),
-            ("initial_stress", self.initial_stress),
-            ("displacement_force", self.displacement_force),
-            ("varying_density", self.varying_density),
-            ("loaded_rims", self.loaded_rims),
-            ("load_steps", self.load_steps),
-        ]
-    }
-
     /// Lists the requirements that need version 2 of the protocol, each as the corresponding entry
     /// of the capabilities.
     #[cfg(feature = "external-programs")]
@@ -217,9 +193,9 @@ impl ProblemNeeds {
         let plain = ["free", "fixed", "roller", "periodic"];
         all.extend(by_name("conditions", &self.conditions, &plain));
         let old = ["manufactured", "initial_deformation", "several_bodies"];
-        let flags =
-            self.flags().into_iter().filter(|(name, wanted)| *wanted && !old.contains(name));
-        all.extend(flags.map(|(name, _)| name.to_owned()));
+        let wanted = FLAGS.iter().zip(self.flags()).filter(|(_, wanted)| *wanted);
+        let new = wanted.map(|(name, _)| *name).filter(|name| !old.contains(name));
+        all.extend(new.map(ToOwned::to_owned));
         all
     }
 }
@@ -253,28 +229,6 @@ const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
 
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
-
-#[cfg(feature = "external-programs")]
-const KEYS: &[&str] = &[
-    "dimensions",
-    "laws",
-    "conditions",
-    "loads",
-    "columns",
-    "gradients",
-    "manufactured",
-    "initial_deformation",
-    "several_bodies",
-    "contact",
-    "plane_stress",
-    "axisymmetric",
-    "initial_stress",
-    "displacement_force",
-    "varying_density",
-    "loaded_rims",
-    "load_steps",
-    "binary",
-];
 
 fn known(capability: &str) -> &'static [&'static str] {
     match capability {
