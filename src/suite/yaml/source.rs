@@ -1,4 +1,4 @@
-//! A suite file in memory, checked before parsing.
+//! A suite file in memory, with the positions of its values.
 
 use super::tree::{Scalar, TreeNode, tree};
 use super::{Diagnostic, Place};
