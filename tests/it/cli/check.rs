@@ -69,20 +69,10 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
         Folder::with("bar.yaml", long_step(&ACKNOWLEDGED.replace("time_step", "end_on_node")));
     let found = folder.call(&["check", "bar.yaml", "--strict"]);
     assert_eq!(found.code, FAILED);
-    insta::assert_snapshot!(found.errors, @r#"
-    warning: with 4 cells the time step is 1.30 times the time in which a wave crosses a cell
-      --> bar.yaml:19:24
-       |
-    19 | run: {until: 0.05, dt: "1.3*h/10"}
-       |                        ^^^^^^^^^^ expected a stable step
-       |
-       = help: `dt: {courant: 0.5}` uses half of the stable time step on every level; if the suite intends this, `acknowledge` `time_step`
-    note: the exact solution assumes small strains, but MPM computes finite strains: at a strain of 7.1e-5 an error of about 9.8e-10 m remains, which would become visible from about 70 cells on
-      --> bar.yaml:17:17
-       |
-    17 |   displacement: ["1e-3*sin(pi*X/2)*sin(omega*t)/omega"]
-       |                 ^
-    warning: there is no warning `end_on_node` to acknowledge
+    let (of_the_step, own) = found.errors.rsplit_once("\nwarning: ").expect("two warnings");
+    assert_contains(of_the_step, &["times the time in which a wave crosses a cell"]);
+    insta::assert_snapshot!(own, @"
+    there is no warning `end_on_node` to acknowledge
       --> bar.yaml:32:25
        |
     32 | acknowledge: [{warning: end_on_node, because: it is what the suite shows}]
@@ -90,7 +80,7 @@ fn an_acknowledgement_without_its_warning_is_a_warning() {
        |
        = help: remove this entry
     2 warnings, 1 note
-    "#);
+    ");
 }
 
 #[rstest]
