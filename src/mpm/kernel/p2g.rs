@@ -3,7 +3,7 @@
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
 use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
-use crate::mpm::foundation::algebra::{Vector, array};
+use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode, force_lane};
@@ -27,28 +27,72 @@ pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, 
     request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
-/// Returns the momentum of a particle, with its mass in the last lane.
-#[inline(always)]
-fn inertial<S: Simd, const D: usize>(simd: S, m: f64, v: &Vector<D>) -> S::F64x4 {
-    let mut lanes = [0.0, 0.0, 0.0, 1.0];
-    for axis in 0..D {
-        lanes[axis] = v[axis];
-    }
-    simd.load(lanes) * m
+/// Columns of the particles from the first particle of a batch on. They are sliced once per batch,
+/// because the columns of [`Particles`] would be loaded and checked for each particle.
+#[derive(Clone, Copy)]
+struct ParticleColumns<'a, const D: usize> {
+    mass: &'a [f64],
+    v: &'a [Vector<D>],
+    /// Stresses and volumes; `None` in the total-Lagrangian frame. A body without stresses has
+    /// empty columns.
+    stress: Option<(&'a [Matrix<D>], &'a [f64])>,
 }
 
-/// Returns the columns of `-V sigma` (J) of particle `p`, or of the corresponding flux in the
-/// total-Lagrangian frame.
-#[inline(always)]
-fn flux<S: Simd, const D: usize>(simd: S, particles: &Particles<D>, p: usize) -> [S::F64x4; D] {
-    if !particles.current_position.is_empty() {
-        let flux = columns(simd, &particles.flux(p), force_lane(D));
-        return array(flux[0], |axis| flux[axis] * -1.0);
+impl<'a, const D: usize> ParticleColumns<'a, D> {
+    #[inline(always)]
+    fn new(particles: &'a Particles<D>, request: &'a P2gRequest<'a, D>, first: usize) -> Self {
+        // Lanes that the request does not need are never copied to the grid. For a body at rest,
+        // which has no velocities, positions can therefore take their place.
+        let v = request.momentum.map_or(&*particles.x, |field| field.v);
+        let stress = if particles.current_position.is_empty() {
+            let sigma = particles.sigma.get(first..).unwrap_or_default();
+            Some((sigma, particles.vol.get(first..).unwrap_or_default()))
+        } else {
+            None
+        };
+        Self { mass: &particles.mass[first..], v: &v[first..], stress }
     }
-    // The columns are scaled separately. A product matrix in memory would be slow, because
-    // store-to-load forwarding fails when its columns are loaded.
-    let stress = columns(simd, &particles.sigma[p], force_lane(D));
-    array(simd.splat(0.0), |axis| stress[axis] * -particles.vol[p])
+
+    /// Shortens the columns to `end` particles, those of stresses only for a `force`. Smaller
+    /// indices then need no check.
+    #[inline(always)]
+    fn up_to(self, end: usize, force: bool) -> Self {
+        let stress = match self.stress {
+            Some((sigma, volume)) if force => Some((&sigma[..end], &volume[..end])),
+            _ => None,
+        };
+        Self { mass: &self.mass[..end], v: &self.v[..end], stress }
+    }
+
+    /// Returns the momentum of particle `first + lane`, with its mass in the last lane.
+    #[inline(always)]
+    fn inertial<S: Simd>(&self, simd: S, lane: usize) -> S::F64x4 {
+        let mut lanes = [0.0, 0.0, 0.0, 1.0];
+        for axis in 0..D {
+            lanes[axis] = self.v[lane][axis];
+        }
+        simd.load(lanes) * self.mass[lane]
+    }
+
+    /// Returns the columns of `-V sigma` (J) of particle `first + lane`, or of the corresponding
+    /// flux in the total-Lagrangian frame.
+    #[inline(always)]
+    fn flux<S: Simd>(
+        &self,
+        simd: S,
+        particles: &Particles<D>,
+        first: usize,
+        lane: usize,
+    ) -> [S::F64x4; D] {
+        let Some((sigma, volume)) = self.stress else {
+            let flux = columns(simd, &particles.flux(first + lane), force_lane(D));
+            return array(flux[0], |axis| flux[axis] * -1.0);
+        };
+        // The columns are scaled separately. A product matrix in memory would be slow, because
+        // store-to-load forwarding fails when its columns are loaded.
+        let stress = columns(simd, &sigma[lane], force_lane(D));
+        array(simd.splat(0.0), |axis| stress[axis] * -volume[lane])
+    }
 }
 
 /// Particles `first + lanes` with their patches. For a particle with several patches, `of_all`
@@ -58,6 +102,7 @@ struct Visit<'a, const D: usize, B: Basis> {
     lanes: Range<usize>,
     patches: &'a Batch<B, D>,
     of_all: Option<&'a InertiaTensor<D>>,
+    source: ParticleColumns<'a, D>,
 }
 
 impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
@@ -71,18 +116,14 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
         simd: S,
-        Visit { first, lanes, patches, of_all }: Visit<'_, D, B>,
+        Visit { first, lanes, patches, of_all, source }: Visit<'_, D, B>,
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
-        // Lanes that the request does not need are never copied to the grid. For a body at rest,
-        // which has no velocities, positions can therefore take their place.
-        let (v, affine) =
-            request.momentum.map_or((&*particles.x, None), |field| (field.v, field.affine));
+        let affine = request.momentum.and_then(|field| field.affine);
         let is_fit = request.force == Some(Divergence::Fit);
         let has_inertia = Self::HOLDS_ALL || !(FLUX || is_fit);
-        // With these lengths, indices below `lanes.end` need no check.
-        let (mass, v) = (&particles.mass[first..][..lanes.end], &v[first..][..lanes.end]);
+        let source = source.up_to(lanes.end, FLUX || is_fit);
         patches.scatter(
             simd,
             self.field.reborrow(),
@@ -90,7 +131,7 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
             #[inline(always)]
             |lane| {
                 let p = first + lane;
-                let value = if has_inertia { inertial(simd, mass[lane], &v[lane]) } else { zero };
+                let value = if has_inertia { source.inertial(simd, lane) } else { zero };
                 let mut term = NodeTerm::NONE;
                 if Self::HOLDS_ALL || !FLUX {
                     term.value = Some(N::of_inertia(simd, value));
@@ -106,11 +147,12 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                     };
                     let (mut slope, mut fit) = ([N::zero(simd); D], None);
                     if is_fit {
-                        let (force, from) = (flux(simd, particles, p), force_lane(D));
+                        let (force, from) =
+                            (source.flux(simd, particles, first, lane), force_lane(D));
                         fit = Some(divide::<B, S, D>(simd, patches, lane, of_all, &force, from, h));
                     }
                     for axis in 0..D {
-                        let growth = growth[axis] * mass[lane];
+                        let growth = growth[axis] * source.mass[lane];
                         slope[axis] = match &fit {
                             Some(fit) => N::join(simd, growth, fit[axis]),
                             None => N::of_inertia(simd, growth),
@@ -119,7 +161,8 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                     term.slope = Some(slope);
                 }
                 if FLUX {
-                    let (columns, mut flux) = (flux(simd, particles, p), [N::zero(simd); D]);
+                    let (columns, mut flux) =
+                        (source.flux(simd, particles, first, lane), [N::zero(simd); D]);
                     for axis in 0..D {
                         flux[axis] = N::of_force(simd, columns[axis]);
                     }
@@ -145,6 +188,7 @@ impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> 
         let needs = WeightNeeds { slopes: has_flux, offsets: has_slope };
         let batches = ParticleBatches::<B, D>::new(grid, self.field.layout, particles, needs);
         for first in range.step_by(BATCH) {
+            let source = ParticleColumns::new(particles, request, first);
             batches.visit(
                 simd,
                 first,
@@ -156,7 +200,7 @@ impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> 
                         let mean = of_all.map(|of_all| &of_all.mean);
                         patches.compute_offsets(simd, &lanes, grid.h, mean);
                     }
-                    let visit = Visit { first, lanes, patches, of_all };
+                    let visit = Visit { first, lanes, patches, of_all, source };
                     match (has_slope, has_flux) {
                         (true, true) if const { Self::HOLDS_ALL } => {
                             self.add::<S, true, true>(simd, visit);
