@@ -26,6 +26,9 @@ pub(crate) struct Repository {
     pub(crate) words: BTreeSet<String>,
     /// All words in `src/report`, including strings, and so the keys of the JSON.
     pub(crate) keys: BTreeSet<String>,
+    /// Paths of the tests, which begin with their target: `unit::exact::gauss::tests::NAME`,
+    /// `it::judge::NAME`.
+    pub(crate) tests: BTreeSet<String>,
     /// The text of `Cargo.toml`.
     pub(crate) manifest: String,
 }
@@ -40,6 +43,7 @@ impl Repository {
             files: files.iter().cloned().collect(),
             words: words_of(&["src/", "tests/", "benches/"]),
             keys: words_of(KEYS_IN),
+            tests: texts.iter().flat_map(|(file, text)| tests(file, text)).collect(),
             manifest: manifest.to_owned(),
         }
     }
@@ -129,6 +133,35 @@ fn join(from: &str, path: &str) -> Option<String> {
     Some(parts.join("/"))
 }
 
+/// Paths of the tests in a file of `src` or `tests`, which is formatted.
+fn tests(file: &str, text: &str) -> Vec<String> {
+    let Some(path) = file.strip_suffix(".rs") else { return Vec::new() };
+    let path = path.strip_prefix("tests/").map(str::to_owned);
+    let path = path.or_else(|| Some(format!("unit/{}", file.strip_prefix("src/")?)));
+    let Some(path) = path else { return Vec::new() };
+    let path = path.trim_end_matches(".rs").trim_end_matches("/mod").trim_end_matches("/main");
+    let mut modules = vec![path.replace('/', "::")];
+    let (mut found, mut is_test) = (Vec::new(), false);
+    for line in text.lines() {
+        let inside = line.trim_start();
+        if inside == "}" {
+            modules.truncate((line.len() - inside.len()) / 4 + 1);
+        }
+        is_test |= inside == "#[test]" || inside.starts_with("#[rstest");
+        let code = inside.strip_prefix("pub(").and_then(|rest| rest.split_once(") "));
+        let code = code.map_or(inside, |(_, code)| code);
+        let name = |rest: &str| words(rest).next().map(str::to_owned);
+        if let Some(rest) = code.strip_prefix("mod ").filter(|rest| rest.ends_with('{')) {
+            modules.extend(name(rest));
+        } else if let Some(name) = code.strip_prefix("fn ").and_then(name)
+            && std::mem::take(&mut is_test)
+        {
+            found.push(format!("{}::{name}", modules.join("::")));
+        }
+    }
+    found
+}
+
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
 }
@@ -174,6 +207,10 @@ fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
     if text.starts_with("cargo ") || text.starts_with("bash ") || text.starts_with("ci/") {
         return command(text, has).into_iter().collect();
     }
+    if let Some((target, name)) = text.strip_prefix("--test ").and_then(|text| text.split_once(' '))
+    {
+        return unknown_test(target, name, has).into_iter().collect();
+    }
     let plain = |c: char| c.is_alphanumeric() || "_-./*{},:".contains(c);
     if !text.chars().all(plain) || text.contains("::{") {
         return Vec::new();
@@ -198,6 +235,14 @@ fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
         lost.push(format!("names the type `{text}`, which the crate does not have"));
     }
     lost
+}
+
+/// The error in a test `name` of a `target`. The name may have further parts: the cases of a test.
+fn unknown_test(target: &str, name: &str, has: &Repository) -> Option<String> {
+    let path = format!("{target}::{name}");
+    let ends = path.match_indices("::").map(|(end, _)| end).chain([path.len()]);
+    let known = ends.into_iter().any(|end| has.tests.contains(&path[..end]));
+    (!known).then(|| format!("names the test `{name}` of `{target}`, which is not there"))
 }
 
 /// `Subject`, `P2gRequest`: a capital, then small letters.
