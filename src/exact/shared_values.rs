@@ -84,3 +84,26 @@ impl SharedValues {
         tables.values.clear();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_identical_positions_share_values() {
+        let shared = SharedValues::default();
+        let number = |places: &[f64]| shared.number_of(places).unwrap();
+        let first = number(&[0.5, 1.5]);
+        assert_eq!(number(&[0.5, 1.5]), first);
+        let others =
+            [number(&[0.5]), number(&[0.5, 2.5]), number(&[-0.0, 1.5]), number(&[0.0, 1.5])];
+        assert_eq!(others, [1, 2, 3, 4].map(|more| first + more));
+        shared.put(SharedQuantity::Force, Some(first), 2.0, &[7.0]);
+        let values =
+            |quantity, places, t| shared.get(quantity, Some(places), t).map(|v| v.to_vec());
+        assert_eq!(values(SharedQuantity::Force, first, 2.0), Some(vec![7.0]));
+        assert_eq!(values(SharedQuantity::Force, others[0], 2.0), None);
+        assert_eq!(values(SharedQuantity::Force, first, 3.0), None);
+        assert_eq!(values(SharedQuantity::Displacement, first, 2.0), None);
+    }
+}

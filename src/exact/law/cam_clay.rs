@@ -271,6 +271,13 @@ mod tests {
         assert!(eta > 0.46 && eta < law.poles[0][0]);
     }
 
+    #[test]
+    fn modulus_is_the_slope_of_the_stress_at_the_start() {
+        let (law, strain) = (clay(150.0), 1e-6);
+        let slope = (tau(&law, strain) - tau(&law, -strain)) / (2.0 * strain);
+        assert_relative_eq!(law.modulus(), slope, max_relative = 1e-6);
+    }
+
     /// The plastic strain rates along the path, from central differences, satisfy the flow rule,
     /// the elastic law, the hardening rule and zero lateral strain.
     #[rstest]

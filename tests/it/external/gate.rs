@@ -242,11 +242,11 @@ fn sums_over_points_of_the_solver_have_an_order(#[case] factor: &str, #[case] co
     assert_eq!(answer.code, code, "{}{}", answer.out, answer.errors);
 }
 
-/// Steps proportional to the cells are refined with them, so a first-order error in time gives
-/// order one.
+/// Steps proportional to the cells are refined with them, so a first-order error in time lowers the
+/// order. Shorter steps would make this error too small to be noticed.
 #[test]
 fn steps_that_follow_the_cells_are_not_shortened() {
-    let found = gate(&folder("h*h + 100*d"), &["bar.yaml"], &[]);
+    let found = gate(&folder("h*h + 25*d"), &["bar.yaml"], &[]);
     assert_eq!(found.code, FAILED, "{}{}", found.out, found.errors);
 }
 

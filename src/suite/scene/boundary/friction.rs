@@ -81,3 +81,16 @@ impl<const D: usize> BuildBoundary<D> for FrictionFace {
         Some(Box::new(Friction::face(site.grid, axis, side, self.0)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suite::scene::boundary::fixed::FixedFace;
+    use crate::suite::scene::boundary::roller::RollerFace;
+
+    #[test]
+    fn friction_has_priority_over_a_roller_but_not_over_a_fixed_face() {
+        let friction = FrictionFace(0.3).strength();
+        assert!(RollerFace.strength() < friction && friction < FixedFace.strength());
+    }
+}
