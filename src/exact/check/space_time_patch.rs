@@ -171,3 +171,24 @@ fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64
     let start = low + (high - low - width) * random.unit();
     (start + 0.5 * width, 0.5 * width)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At the points, `1 - xi^2` is 7/16 and 15/16.
+    #[test]
+    fn points_of_the_midpoint_rule_are_in_the_middle_of_their_intervals() {
+        let patch = SpaceTimePatch::whole(&[1.0], &[9.0], 2.0, 2.0, 1.0);
+        let Raster { points, times } = patch.raster(4);
+        let of_axis = |points: &[AxisPoint]| -> Vec<f64> { points.iter().map(|p| p.at).collect() };
+        assert_eq!(of_axis(&points.concat()), [2.0, 4.0, 6.0, 8.0]);
+        assert_eq!(of_axis(&times), [0.25, 0.75, 1.25, 1.75]);
+        let (outer, inner) = (points[0][0], points[1][0]);
+        assert_eq!([outer.factor, inner.factor], [7.0_f64, 15.0].map(|n| (n / 16.0).powi(3)));
+        assert_eq!(
+            [outer.slope, inner.slope],
+            [0.75 * 49.0, 0.25 * 225.0].map(|n| n * 6.0 / 1024.0)
+        );
+    }
+}
