@@ -133,12 +133,11 @@ fn join(from: &str, path: &str) -> Option<String> {
     Some(parts.join("/"))
 }
 
-/// Paths of the tests in a file of `src` or `tests`, which is formatted.
+/// Paths of the tests in a formatted file. Only the line that ends a module is a brace at the
+/// indentation of the module.
 fn tests(file: &str, text: &str) -> Vec<String> {
-    let Some(path) = file.strip_suffix(".rs") else { return Vec::new() };
-    let path = path.strip_prefix("tests/").map(str::to_owned);
-    let path = path.or_else(|| Some(format!("unit/{}", file.strip_prefix("src/")?)));
-    let Some(path) = path else { return Vec::new() };
+    let path = file.replacen("src/", "tests/unit/", 1);
+    let Some(path) = path.strip_prefix("tests/") else { return Vec::new() };
     let path = path.trim_end_matches(".rs").trim_end_matches("/mod").trim_end_matches("/main");
     let mut modules = vec![path.replace('/', "::")];
     let (mut found, mut is_test) = (Vec::new(), false);
@@ -237,7 +236,7 @@ fn unknown(from: &str, text: &str, has: &Repository) -> Vec<String> {
     lost
 }
 
-/// The error in a test `name` of a `target`. The name may have further parts: the cases of a test.
+/// Returns the error if `target` has no test `name`. The name may end in a case of the test.
 fn unknown_test(target: &str, name: &str, has: &Repository) -> Option<String> {
     let path = format!("{target}::{name}");
     let ends = path.match_indices("::").map(|(end, _)| end).chain([path.len()]);

@@ -176,7 +176,7 @@ fn interval(random: &mut Random, low: f64, high: f64, longest: f64) -> (f64, f64
 mod tests {
     use super::*;
 
-    /// At the points, `1 - xi^2` is 7/16 and 15/16.
+    /// `1 - xi^2` is 7/16 at the outer points and 15/16 at the inner points.
     #[test]
     fn points_of_the_midpoint_rule_are_in_the_middle_of_their_intervals() {
         let patch = SpaceTimePatch::whole(&[1.0], &[9.0], 2.0, 2.0, 1.0);

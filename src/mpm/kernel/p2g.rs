@@ -27,14 +27,14 @@ pub(in crate::mpm) fn wants_wide_nodes<const D: usize>(request: &P2gRequest<'_, 
     request.force.is_some() && (request.mass || request.momentum.is_some())
 }
 
-/// Columns of the particles from the first particle of a batch on. They are sliced once per batch,
-/// because the columns of [`Particles`] would be loaded and checked for each particle.
+/// Columns of the particles, starting with the first particle of a batch. Indexing the columns of
+/// [`Particles`] would load their address and check the index for each particle.
 #[derive(Clone, Copy)]
 struct ParticleColumns<'a, const D: usize> {
     mass: &'a [f64],
     v: &'a [Vector<D>],
-    /// Stresses and volumes; `None` in the total-Lagrangian frame. A body without stresses has
-    /// empty columns.
+    /// Stresses and volumes, both empty for a body without stresses. `None` in the total-Lagrangian
+    /// frame.
     stress: Option<(&'a [Matrix<D>], &'a [f64])>,
 }
 
@@ -53,8 +53,8 @@ impl<'a, const D: usize> ParticleColumns<'a, D> {
         Self { mass: &particles.mass[first..], v: &v[first..], stress }
     }
 
-    /// Shortens the columns to `end` particles, those of stresses only for a `force`. Smaller
-    /// indices then need no check.
+    /// Shortens the columns to `end` particles, so that smaller indices need no check. Without a
+    /// `force`, the stresses are omitted.
     #[inline(always)]
     fn up_to(self, end: usize, force: bool) -> Self {
         let stress = match self.stress {
