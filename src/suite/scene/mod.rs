@@ -117,28 +117,17 @@ impl Scene {
 
     /// Returns the length of the longest side of the bounding box (m).
     pub(crate) fn size(&self) -> f64 {
-        self.from.iter().zip(&self.to).map(|(from, to)| to - from).fold(0.0, f64::max)
+        longest(&self.from, &self.to)
     }
 
     /// Returns the distance (m) that is treated as rounding error.
     pub(crate) fn rounding(&self) -> f64 {
-        ROUNDING * self.size()
+        rounding(&self.from, &self.to)
     }
 
     /// Whether the body contains the reference position `label`, up to rounding error.
     pub(crate) fn holds(&self, label: &[f64]) -> bool {
-        let near = self.rounding();
-        let mut ends = self.from.iter().zip(&self.to).zip(label);
-        if !ends.all(|((from, to), x)| from - near <= *x && *x <= to + near) {
-            return false;
-        }
-        let Some(outline) = &self.outline else { return true };
-        // A position near the edge counts as inside if a small shift moves it inside.
-        let moved = |k: usize| {
-            let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
-            label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
-        };
-        outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
+        holds(&self.from, &self.to, self.outline.as_deref(), label)
     }
 
     pub(crate) fn lists(&self, effect: EffectName) -> bool {
@@ -167,6 +156,38 @@ impl Scene {
     pub(crate) fn driven_set(&self) -> Option<&str> {
         self.loads.iter().find_map(|load| Some(load.driven()?.0.name.as_str()))
     }
+}
+
+/// Whether a body contains the reference position `label`, up to rounding error. `from` and `to`
+/// are the corners of the body or of the bounding box of its `outline` (m).
+pub(crate) fn holds(
+    from: &[f64],
+    to: &[f64],
+    outline: Option<&dyn Outline>,
+    label: &[f64],
+) -> bool {
+    let near = rounding(from, to);
+    let mut ends = from.iter().zip(to).zip(label);
+    if !ends.all(|((from, to), x)| from - near <= *x && *x <= to + near) {
+        return false;
+    }
+    let Some(outline) = outline else { return true };
+    // A position near the edge counts as inside if a small shift moves it inside.
+    let moved = |k: usize| {
+        let step = |axis: usize| near * ((k / [1, 3, 9][axis]) % 3) as f64 - near;
+        label.iter().enumerate().map(|(axis, x)| x + step(axis)).collect::<Vec<f64>>()
+    };
+    outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
+}
+
+/// Returns the distance (m) that is treated as rounding error in a body with these corners (m).
+fn rounding(from: &[f64], to: &[f64]) -> f64 {
+    ROUNDING * longest(from, to)
+}
+
+/// Returns the length of the longest side of a box (m).
+fn longest(from: &[f64], to: &[f64]) -> f64 {
+    from.iter().zip(to).map(|(from, to)| to - from).fold(0.0, f64::max)
 }
 
 /// Returns the cell size (m) for `cells` cells along the first axis of the stated grid or body.

@@ -1,13 +1,11 @@
 //! Compiles one body: faces, plane state, axis of revolution, and bodies at rest.
 
-use super::bodies::Listed;
-use super::outline::BodyShape;
-use super::outline::polygon::faces_are_sides;
-use super::{density, material, outline, sets};
-use crate::exact::Density;
+use super::material::{self, Substance};
+use super::outline::{self, Shape};
+use super::sets;
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::SceneSpec;
+use crate::suite::grammar::{OneBodySpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::{BoundaryCondition, FaceAtRest, FaceEntry, FreeFace};
 use crate::suite::scene::face::{FACES, face};
@@ -16,73 +14,51 @@ use crate::suite::scene::load::LoadSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
+/// Compiles the body `own`, whose keys are in the map at `path`.
 pub(crate) fn body(
     evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
+    path: &Path,
+    own: &OneBodySpec,
     spec: &SceneSpec,
 ) -> Result<Scene, Diagnostic> {
-    let path = Path::top("scene");
-    let dimension = dimension(evaluator, &path, &spec.dimension)?;
-    let plane = plane(evaluator, &path, spec, dimension)?;
-    let at = own.at.then("body");
-    let (mut outline, mut mapped) = (None, None);
-    let (from, to) = match outline::shape(evaluator, &at, own.body, dimension)? {
-        BodyShape::Box(spec) => outline::corners(evaluator, &at.then("box"), spec, dimension)?,
-        BodyShape::Free(found) => {
-            if spec.bodies.is_none() {
-                outline::rims_are_free(evaluator, &path, spec, found.as_ref())?;
-            }
-            outline.insert(found).ends()
-        }
-        BodyShape::Mapped(found, panel) => {
-            faces_are_sides(evaluator, &path, spec, &panel)?;
-            mapped = Some(panel);
-            outline.insert(found).ends()
-        }
-    };
-    let is_free = outline.is_some() && mapped.is_none();
-    let grid = spec
-        .grid
-        .as_ref()
-        .map(|grid| outline::corners(evaluator, &path.then("grid"), grid, dimension))
-        .transpose()?;
-    let sets = sets::declared(evaluator, &path, spec, &from, &to, outline.as_deref())?;
-    let at = own.at.then("material");
-    let material = material::material(evaluator, &at, own.material)?;
-    material::refuse_plane(evaluator, &at, &material, plane)?;
-    let uniform = density::uniform(evaluator, own)?;
+    let top = Path::top("scene");
+    let dimension = dimension(evaluator, &top, &spec.dimension)?;
+    let plane = plane(evaluator, &top, spec, dimension)?;
+    let at = path.then("body");
+    let shape = outline::shape(evaluator, &at, &own.body, spec, dimension, plane)?;
+    let grid = spec.grid.as_ref();
+    let at = top.then("grid");
+    let grid = grid.map(|grid| outline::corners(evaluator, &at, grid, dimension)).transpose()?;
+    let sets = sets::declared(evaluator, &top, spec, &shape)?;
+    let substance = material::substance(evaluator, path, own, &shape, &spec.loads)?;
+    let has_faces = !shape.is_free() || spec.bodies.is_some();
+    let faces = if has_faces { faces(evaluator, &top, spec, dimension)? } else { Vec::new() };
+    let Shape { from, to, outline, mapped, plane } = shape;
+    let Substance { material, density, initial_stress, initial_displacement, initial_velocity } =
+        substance;
     let mut scene = Scene {
         from,
         to,
         grid,
         plane,
-        initial_stress: material::stress(evaluator, own, dimension, &material)?,
-        initial_displacement: material::displacement(evaluator, own, dimension, &material)?,
-        initial_velocity: material::velocity(evaluator, own, dimension)?,
-        material,
-        density: uniform.clone().unwrap_or(Density::from(f64::NAN)),
-        faces: if is_free && spec.bodies.is_none() {
-            Vec::new()
-        } else {
-            faces(evaluator, &path, spec, dimension)?
-        },
         outline,
         mapped,
+        material,
+        density,
+        faces,
         sets,
         loads: Vec::new(),
         bodies: Vec::new(),
         contact: None,
+        initial_stress,
+        initial_displacement,
+        initial_velocity,
     };
-    if uniform.is_none() {
-        scene.density = density::varying(evaluator, own, &scene)?;
-    }
-    revolves(evaluator, &path, &scene)?;
-    material::refuse_outside_yield_surface(evaluator, own, &scene)?;
+    revolves(evaluator, &top, &scene)?;
     if scene.is_at_rest() {
-        settle(evaluator, &own.at, spec, &mut scene.faces)?;
+        settle(evaluator, path, spec, &mut scene.faces)?;
     }
     load::add(evaluator, &spec.loads, &mut scene)?;
-    density::refuse_loads(evaluator, own, &scene)?;
     Ok(scene)
 }
 

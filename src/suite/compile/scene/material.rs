@@ -1,15 +1,55 @@
-//! Compiles the material of a body and its initial state.
+//! Compiles the material of a body, its density and its initial state.
 
-use super::bodies::Listed;
-use crate::exact::InitialStress;
+use super::outline::Shape;
 use crate::exact::formula::Formula;
+use crate::exact::{Density, InitialStress, NoDensity};
 use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Matrix, Range};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
-use crate::suite::model::Scene;
+use crate::suite::grammar::{OneBodySpec, StressSpec};
+use crate::suite::scene::holds;
+use crate::suite::scene::load::{EffectName, LoadSpec};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
-pub(crate) fn material(
+/// Material, density and initial state of a body.
+pub(crate) struct Substance {
+    pub(crate) material: MaterialPlan,
+    /// Reference density.
+    pub(crate) density: Density,
+    pub(crate) initial_stress: InitialStress,
+    /// Initial displacement (m); empty if not stated.
+    pub(crate) initial_displacement: Vec<Formula>,
+    /// Initial velocity (m/s); empty if not stated.
+    pub(crate) initial_velocity: Vec<Formula>,
+}
+
+/// Compiles the material of the body `own`, whose keys are in the map at `path`, and its initial
+/// state. Refuses what the law does not support in a body of this shape under these loads.
+pub(crate) fn substance(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    own: &OneBodySpec,
+    shape: &Shape,
+    loads: &[LoadSpec],
+) -> Result<Substance, Diagnostic> {
+    let (at, d) = (path.then("material"), shape.from.len());
+    let material = material(evaluator, &at, &own.material)?;
+    refuse_plane(evaluator, &at, &material, shape.plane)?;
+    let at = at.then(own.material.name()).then("density");
+    let density = density(evaluator, &at, own.material.density(), &material, shape, loads)?;
+    let at = path.then("initial_stress");
+    let initial_stress = stress(evaluator, &at, own.initial_stress.as_ref(), d, &material)?;
+    refuse_outside_yield_surface(evaluator, &at, &initial_stress, &material, shape)?;
+    Ok(Substance {
+        initial_displacement: displacement(evaluator, path, own, d, &material)?,
+        initial_velocity: velocity(evaluator, path, own, d)?,
+        material,
+        density,
+        initial_stress,
+    })
+}
+
+fn material(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &MaterialSpec<NumberText>,
@@ -65,7 +105,7 @@ fn number_in_range(
 }
 
 /// Refuses the material at `path` if its law is not implemented for the plane state.
-pub(crate) fn refuse_plane(
+fn refuse_plane(
     evaluator: &Evaluator<'_>,
     path: &Path,
     material: &MaterialPlan,
@@ -80,45 +120,112 @@ pub(crate) fn refuse_plane(
     Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
+/// Compiles the density at `path`: a number, or a formula of the coordinates.
+fn density(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+    material: &MaterialPlan,
+    shape: &Shape,
+    loads: &[LoadSpec],
+) -> Result<Density, Diagnostic> {
+    if !evaluator.depends_on_coordinate(text) {
+        return Ok(evaluator.positive(path, text, "the density")?.into());
+    }
+    let formula = evaluator.formula(path, text, &COORDINATES[..shape.from.len()])?;
+    if let Some(reason) = against_varying_density(material, shape, loads) {
+        let message =
+            format!("a density that varies over the body is not supported here: {reason}");
+        return Err(evaluator.diagnostic(path, &message));
+    }
+    let density = Density::of_place(formula, &shape.from, &shape.to, shape.outline.as_deref())
+        .map_err(|place| not_positive(evaluator, path, text, &place))?;
+    if density.smallest() == 0.0 && !material.properties().wave_speed(0.0).is_finite() {
+        let message = format!(
+            "the density is zero on the rim, where the wave speed of `{}` is unbounded",
+            material.name()
+        );
+        let diagnostic = evaluator.unusable(path, text, &message, "expected a positive density");
+        return Err(diagnostic.with_help("use a `polytropic` gas, or add a constant"));
+    }
+    Ok(density)
+}
+
+fn not_positive(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    text: &NumberText,
+    place: &NoDensity,
+) -> Diagnostic {
+    let label: Vec<String> = place.label.iter().map(|x| shown(*x)).collect();
+    let value = shown(place.value);
+    let message = format!("the density is {value} kg/m3 at ({}) m", label.join(", "));
+    let label = "expected a positive density inside the body, and at least zero on its rim";
+    evaluator.unusable(path, text, &message, label)
+}
+
+/// Returns the reason why a density must be uniform; `None` if it may vary over the body.
+fn against_varying_density(
+    material: &MaterialPlan,
+    shape: &Shape,
+    loads: &[LoadSpec],
+) -> Option<&'static str> {
+    if shape.mapped.is_some() || shape.outline.as_ref().is_some_and(|o| o.ball().is_none()) {
+        return Some("masses are integrated in a box or a round body only");
+    }
+    if shape.plane == PlaneState::Axisymmetric {
+        return Some("masses are not integrated in a body of revolution");
+    }
+    if material.properties().is_at_rest() {
+        return Some("the body does not move: state a number");
+    }
+    loads.iter().find_map(|load| match load.effect() {
+        EffectName::Heat => Some("`heat` needs a uniform heat capacity per volume"),
+        EffectName::SetForce => Some("a `force` on a set needs a uniform density"),
+        _ => None,
+    })
+}
+
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
 /// Compiles the initial displacement (m); empty if not stated.
-pub(crate) fn displacement(
+fn displacement(
     evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
+    path: &Path,
+    own: &OneBodySpec,
     dimension: usize,
     material: &MaterialPlan,
 ) -> Result<Vec<Formula>, Diagnostic> {
-    let path = own.at.then("initial_displacement");
-    let Some(texts) = own.initial_displacement else { return Ok(Vec::new()) };
+    let path = path.then("initial_displacement");
+    let Some(texts) = &own.initial_displacement else { return Ok(Vec::new()) };
     let admitted = material.properties().starts_deformed();
     admit(evaluator, &path, material, admitted, "cannot start deformed")?;
     evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
 }
 
 /// Compiles the initial velocity (m/s); empty if not stated.
-pub(crate) fn velocity(
+fn velocity(
     evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
+    path: &Path,
+    own: &OneBodySpec,
     dimension: usize,
 ) -> Result<Vec<Formula>, Diagnostic> {
-    let path = own.at.then("initial_velocity");
+    let Some(texts) = &own.initial_velocity else { return Ok(Vec::new()) };
     let variables = coordinates_and_time(dimension);
-    own.initial_velocity
-        .map_or(Ok(Vec::new()), |texts| evaluator.vector(&path, texts, dimension, &variables))
+    evaluator.vector(&path.then("initial_velocity"), texts, dimension, &variables)
 }
 
-pub(crate) fn stress(
+fn stress(
     evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
+    path: &Path,
+    spec: Option<&StressSpec>,
     dimension: usize,
     material: &MaterialPlan,
 ) -> Result<InitialStress, Diagnostic> {
-    let path = own.at.then("initial_stress");
-    let Some(spec) = own.initial_stress else { return Ok(InitialStress::default()) };
+    let Some(spec) = spec else { return Ok(InitialStress::default()) };
     let admitted = material.properties().starts_stressed();
-    admit(evaluator, &path, material, admitted, "does not support an initial stress")?;
+    admit(evaluator, path, material, admitted, "does not support an initial stress")?;
     let yields = material.properties().yield_function(&Matrix::zeros()).is_some();
     let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
     let mut components = Vec::new();
@@ -130,7 +237,7 @@ pub(crate) fn stress(
                 let message = format!("`initial_stress` does not state `{name}`");
                 let help = "the yield condition depends on all three normal stresses, also on \
                             those out of the plane";
-                return Err(evaluator.diagnostic_at_key(&path, &message).with_help(help));
+                return Err(evaluator.diagnostic_at_key(path, &message).with_help(help));
             }
             continue;
         };
@@ -142,7 +249,7 @@ pub(crate) fn stress(
         components.push((i, j, evaluator.formula(&at, text, &COORDINATES[..dimension])?));
     }
     if components.is_empty() {
-        let diagnostic = evaluator.diagnostic(&path, "`initial_stress` states no component");
+        let diagnostic = evaluator.diagnostic(path, "`initial_stress` states no component");
         return Err(diagnostic.with_help(&known(dimension, yields)));
     }
     Ok(InitialStress::new(components))
@@ -162,29 +269,32 @@ const YIELD_POSITIONS: [usize; 3] = [1025, 65, 17];
 
 /// Refuses an initial stress outside the yield surface. The positions are a regular grid that
 /// contains the corners of the bounding box. The solver checks each particle.
-pub(crate) fn refuse_outside_yield_surface(
+fn refuse_outside_yield_surface(
     evaluator: &Evaluator<'_>,
-    own: &Listed<'_>,
-    scene: &Scene,
+    path: &Path,
+    initial_stress: &InitialStress,
+    material: &MaterialPlan,
+    shape: &Shape,
 ) -> Result<(), Diagnostic> {
-    if scene.initial_stress.is_none() {
+    if initial_stress.is_none() {
         return Ok(());
     }
-    let (d, law) = (scene.dimension(), scene.material.properties());
+    let (d, law) = (shape.from.len(), material.properties());
     let count = YIELD_POSITIONS[d - 1];
+    let is_inside = |label: &[f64]| holds(&shape.from, &shape.to, shape.outline.as_deref(), label);
     let mut worst: Option<(f64, Vec<f64>)> = None;
     for k in 0..count.pow(d as u32) {
         let place = |axis: usize| {
             let share = (k / count.pow(axis as u32) % count) as f64 / (count - 1) as f64;
-            scene.from[axis] * (1.0 - share) + scene.to[axis] * share
+            shape.from[axis] * (1.0 - share) + shape.to[axis] * share
         };
         let label: Vec<f64> = (0..d).map(place).collect();
-        let stress = scene.initial_stress.at(&label);
+        let stress = initial_stress.at(&label);
         let Some(limit) = law.yield_function(&Matrix::from_fn(|i, j| stress[i][j])) else {
             return Ok(());
         };
         let is_worse = |(value, _): &(f64, Vec<f64>)| !(limit.value <= *value);
-        if limit.is_exceeded() && scene.holds(&label) && worst.as_ref().is_none_or(is_worse) {
+        if limit.is_exceeded() && is_inside(&label) && worst.as_ref().is_none_or(is_worse) {
             worst = Some((limit.value, label));
         }
     }
@@ -192,11 +302,10 @@ pub(crate) fn refuse_outside_yield_surface(
     let place: Vec<String> = label.iter().map(|x| shown(*x)).collect();
     let message = format!(
         "the initial stress violates the yield condition of `{}`: f = {value:.3e} Pa at ({}) m",
-        scene.material.name(),
+        material.name(),
         place.join(", ")
     );
-    let path = own.at.then("initial_stress");
-    Err(evaluator.diagnostic_at_key(&path, &message).with_help("f must not be positive"))
+    Err(evaluator.diagnostic_at_key(path, &message).with_help("f must not be positive"))
 }
 
 /// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows

@@ -1,25 +1,29 @@
 //! Compiles the scene: its bodies, and their positions relative to each other and the grid.
+//!
+//! A scene has either one `body` with its `material`, or a list of `bodies`. The grid, the walls
+//! and the loads belong to the scene and act on every body.
 
-pub(crate) mod bodies;
 mod body;
-mod density;
 mod material;
 pub(crate) mod outline;
 mod sets;
 
 use crate::exact::Polygon;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::SceneSpec;
+use crate::suite::grammar::{OneBodySpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::FreeFace;
 use crate::suite::yaml::{Diagnostic, Path};
 use std::sync::Arc;
 
+/// Maximum number of bodies.
+const MOST: usize = 100;
+
 pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
     let path = Path::top("scene");
-    let listed = bodies::listed(evaluator, &path, spec)?;
-    let contact = bodies::contact(evaluator, &path, spec)?;
-    let each = listed.iter().map(|listed| body::body(evaluator, listed, spec));
+    let bodies = listed(evaluator, &path, spec)?;
+    let contact = contact(evaluator, &path, spec)?;
+    let each = bodies.iter().map(|(at, own)| body::body(evaluator, at, own, spec));
     let each = each.collect::<Result<Vec<Scene>, _>>()?;
     let scene = together(evaluator, &path, each, spec.bodies.is_some(), contact)?;
     sets::refuse_idle(evaluator, &path, &scene)?;
@@ -29,6 +33,82 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene
         outline::fits(evaluator, &path, outline, scene.grid.as_ref())?;
     }
     Ok(scene)
+}
+
+/// Returns the keys of each body, with the path of the map that contains them.
+fn listed(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+) -> Result<Vec<(Path, OneBodySpec)>, Diagnostic> {
+    if let Some(bodies) = &spec.bodies {
+        refuse_beside(evaluator, path, spec)?;
+        let at = path.then("bodies");
+        if bodies.is_empty() || bodies.len() > MOST {
+            let diagnostic =
+                evaluator.diagnostic(&at, &format!("the scene has {} bodies", bodies.len()));
+            return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
+        }
+        return Ok(bodies.iter().enumerate().map(|(i, own)| (at.then(i), own.clone())).collect());
+    }
+    let missing = |key: &str| {
+        let diagnostic = evaluator.diagnostic_at_key(path, &format!("the scene has no `{key}`"));
+        diagnostic.with_help("add `body` and `material`, or a list of `bodies` with one of each")
+    };
+    let own = OneBodySpec {
+        body: spec.body.clone().ok_or_else(|| missing("body"))?,
+        material: spec.material.clone().ok_or_else(|| missing("material"))?,
+        initial_stress: spec.initial_stress.clone(),
+        initial_displacement: spec.initial_displacement.clone(),
+        initial_velocity: spec.initial_velocity.clone(),
+    };
+    Ok(vec![(path.clone(), own)])
+}
+
+/// Refuses keys of a single body next to a list of bodies.
+fn refuse_beside(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+) -> Result<(), Diagnostic> {
+    let alone = [
+        ("body", spec.body.is_some()),
+        ("material", spec.material.is_some()),
+        ("initial_velocity", spec.initial_velocity.is_some()),
+        ("initial_stress", spec.initial_stress.is_some()),
+        ("initial_displacement", spec.initial_displacement.is_some()),
+        ("sets", !spec.sets.as_slice().is_empty()),
+    ];
+    if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
+        let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
+        return Err(evaluator.diagnostic_at_key(&path.then(*key), &message));
+    }
+    for (i, load) in spec.loads.iter().enumerate() {
+        let name = load.effect().name();
+        let acts = match load.keys().face() {
+            Some(_) => "acts on a face of a single body",
+            None if load.keys().is_of_one_body() => "is supported for a single body only",
+            None => continue,
+        };
+        let message = format!("`{name}` {acts}, but the scene lists `bodies`");
+        return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
+    }
+    Ok(())
+}
+
+fn contact(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    spec: &SceneSpec,
+) -> Result<Option<f64>, Diagnostic> {
+    let Some(contact) = &spec.contact else { return Ok(None) };
+    let path = path.then("contact").then("friction");
+    let coefficient = evaluator.number(&path, &contact.friction)?;
+    if coefficient >= 0.0 {
+        return Ok(Some(coefficient));
+    }
+    let message = format!("the coefficient of friction is {}", shown(coefficient));
+    Err(evaluator.diagnostic(&path, &message).with_label("expected zero or a positive number"))
 }
 
 /// Checks that the grid contains the body. Fixed and periodic faces must lie on grid faces, because

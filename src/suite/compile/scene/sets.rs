@@ -1,6 +1,6 @@
 //! Compiles particle sets.
 
-use super::outline;
+use super::outline::{self, Shape};
 use crate::exact::{Outline, Region};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{SceneSpec, SetSpec};
@@ -16,18 +16,16 @@ pub(crate) fn declared(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &SceneSpec,
-    low: &[f64],
-    high: &[f64],
-    outline: Option<&dyn Outline>,
+    shape: &Shape,
 ) -> Result<Vec<Region>, Diagnostic> {
     let declare = |(name, SetSpec::Box(spec)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
         refuse_face_name(evaluator, &at, name)?;
         let at = at.then("box");
-        let (from, to) = outline::corners(evaluator, &at, spec, low.len())?;
+        let (from, to) = outline::corners(evaluator, &at, spec, shape.from.len())?;
         let set = Region { name: name.clone(), from, to };
-        refuse_outside(evaluator, &at, &set, low, high)?;
-        if let Some(outline) = outline {
+        refuse_outside(evaluator, &at, &set, &shape.from, &shape.to)?;
+        if let Some(outline) = shape.outline.as_deref() {
             refuse_beside(evaluator, &at, &set, outline)?;
         }
         Ok(set)

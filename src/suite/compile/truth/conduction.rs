@@ -143,7 +143,7 @@ pub(crate) fn problem(
     Ok(Some(Conduction {
         from: scene.from.clone(),
         to: scene.to.clone(),
-        // A varying density is refused in `compile::scene::density`.
+        // A varying density is refused in `compile::scene::material`.
         density: scene.density.largest(),
         conductivity: heat.conductivity,
         capacity: heat.capacity,

@@ -1,29 +1,47 @@
 //! Compiles the shape of a body: a box or another shape.
 
-pub(crate) mod polygon;
+mod polygon;
 
 use crate::exact::{Outline, Round};
 use crate::mpm::Quadrilateral;
+use crate::subject::PlaneState;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
 use crate::suite::scene::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use std::sync::Arc;
 
-pub(crate) enum BodyShape<'a> {
-    Box(&'a BoxSpec),
-    /// A body with a free surface, such as a disk or a polygon.
-    Free(Arc<dyn Outline>),
-    /// A quadrilateral, with its bilinear map from a box.
-    Mapped(Arc<dyn Outline>, Quadrilateral),
+/// Shape of a body.
+pub(crate) struct Shape {
+    /// Lowest corner of the bounding box (m).
+    pub(crate) from: Vec<f64>,
+    /// Highest corner of the bounding box (m).
+    pub(crate) to: Vec<f64>,
+    /// Outline of a body that is not a box.
+    pub(crate) outline: Option<Arc<dyn Outline>>,
+    /// Bilinear map of a quadrilateral from a box.
+    pub(crate) mapped: Option<Quadrilateral>,
+    pub(crate) plane: PlaneState,
 }
 
-pub(crate) fn shape<'a>(
+impl Shape {
+    /// Whether the body has a free surface instead of faces, such as a disk or a polygon.
+    pub(crate) fn is_free(&self) -> bool {
+        self.outline.is_some() && self.mapped.is_none()
+    }
+}
+
+/// Compiles the shape at `path`. Refuses conditions and loads of `scene` on faces that the body
+/// does not have.
+pub(crate) fn shape(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    spec: &'a BodySpec,
+    spec: &BodySpec,
+    scene: &SceneSpec,
     dimension: usize,
-) -> Result<BodyShape<'a>, Diagnostic> {
+    plane: PlaneState,
+) -> Result<Shape, Diagnostic> {
+    let at_scene = Path::top("scene");
     let of_kind = |kind: &str, flat: usize| {
         let at = path.then(kind);
         if dimension == flat {
@@ -37,30 +55,34 @@ pub(crate) fn shape<'a>(
         );
         Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help))
     };
-    match spec {
-        BodySpec::Box(spec) => Ok(BodyShape::Box(spec)),
-        BodySpec::Annulus(spec) => {
-            annulus(evaluator, &of_kind("annulus", 2)?, spec).map(BodyShape::Free)
-        }
-        BodySpec::Disk(spec) => {
-            filled(evaluator, &of_kind("disk", 2)?, spec, 2).map(BodyShape::Free)
-        }
-        BodySpec::Ball(spec) => {
-            filled(evaluator, &of_kind("ball", 3)?, spec, 3).map(BodyShape::Free)
-        }
-        BodySpec::Polygon(corners) => {
-            polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners).map(BodyShape::Free)
+    let outline = match spec {
+        BodySpec::Box(spec) => {
+            let (from, to) = corners(evaluator, &path.then("box"), spec, dimension)?;
+            return Ok(Shape { from, to, outline: None, mapped: None, plane });
         }
         BodySpec::Quadrilateral(spec) => {
             let at = of_kind("quadrilateral", 2)?;
             let (outline, panel) = polygon::quadrilateral(evaluator, &at, spec)?;
-            Ok(BodyShape::Mapped(outline, panel))
+            polygon::faces_are_sides(evaluator, &at_scene, scene, &panel)?;
+            let (from, to) = outline.ends();
+            return Ok(Shape { from, to, outline: Some(outline), mapped: Some(panel), plane });
         }
+        BodySpec::Annulus(spec) => annulus(evaluator, &of_kind("annulus", 2)?, spec)?,
+        BodySpec::Disk(spec) => filled(evaluator, &of_kind("disk", 2)?, spec, 2)?,
+        BodySpec::Ball(spec) => filled(evaluator, &of_kind("ball", 3)?, spec, 3)?,
+        BodySpec::Polygon(corners) => {
+            polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners)?
+        }
+    };
+    if scene.bodies.is_none() {
+        rims_are_free(evaluator, &at_scene, scene, outline.as_ref())?;
     }
+    let (from, to) = outline.ends();
+    Ok(Shape { from, to, outline: Some(outline), mapped: None, plane })
 }
 
 /// Refuses conditions on the rims of a body, and loads on rims unless they may act on round rims.
-pub(crate) fn rims_are_free(
+fn rims_are_free(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &SceneSpec,

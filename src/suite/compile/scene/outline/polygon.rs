@@ -87,7 +87,7 @@ pub(super) fn quadrilateral(
 
 /// Refuses conditions and loads on a face of the bounding box that contains no side of the
 /// quadrilateral.
-pub(crate) fn faces_are_sides(
+pub(super) fn faces_are_sides(
     evaluator: &Evaluator<'_>,
     path: &Path,
     spec: &SceneSpec,
