@@ -6,7 +6,7 @@ pub(crate) mod reference;
 pub(crate) mod statement;
 pub(crate) mod time_steps;
 use self::judge_plan::{judge_plan, rounding_sizes};
-use self::reference::{FineGrid, FineSteps, Reference};
+use self::reference::{FineGrid, FineSteps, Reference, Unknown};
 use self::statement::described;
 use self::time_steps::StableSteps;
 use crate::exact::{Problem, Truth};
@@ -17,7 +17,6 @@ use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning,
 use crate::study::time_series::{SeriesError, ShownRun};
 use crate::subject::{Profile, SubjectError};
 use crate::suite::compile::check::size;
-use crate::suite::compile::truth::Unknown;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;

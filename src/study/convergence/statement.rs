@@ -3,7 +3,6 @@
 use crate::exact::heat::Conduction;
 use crate::study::describe::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
-use crate::suite::compile::truth::is_truthless;
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, SameMethod};
@@ -43,7 +42,7 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
         push(&mut rows, "reference", &same_method(same, plan));
     }
     refinement(plan, &mut rows);
-    if !is_truthless(plan) {
+    if !plan.is_truthless() {
         push(&mut rows, "judged", &judged(plan));
         push(&mut rows, "errors", &divisor(plan));
     }

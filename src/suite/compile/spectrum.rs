@@ -5,9 +5,8 @@ use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
 use crate::suite::compile::check::{refuse_first, size};
 use crate::suite::compile::expect::assign;
-use crate::suite::compile::run::methods::{NamedMethod, count, methods, named};
+use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::compile::scene;
-use crate::suite::compile::truth::law_of_bar;
 use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, SpectrumExpectSpec, SpectrumSpec};
 use crate::suite::model::Scene;
@@ -166,33 +165,26 @@ fn cases(
     spec: &SpectrumSpec,
     plan: &SpectrumPlan,
 ) -> Result<Vec<SpectrumCase>, Diagnostic> {
-    let own = law_of_bar(&plan.scene.material).unwrap_or_default();
-    let (mut drafts, mut curves, mut all) = (Vec::new(), Vec::new(), 0_usize);
     for (i, spec) in spec.methods.iter().enumerate() {
-        let path = Path::top("methods").then(i);
-        all = all.saturating_add(count(spec));
-        if all > MOST {
-            return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
-        }
         if !matches!(spec, MethodSpec::Mpm { .. }) || spec.is_quasi_static() {
+            let path = Path::top("methods").then(i);
             let help = "an external solver takes part with `run SUITE --solver COMMAND`";
             return Err(needs(evaluator, &path, "methods of MPM in time").with_help(help));
         }
-        for draft in methods(evaluator, i, spec, own)? {
-            curves.push(curve(evaluator, &path, draft.method, plan)?);
-            drafts.push(draft);
-        }
     }
-    let named = named(evaluator, drafts)?;
-    let names: Vec<&str> = named.iter().map(|draft| draft.name.as_str()).collect();
+    let limit = CaseLimit { most: MOST, of_each_method: 1 };
+    let named = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
+    let curves = named.iter().map(|named| curve(evaluator, &named.path(), named.method, plan));
+    let curves = curves.collect::<Result<Vec<_>, Diagnostic>>()?;
+    let names: Vec<&str> = named.iter().map(|named| named.name.as_str()).collect();
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let expected = spec.expect.iter().enumerate().map(|(i, spec)| expectation(evaluator, i, spec));
     let expected = expected.collect::<Result<Vec<_>, Diagnostic>>()?;
-    let case = |((draft, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {
+    let case = |((named, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {
         let expected = owner.map(|owner| expected[owner].clone());
         let limit = Some(curve.stability_limit());
-        let (name, method, curve) = (draft.name, draft.method, Some(curve));
+        let (name, method, curve) = (named.name, named.method, Some(curve));
         SpectrumCase { name, method, curve, limit, expected, gating: None }
     };
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())

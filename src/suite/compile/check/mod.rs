@@ -7,7 +7,7 @@ pub(crate) mod steps;
 pub(crate) mod sums;
 
 use crate::fem::BarLaw;
-use crate::suite::compile::truth::law_of_bar;
+use crate::suite::compile::run::methods::law_of_bar;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::method::Method;

@@ -1,7 +1,8 @@
 //! Converts entries of `methods` to named methods, one for each combination of list values.
 
-use crate::fem::Sampling;
-use crate::mpm::{FrameName, MassName, SchemeName, VolumeName};
+use crate::exact::Equation;
+use crate::fem::{BarLaw, Sampling};
+use crate::mpm::{FrameName, MassName, MaterialPlan, SchemeName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
@@ -10,9 +11,9 @@ use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use std::collections::BTreeMap;
 
 /// A method before its name is final.
-pub(crate) struct MethodDraft {
+struct MethodDraft {
     entry: usize,
-    pub(crate) method: Method,
+    method: Method,
     /// Name of the solver; `None` for built-in methods.
     solver: Option<String>,
     /// Whether each setting appears in the name, in the order of [`settings`].
@@ -21,9 +22,67 @@ pub(crate) struct MethodDraft {
 
 /// A method, and the first part of the names of its cases.
 pub(crate) struct NamedMethod {
+    /// Index in the list `methods`.
+    entry: usize,
     pub(crate) name: String,
     pub(crate) method: Method,
     pub(crate) solver: Option<String>,
+}
+
+impl NamedMethod {
+    /// Returns the path of the entry of `methods`.
+    pub(crate) fn path(&self) -> Path {
+        Path::top("methods").then(self.entry)
+    }
+}
+
+/// Maximum number of cases of a study, and the number of cases that each method has.
+pub(crate) struct CaseLimit {
+    pub(crate) most: usize,
+    pub(crate) of_each_method: usize,
+}
+
+/// Compiles the entries of `methods`, one method for each combination of list values. The
+/// default law of an FEM case is that of `material`. Refuses an empty list, duplicate methods and
+/// too many cases.
+pub(crate) fn methods(
+    evaluator: &Evaluator<'_>,
+    specs: &[MethodSpec],
+    material: &MaterialPlan,
+    limit: &CaseLimit,
+) -> Result<Vec<NamedMethod>, Diagnostic> {
+    few(evaluator, specs, limit)?;
+    // Materials without an FEM law are refused later.
+    let own_law = law_of_bar(material).unwrap_or_default();
+    let mut drafts = Vec::new();
+    for (entry, spec) in specs.iter().enumerate() {
+        drafts.extend(combinations(evaluator, entry, spec, own_law)?);
+    }
+    named(evaluator, drafts)
+}
+
+/// Returns the name of the FEM bar's law for a material, if there is one.
+pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
+    let name = Equation::of_material(material.name(), |key| material.parameter(key))?.name();
+    BarLaw::find(name).and(EquationName::find(name))
+}
+
+/// Refuses too many combinations of list values, before they are computed.
+fn few(
+    evaluator: &Evaluator<'_>,
+    specs: &[MethodSpec],
+    CaseLimit { most, of_each_method }: &CaseLimit,
+) -> Result<(), Diagnostic> {
+    let mut all = 0_usize;
+    for (entry, spec) in specs.iter().enumerate() {
+        all = all.saturating_add(count(spec).saturating_mul(*of_each_method));
+        if all > *most {
+            let message = format!("these lists give {all} cases");
+            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(entry), &message);
+            return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
+        }
+    }
+    Ok(())
 }
 
 impl MethodDraft {
@@ -68,7 +127,7 @@ fn settings(method: &Method) -> (&'static str, Vec<String>) {
 
 /// Compiles entry number `entry` to methods, one for each combination of list values. A setting
 /// appears in the name if the entry lists several values, or if the setting has no default.
-pub(crate) fn methods(
+fn combinations(
     evaluator: &Evaluator<'_>,
     entry: usize,
     spec: &MethodSpec,
@@ -197,7 +256,7 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-pub(crate) fn count(spec: &MethodSpec) -> usize {
+fn count(spec: &MethodSpec) -> usize {
     let lengths = match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
             basis.as_slice().len(),
@@ -222,8 +281,8 @@ pub(crate) fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// Gives the methods their final names. Refuses an empty list and duplicate methods.
-pub(crate) fn named(
+/// Gives the methods their final names.
+fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
@@ -240,7 +299,8 @@ pub(crate) fn named(
             let diagnostic = evaluator.diagnostic(&path.then(draft.entry), &message);
             return Err(diagnostic.with_label("the second time"));
         }
-        named.push(NamedMethod { name, method: draft.method, solver: draft.solver });
+        let MethodDraft { entry, method, solver, .. } = draft;
+        named.push(NamedMethod { entry, name, method, solver });
     }
     Ok(named)
 }

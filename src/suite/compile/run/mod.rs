@@ -11,14 +11,13 @@ use crate::mpm::{
     combine_precision, combine_volume,
 };
 use crate::suite::compile::expect::expectations;
-use crate::suite::compile::truth::{is_truthless, law_of_bar};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::{Axis, Expectation};
-use methods::{NamedMethod, count, methods, named};
+use methods::{CaseLimit, NamedMethod, methods};
 
 const MOST_CASES: usize = 1000;
 
@@ -92,18 +91,12 @@ pub(crate) fn cases(
     until: &[(String, f64)],
 ) -> Result<Vec<Case>, Diagnostic> {
     let truths = truths(plan);
-    // Default law of an FEM case. Materials without an FEM law are refused later.
-    let law = law_of_bar(&plan.scene.material).unwrap_or_default();
-    let mut found = Vec::new();
     for (i, method) in spec.methods.iter().enumerate() {
-        let path = Path::top("methods").then(i);
-        possible(evaluator, &path, method, plan)?;
-        few(evaluator, &path, found.len() * until.len() * truths.len(), method, until.len())?;
-        let more = methods(evaluator, i, method, law)?;
-        more.iter().try_for_each(|draft| combined(evaluator, &path, draft.method, plan))?;
-        found.extend(more);
+        possible(evaluator, &Path::top("methods").then(i), method, plan)?;
     }
-    let found = named(evaluator, found)?;
+    let limit = CaseLimit { most: MOST_CASES, of_each_method: until.len() * truths.len() };
+    let found = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
+    found.iter().try_for_each(|method| combined(evaluator, method, plan))?;
     let runs = |method: &NamedMethod| runs(method, &truths, until);
     let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
     let case = |draft: Draft| Case {
@@ -150,7 +143,7 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
         plan.reference.as_ref().map(|_| (Against::Reference, "-vs-reference")),
         plan.same_method.map(|same| (Against::SameMethod(same), same.suffix())),
     ];
-    let nothing = is_truthless(plan).then_some((Against::Nothing, ""));
+    let nothing = plan.is_truthless().then_some((Against::Nothing, ""));
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
@@ -178,14 +171,14 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
 /// Refuses a method whose components are incompatible with each other or with the scene.
 fn combined(
     evaluator: &Evaluator<'_>,
-    path: &Path,
-    method: Method,
+    named: &NamedMethod,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
     let refuse = |reason: CombinationError| {
         let help = "list compatible settings in separate entries of `methods`";
-        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
+        evaluator.diagnostic(&named.path(), &reason.to_string()).with_help(help)
     };
+    let method = named.method;
     if let Method::QuasiStatic { basis, .. } = method {
         return combine_basis(plan.scene.plane, basis).map_err(refuse);
     }
@@ -205,23 +198,6 @@ fn combined(
         known = known.and_then(|()| combine_volume(volume, frame, material, dimension, plane));
     }
     known.map_err(refuse)
-}
-
-/// Refuses too many combinations of list values, before they are computed.
-fn few(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    already: usize,
-    spec: &MethodSpec,
-    ends: usize,
-) -> Result<(), Diagnostic> {
-    let more = count(spec).saturating_mul(ends);
-    if already.saturating_add(more) <= MOST_CASES {
-        return Ok(());
-    }
-    let message = format!("these lists give {more} cases");
-    let label = format!("expected at most {MOST_CASES} in a suite");
-    Err(evaluator.diagnostic(path, &message).with_label(&label))
 }
 
 /// Refuses methods that the scene or the study does not support.

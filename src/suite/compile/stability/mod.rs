@@ -10,10 +10,9 @@ pub(crate) mod expect;
 mod requested;
 pub(crate) mod setup;
 
-use crate::mpm::{MaterialPlan, combine, combine_across, combine_volume};
+use crate::mpm::{combine, combine_across, combine_volume};
 use crate::suite::compile::expect::assign;
-use crate::suite::compile::run::methods::{count, methods, named};
-use crate::suite::compile::truth::law_of_bar;
+use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilitySpec};
 use crate::suite::model::method::Method;
@@ -28,13 +27,12 @@ pub(crate) fn plan(
     source: &Source,
     spec: &StabilitySpec,
 ) -> Result<StabilityPlan, Diagnostic> {
-    few(evaluator, spec)?;
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
     let base = setup(evaluator, spec)?;
+    let methods = methods_in_time(evaluator, &spec.methods, &base)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
-    let mut material = base.scene.material;
     for value in &values {
         let ends = sought.as_ref().map_or(vec![None], |(name, from, to)| {
             vec![Some((name.as_str(), *from)), Some((name.as_str(), *to))]
@@ -42,11 +40,10 @@ pub(crate) fn plan(
         for end in ends {
             let mut with = vec![(swept.as_str(), *value)];
             with.extend(end);
-            material = template.setup(&with)?.scene.material;
+            template.setup(&with)?;
         }
     }
-    let drafts = drafts(evaluator, spec, &material, &base)?;
-    let cases = cases(evaluator, &template, spec, drafts, &swept, &values, sought.is_some())?;
+    let cases = cases(evaluator, &template, spec, methods, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
         for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
@@ -121,28 +118,14 @@ fn sought(
     Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
 }
 
-/// Refuses too many combinations of list values, before they are computed.
-fn few(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<(), Diagnostic> {
-    let mut all = 0_usize;
-    for (i, spec) in spec.methods.iter().enumerate() {
-        all = all.saturating_add(count(spec));
-        if all > MOST {
-            let path = Path::top("methods").then(i);
-            return Err(evaluator.diagnostic(&path, &format!("more than {MOST} cases")));
-        }
-    }
-    Ok(())
-}
-
-fn drafts(
+/// Compiles the methods, which must take time steps of the built-in MPM. Refuses methods that the
+/// study or the scene does not support.
+fn methods_in_time(
     evaluator: &Evaluator<'_>,
-    spec: &StabilitySpec,
-    material: &MaterialPlan,
+    specs: &[MethodSpec],
     RunSetup { scene, ledger, .. }: &RunSetup,
-) -> Result<Vec<(String, Method)>, Diagnostic> {
-    let (own, plane) = (law_of_bar(material).unwrap_or_default(), scene.plane);
-    let mut drafts = Vec::new();
-    for (i, spec) in spec.methods.iter().enumerate() {
+) -> Result<Vec<NamedMethod>, Diagnostic> {
+    for (i, spec) in specs.iter().enumerate() {
         let path = Path::top("methods").then(i);
         if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
             return Err(evaluator.diagnostic(&path, "a stability study supports MPM only"));
@@ -151,46 +134,48 @@ fn drafts(
             let message = "a stability study needs time steps, but `quasi_static` has none";
             return Err(evaluator.diagnostic(&path.then("mpm").then("scheme"), message));
         }
-        for draft in methods(evaluator, i, spec, own)? {
-            if draft.method.is_single_precision() {
-                let message = "a stability study needs double precision: small perturbations \
-                               vanish in single precision";
-                return Err(evaluator.diagnostic(&path.then("mpm").then("precision"), message));
-            }
-            if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = draft.method {
-                let across = |()| combine_across(plane, basis, transfer);
-                let averaged = |()| {
-                    scene.each().iter().try_for_each(|body| {
-                        let dimension = scene.dimension();
-                        combine_volume(volume, frame, &body.material, dimension, plane)
-                    })
-                };
-                let known = combine(basis, transfer, mass, frame).and_then(across);
-                known.and_then(averaged).map_err(|reason| {
-                    let help = "list compatible settings in separate entries of `methods`";
-                    evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
-                })?;
-            }
-            if *ledger {
-                requested::refuse_unledgered(evaluator, &path, &draft.method)?;
-            }
-            drafts.push(draft);
+    }
+    let limit = CaseLimit { most: MOST, of_each_method: 1 };
+    let methods = methods(evaluator, specs, &scene.material, &limit)?;
+    let plane = scene.plane;
+    for named in &methods {
+        let path = named.path();
+        if named.method.is_single_precision() {
+            let message = "a stability study needs double precision: small perturbations vanish \
+                           in single precision";
+            return Err(evaluator.diagnostic(&path.then("mpm").then("precision"), message));
+        }
+        if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = named.method {
+            let across = |()| combine_across(plane, basis, transfer);
+            let averaged = |()| {
+                scene.each().iter().try_for_each(|body| {
+                    let dimension = scene.dimension();
+                    combine_volume(volume, frame, &body.material, dimension, plane)
+                })
+            };
+            let known = combine(basis, transfer, mass, frame).and_then(across);
+            known.and_then(averaged).map_err(|reason| {
+                let help = "list compatible settings in separate entries of `methods`";
+                evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
+            })?;
+        }
+        if *ledger {
+            requested::refuse_unledgered(evaluator, &path, &named.method)?;
         }
     }
-    let named = named(evaluator, drafts)?;
-    Ok(named.into_iter().map(|draft| (draft.name, draft.method)).collect())
+    Ok(methods)
 }
 
 fn cases(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
     spec: &StabilitySpec,
-    drafts: Vec<(String, Method)>,
+    methods: Vec<NamedMethod>,
     swept: &str,
     values: &[f64],
     seeks: bool,
 ) -> Result<Vec<StabilityCase>, Diagnostic> {
-    let names: Vec<&str> = drafts.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = methods.iter().map(|method| method.name.as_str()).collect();
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
@@ -207,11 +192,12 @@ fn cases(
         })
         .collect::<Result<Vec<_>, Diagnostic>>()?;
     let predicted = seeks && spec.run.frozen;
-    let case = |((name, method), owner): ((String, Method), Option<usize>)| {
+    let case = |(named, owner): (NamedMethod, Option<usize>)| {
+        let NamedMethod { name, method, .. } = named;
         let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
         let summary =
             owner.map(|owner| expect::summary(&spec.expect[owner], &expected, &rows, predicted));
         StabilityCase { name, method, expected, summary, because, gating: None }
     };
-    Ok(drafts.into_iter().zip(owners).map(case).collect())
+    Ok(methods.into_iter().zip(owners).map(case).collect())
 }

@@ -8,12 +8,11 @@ mod interface;
 pub(crate) mod judged_box;
 pub(crate) mod tolerance;
 
-use crate::exact::{Equation, Face, Motion, Problem, Survey, Truth};
-use crate::fem::BarLaw;
+use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::mpm::{MaterialPlan, Matrix};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
-use crate::suite::model::{ConvergencePlan, SameMethod, Scene, SceneFace};
+use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
@@ -290,12 +289,6 @@ fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     equation_of(material).ok_or("the law has no equation")
 }
 
-/// Returns the name of the FEM bar's law for a material, if there is one.
-pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
-    let name = equation_of(material)?.name();
-    BarLaw::find(name).and(EquationName::find(name))
-}
-
 fn refuse_equilibrium_with(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -364,38 +357,13 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Placeholder for a suite without exact solution, in which only conserved sums are checked.
-pub(crate) struct Unknown;
-
-impl Truth for Unknown {
-    fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
-        into.fill(f64::NAN);
-    }
-
-    fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
-        into.fill(f64::NAN);
-    }
-}
-
-/// Whether a suite has nothing to compare with: no formulas, no FEM reference and no fine-grid
-/// reference.
-pub(crate) fn is_truthless(plan: &ConvergencePlan) -> bool {
-    !plan.has_formulas() && plan.reference.is_none() && !is_truth(plan.same_method)
-}
-
-/// Whether a same-method reference may replace an exact solution. A reference with shorter steps
-/// may not, because it reveals only the error of the time step.
-pub(crate) fn is_truth(same_method: Option<SameMethod>) -> bool {
-    matches!(same_method, Some(SameMethod::FineGrid(_)))
-}
-
 /// Refuses a key that needs an exact solution or a reference if the suite has neither.
 pub(crate) fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    if !is_truthless(plan) {
+    if !plan.is_truthless() {
         return Ok(());
     }
     let asked = |spec: &ExpectSpec| {
