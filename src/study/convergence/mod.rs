@@ -16,7 +16,6 @@ use crate::study::handover::{needs, subject_under};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, StepWarning, Study};
 use crate::study::time_series::{SeriesError, ShownRun};
 use crate::subject::{Profile, SubjectError};
-use crate::suite::compile::check::size;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
@@ -318,7 +317,7 @@ impl Reruns for CaseRuns<'_, '_> {
     ) -> Option<Result<LevelRun, SubjectError>> {
         let scene = &self.runner.plan.scene;
         let halved = taken(level).halved(axis, scene.dimension())?;
-        Some(match size::too_large(scene, halved) {
+        Some(match halved.too_large(scene) {
             Some((what, amount)) => Err(format!("{amount:.1e} {what} exceed the limit").into()),
             None => self.level(halved, false),
         })

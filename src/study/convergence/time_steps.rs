@@ -10,7 +10,6 @@ use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
 use crate::study::setup::dispatch;
 use crate::subject::{Precision, Start, SubjectError};
-use crate::suite::compile::check::size::particles;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
@@ -88,7 +87,7 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
         let planned = PlannedLevel {
             cells: level.cells,
             h: level.h,
-            particles: level.ppc.map_or(0.0, |_| particles(&plan.scene, level)),
+            particles: level.ppc.map_or(0.0, |_| level.particles(&plan.scene)),
             dt: clock.dt(),
             steps: clock.steps,
             courant: (plan.steps == StepKind::Time).then(|| waves * clock.dt() / level.h),

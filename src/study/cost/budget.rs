@@ -14,7 +14,6 @@ use super::candidate::{Candidate, REACH, candidate, run};
 use super::measure::seconds;
 use crate::study::runner::Runner;
 use crate::subject::SubjectError;
-use crate::suite::compile::check::size::too_large;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Suite};
 use crate::verify::{Axis, BestCandidate, Interval, Model, Workload, by_transfers};
@@ -171,7 +170,7 @@ impl Candidate {
                 cells.push((grown * self.stride).max(cells[next - 1] + self.stride));
             }
             let level = self.level(cells[next]);
-            if cells[next] > self.most_cells() || too_large(&self.plan.scene, level).is_some() {
+            if cells[next] > self.most_cells() || level.too_large(&self.plan.scene).is_some() {
                 break;
             }
             let Some(load) = self.load(level) else { break };

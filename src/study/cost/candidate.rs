@@ -3,10 +3,10 @@
 use super::measure::{load, seconds};
 use crate::study::runner::Runner;
 use crate::subject::SubjectError;
-use crate::suite::compile::check::size::{nodes, too_large};
 use crate::suite::model::refine_plan::FINE_GRID;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::suite::scene::nodes;
 use crate::verify::{
     CaseOutcome, Convergence, LevelOutcome, Model, PredictedError, Ranked, Workload, by_transfers,
 };
@@ -154,7 +154,7 @@ impl Candidate {
         let first = self.study.levels[self.ranked.part.levels.start].cells;
         let fits = |cells: u64| {
             let level = self.level(cells);
-            let possible = cells <= most && too_large(&self.plan.scene, level).is_none();
+            let possible = cells <= most && level.too_large(&self.plan.scene).is_none();
             possible && self.load(level).is_some_and(|load| model.predict(&load) <= budget)
         };
         let (mut low, mut step) = (first.div_ceil(self.stride), 1);

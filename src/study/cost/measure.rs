@@ -10,9 +10,9 @@ use crate::study::handover::subject_under;
 use crate::study::runner::Runner;
 use crate::study::setup::dispatch::subject;
 use crate::subject::{Subject, SubjectError};
-use crate::suite::compile::check::size::nodes;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::suite::scene::nodes;
 use crate::verify::{
     LevelOutcome, Machine, Ranked, SuiteOutcome, TimedSuite, Timing, Workload, by_transfers,
 };

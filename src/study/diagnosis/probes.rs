@@ -9,7 +9,6 @@ use crate::mpm::{
 };
 use crate::study::preflight::alignment::is_aligned;
 use crate::subject::Start;
-use crate::suite::compile::check::size;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
@@ -155,7 +154,7 @@ fn changed_levels(
     });
     for level in plan.refine.levels.iter_mut().chain(fine) {
         *level = change(*level)?;
-        size::too_large(&plan.scene, *level).is_none().then_some(())?;
+        level.too_large(&plan.scene).is_none().then_some(())?;
     }
     Some(plan)
 }

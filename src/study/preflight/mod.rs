@@ -21,11 +21,11 @@ pub(crate) mod undamped;
 
 use self::subject::Preflight;
 use crate::study::convergence::judge_plan::in_time;
-use crate::suite::compile::check::size;
 use crate::suite::grammar::WarningName;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
+use crate::suite::scene::nodes;
 use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::Axis;
@@ -223,7 +223,7 @@ pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
 
 fn particle_steps(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     let steps = case.clock(plan, level.dt).map_or(0, |clock| clock.steps);
-    size::particles(&plan.scene, level) * steps as f64
+    level.particles(&plan.scene) * steps as f64
 }
 
 fn of_case(plan: &ConvergencePlan, case: &Case, extent: Extent) -> Estimate {
@@ -231,10 +231,10 @@ fn of_case(plan: &ConvergencePlan, case: &Case, extent: Extent) -> Estimate {
     let index = scene.dimension().clamp(1, 3) - 1;
     let (mut all, mut bytes) = (0.0, 0.0_f64);
     for level in plan.refine.levels(extent) {
-        let particles = size::particles(scene, *level);
+        let particles = level.particles(scene);
         all += particle_steps(plan, case, *level);
         let [particle, node] = BYTES[index];
-        bytes = bytes.max(particle * particles + node * size::nodes(scene, level.h));
+        bytes = bytes.max(particle * particles + node * nodes(scene, level.h));
     }
     Estimate { particle_steps: all, seconds: SECONDS[index] * all, bytes }
 }

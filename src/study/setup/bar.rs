@@ -107,7 +107,8 @@ mod tests {
     use super::*;
     use crate::exact::Equation;
     use crate::mpm::{Block, Matrix, Particles, StressUpdate, Vector};
-    use crate::suite::compile::truth::{equation_of, law_of_bar};
+    use crate::suite::compile::run::methods::law_of_bar;
+    use crate::suite::compile::truth::equation_of;
     use approx::assert_relative_eq;
     use rstest::rstest;
 

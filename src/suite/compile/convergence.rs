@@ -1,11 +1,10 @@
 //! Compiles a convergence study: computes numbers, resolves names and checks the exact solution.
 
-use super::check::size::LevelPaths;
-use super::check::{self, load_steps, size, steps, sums};
-use super::expect::any_method;
+use super::check::{CompiledStudy, load_steps, refuse_contradictions, sums};
+use super::expect;
 use super::run::{self, places, reference, refine};
 use super::scene;
-use super::truth::{self, conduction, judged_box, refuse_need_of_truth};
+use super::truth::{self, conduction, judged_box};
 use crate::exact::Survey;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
@@ -17,41 +16,12 @@ use crate::verify::StepKind;
 /// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
-/// A convergence study after its scene, exact solution, levels and cases have been compiled.
-struct Compiled<'a> {
-    evaluator: &'a Evaluator<'a>,
-    spec: &'a ConvergenceSpec,
-    plan: &'a ConvergencePlan,
-    /// Sampled positions and largest terms of the exact motion of a single body.
-    survey: Option<Survey>,
-    /// Paths of the levels in the file.
-    levels: Vec<LevelPaths>,
-    /// End of the longest run (s).
-    latest: f64,
-}
-
-type CrossCheck = fn(&Compiled<'_>) -> Result<(), Diagnostic>;
-
-/// Checks that run before the expectations are compiled. If several checks fail, the first one is
-/// reported.
-const CROSS_CHECKS: [CrossCheck; 9] = [
-    |suite| load_steps::refuse_unfit(suite.evaluator, suite.spec, &suite.plan.scene),
-    |suite| check::refuse_conditions_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
-    |suite| check::refuse_law_unknown_to_fem(suite.evaluator, suite.spec, &suite.plan.scene),
-    |suite| check::refuse_foreign(suite.evaluator, suite.spec, &suite.plan.scene, suite.latest),
-    |suite| check::refuse_quantity_unknown_to_fem(suite.evaluator, suite.spec, suite.plan),
-    |suite| truth::refuse_violated(suite.evaluator, suite.spec, suite.plan, suite.survey.as_ref()),
-    |suite| refuse_need_of_truth(suite.evaluator, suite.spec, suite.plan),
-    |suite| size::refuse_unfit_levels(suite.evaluator, suite.spec, suite.plan, &suite.levels),
-    |suite| steps::refuse_unusable(suite.evaluator, suite.plan, &suite.levels),
-];
-
 pub(crate) fn convergence_plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
 ) -> Result<ConvergencePlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
-    load_steps::refuse_time(evaluator, spec)?;
+    load_steps::refuse_unfit(evaluator, spec, &scene)?;
     let until = run::ends(evaluator, &spec.run)?;
     let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
@@ -111,15 +81,12 @@ pub(crate) fn convergence_plan(
         acknowledged: acknowledged(evaluator, &spec.acknowledge)?,
     };
     plan.cases = run::cases(evaluator, spec, &plan, &until)?;
-    let compiled = Compiled { evaluator, spec, plan: &plan, survey, levels, latest };
-    CROSS_CHECKS.iter().try_for_each(|check| check(&compiled))?;
+    let study = CompiledStudy { evaluator, spec, plan: &plan, survey, levels };
+    refuse_contradictions(&study)?;
     // The exact value of the sum needs the solution, which has been checked above.
     plan.sum = sums::judged(evaluator, spec, &plan)?;
     plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
-    if let Some(spec) = &spec.any_method {
-        plan.any_method = any_method(evaluator, spec, &plan)?;
-    }
-    plan.cases = run::expected(evaluator, spec, &plan)?;
+    expect::complete(evaluator, spec, &mut plan)?;
     Ok(plan)
 }
 

@@ -3,10 +3,9 @@
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
-use crate::suite::compile::check::check_drift;
 use crate::suite::compile::check::sums::refuse_law_without_energy;
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
-use crate::suite::grammar::{AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
+use crate::suite::grammar::{AnyMethodSpec, ConvergenceSpec, CrossingsName, DriftSpec, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::{AnyMethod, Method};
 use crate::suite::pattern;
@@ -16,17 +15,33 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
+/// Compiles the expectations of all cases in `plan`, and `any_method`.
+pub(crate) fn complete(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &mut ConvergencePlan,
+) -> Result<(), Diagnostic> {
+    if let Some(spec) = &spec.any_method {
+        plan.any_method = any_method(evaluator, spec, plan)?;
+    }
+    let expectations = expectations(evaluator, &spec.expect, plan)?;
+    for (case, expected) in plan.cases.iter_mut().zip(expectations) {
+        let (expectation, in_full) = expected.unzip();
+        (case.expectation, case.expectation_in_full) = (expectation, in_full.flatten());
+    }
+    Ok(())
+}
+
 /// Expectation of a case, and its expectation for a full run if different.
 type CaseExpectation = (Expectation, Option<Expectation>);
 
-/// Returns the expectations in the order of `cases`; all `None` if the suite states none.
-pub(crate) fn expectations(
+/// Returns the expectations in the order of the cases; all `None` if the suite states none.
+fn expectations(
     evaluator: &Evaluator<'_>,
     spec: &[ExpectSpec],
     plan: &ConvergencePlan,
-    cases: &[(&str, Method)],
 ) -> Result<Vec<Option<CaseExpectation>>, Diagnostic> {
-    let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let both = |(i, spec): (usize, &ExpectSpec)| {
@@ -34,12 +49,12 @@ pub(crate) fn expectations(
         Ok((expectation(evaluator, &path, spec, plan)?, in_full(evaluator, &path, spec, plan)?))
     };
     let parsed = spec.iter().enumerate().map(both).collect::<Result<Vec<CaseExpectation>, _>>()?;
-    for (owner, (_, method)) in owners.iter().zip(cases) {
+    for (owner, case) in owners.iter().zip(&plan.cases) {
         let Some(owner) = *owner else { continue };
         let path = Path::top("expect").then(owner);
-        check_drift(evaluator, &path, &parsed[owner].0.limits, *method)?;
+        check_drift(evaluator, &path, &parsed[owner].0.limits, case.method)?;
         if let Some(full) = &parsed[owner].1 {
-            check_drift(evaluator, &path.then("full"), &full.limits, *method)?;
+            check_drift(evaluator, &path.then("full"), &full.limits, case.method)?;
         }
     }
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
@@ -261,6 +276,35 @@ fn drifts(
     Ok(drifts)
 }
 
+/// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
+/// or conserve.
+fn check_drift(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    limits: &Limits,
+    method: Method,
+) -> Result<(), Diagnostic> {
+    let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
+    let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
+    let asks_of_energy =
+        limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
+    if asks_of_energy && method.averages_volume() {
+        let message = "the force of `volume: averaged` does not derive from a stored energy";
+        let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+        return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
+    }
+    if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
+        return Ok(());
+    }
+    let message = match method {
+        Method::QuasiStatic { .. } => "load steps have no motion whose sums could drift",
+        Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
+        _ => "the built-in FEM does not compute the sums whose drift is bounded here",
+    };
+    let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+    Err(diagnostic.with_help("restrict this expectation to MPM cases"))
+}
+
 /// Number of points along each axis, and number of time intervals, in the check by
 /// `is_translation`.
 const PLACES: usize = 5;
@@ -268,7 +312,7 @@ const PLACES: usize = 5;
 /// Displacement gradients up to this value count as rounding errors.
 const UNDEFORMED: f64 = 1e-14;
 
-pub(crate) fn any_method(
+fn any_method(
     evaluator: &Evaluator<'_>,
     spec: &AnyMethodSpec,
     plan: &ConvergencePlan,

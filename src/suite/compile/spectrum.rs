@@ -3,7 +3,7 @@
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
-use crate::suite::compile::check::{refuse_first, size};
+use crate::suite::compile::check::refuse_first;
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::compile::scene;
@@ -51,7 +51,7 @@ pub(crate) fn plan(
     }
     let h = cell_size(&scene, cells);
     let level = LevelPlan { cells, h, dt: 0.0, ppc: Some(ppc) };
-    if let Some((what, amount)) = size::too_large(&scene, level) {
+    if let Some((what, amount)) = level.too_large(&scene) {
         let message = format!("{cells} cells make {amount:.1e} {what}");
         return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
     }

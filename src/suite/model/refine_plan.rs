@@ -1,5 +1,6 @@
 //! Refinement levels of a study, and the finer level of a same-method reference run.
 
+use crate::suite::scene::{Scene, nodes, per_axis};
 use crate::verify::Axis;
 
 /// The refinement levels of a study.
@@ -72,7 +73,28 @@ impl LevelPlan {
         let per_cell = self.ppc.unwrap_or(1) as f64;
         self.h / libm::pow(per_cell, 1.0 / dimension as f64)
     }
+
+    /// Returns the number of particles that fill the bounding box, before rounding.
+    pub(crate) fn particles(self, scene: &Scene) -> f64 {
+        (0..scene.dimension()).map(|axis| self.particles_along(scene, axis).max(1.0)).product()
+    }
+
+    /// Returns the number of particles along an axis, before rounding.
+    pub(crate) fn particles_along(self, scene: &Scene, axis: usize) -> f64 {
+        let per_axis = self.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
+        (scene.to[axis] - scene.from[axis]) * per_axis.unwrap_or(1) as f64 / self.h
+    }
+
+    /// If there are more nodes or particles than [`MOST_POINTS`], returns the word `nodes` or
+    /// `particles` and their number.
+    pub(crate) fn too_large(self, scene: &Scene) -> Option<(&'static str, f64)> {
+        let amounts = [("nodes", nodes(scene, self.h)), ("particles", self.particles(scene))];
+        amounts.into_iter().find(|(_, amount)| *amount > MOST_POINTS || amount.is_nan())
+    }
 }
+
+/// Maximum number of particles per level, and of nodes per level.
+pub(crate) const MOST_POINTS: f64 = 5e7;
 
 /// Minimum ratio of the cells of a fine-grid reference run to the cells of the finest level. For a
 /// second-order method, the error of the reference run is then 1/16 of the error on the finest

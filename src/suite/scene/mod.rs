@@ -213,6 +213,11 @@ pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 
+/// Returns the number of grid nodes for the cell size `h` (m).
+pub(crate) fn nodes(scene: &Scene, h: f64) -> f64 {
+    (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
+}
+
 fn roomy(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     let (from, to) = (scene.from[axis], scene.to[axis]);
     let spare = (SPARE_CELLS + libm::ceil(0.1 * (to - from) / h)) * h;

@@ -9,12 +9,18 @@ use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
 
-/// Refuses suites that combine load steps with keys for time, or a quasi-static method with time
-/// steps.
-pub(crate) fn refuse_time(
+/// Refuses suites that combine load steps with keys for time or with features that the quasi-static
+/// solver does not support, or a quasi-static method with time steps.
+pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
+    scene: &Scene,
 ) -> Result<(), Diagnostic> {
+    refuse_time(evaluator, spec)?;
+    if spec.run.load_steps.is_some() { refuse_unfit_scene(evaluator, spec, scene) } else { Ok(()) }
+}
+
+fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let method = |wanted: &dyn Fn(&MethodSpec) -> bool| spec.methods.iter().position(wanted);
     if spec.run.load_steps.is_none() {
         let Some(i) = method(&MethodSpec::is_quasi_static) else { return Ok(()) };
@@ -78,15 +84,11 @@ pub(crate) fn refuse_time(
     }
 }
 
-/// Refuses a scene with features that the quasi-static solver does not support.
-pub(crate) fn refuse_unfit(
+fn refuse_unfit_scene(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    if spec.run.load_steps.is_none() {
-        return Ok(());
-    }
     let top = Path::top("scene");
     let help = "load steps need loads and walls that depend neither on time nor on the motion";
     let refused = [

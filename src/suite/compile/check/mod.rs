@@ -1,26 +1,53 @@
 //! Checks that involve several keys: they refuse features that the solvers, the loads or the exact
 //! solution do not support.
 
+pub(crate) mod levels;
 pub(crate) mod load_steps;
-pub(crate) mod size;
-pub(crate) mod steps;
 pub(crate) mod sums;
 
+use crate::exact::Survey;
 use crate::fem::BarLaw;
 use crate::suite::compile::run::methods::law_of_bar;
+use crate::suite::compile::run::refine::LevelPaths;
+use crate::suite::compile::truth;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
-use crate::suite::model::method::Method;
-use crate::suite::model::{ConvergencePlan, Scene};
+use crate::suite::model::ConvergencePlan;
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
-use crate::verify::{Conserved, Limits};
 
-pub(crate) fn refuse_conditions_unknown_to_fem(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+/// A convergence study after its scene, exact solution, levels and cases have been compiled.
+pub(crate) struct CompiledStudy<'a> {
+    pub(crate) evaluator: &'a Evaluator<'a>,
+    pub(crate) spec: &'a ConvergenceSpec,
+    pub(crate) plan: &'a ConvergencePlan,
+    /// Sampled positions and largest terms of the exact motion of a single body.
+    pub(crate) survey: Option<Survey>,
+    /// Paths of the levels in the file.
+    pub(crate) levels: Vec<LevelPaths>,
+}
+
+type CrossCheck = fn(&CompiledStudy<'_>) -> Result<(), Diagnostic>;
+
+/// Checks that run before the expectations are compiled. If several checks fail, the first one is
+/// reported.
+const CROSS_CHECKS: [CrossCheck; 6] = [
+    refuse_conditions_unknown_to_fem,
+    refuse_law_unknown_to_fem,
+    refuse_foreign,
+    refuse_quantity_unknown_to_fem,
+    |study| truth::refuse_unfit(study.evaluator, study.spec, study.plan, study.survey.as_ref()),
+    |study| levels::refuse_unfit(study.evaluator, study.spec, study.plan, &study.levels),
+];
+
+/// Refuses a study whose keys contradict each other.
+pub(crate) fn refuse_contradictions(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    CROSS_CHECKS.iter().try_for_each(|check| check(study))
+}
+
+fn refuse_conditions_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
+    let scene = &plan.scene;
     if !spec.has_fem_reference() && spec.fem_method().is_none() {
         return Ok(());
     }
@@ -52,11 +79,9 @@ pub(crate) fn refuse_conditions_unknown_to_fem(
     Ok(())
 }
 
-pub(crate) fn refuse_law_unknown_to_fem(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
+    let scene = &plan.scene;
     let name = scene.material.name();
     let elastic = scene.material.elasticity().is_some();
     let of_fluid =
@@ -93,13 +118,11 @@ pub(crate) fn refuse_law_unknown_to_fem(
 
 /// Refuses loads that are not allowed in this study. Also refuses the FEM bar (the built-in 1-D
 /// FEM) if it does not implement all loads.
-pub(crate) fn refuse_foreign(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-    until: f64,
-) -> Result<(), Diagnostic> {
-    let study = StudyFacts { manufactured: spec.manufactured.is_some(), until };
+fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
+    let until = plan.cases.iter().map(|case| case.until).fold(0.0, f64::max);
+    let (scene, study) =
+        (&plan.scene, StudyFacts { manufactured: spec.manufactured.is_some(), until });
     for (i, load) in spec.scene.loads.iter().enumerate() {
         let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
         load.keys().check(&entry, &study)?;
@@ -126,11 +149,8 @@ fn refuse_fem_without(
     }
 }
 
-pub(crate) fn refuse_quantity_unknown_to_fem(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-) -> Result<(), Diagnostic> {
+fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
     if !plan.of.is_optional() {
         return Ok(());
     }
@@ -149,35 +169,6 @@ pub(crate) fn refuse_quantity_unknown_to_fem(
         }
         None => Ok(()),
     }
-}
-
-/// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
-/// or conserve.
-pub(crate) fn check_drift(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    limits: &Limits,
-    method: Method,
-) -> Result<(), Diagnostic> {
-    let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
-    let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
-    let asks_of_energy =
-        limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
-    if asks_of_energy && method.averages_volume() {
-        let message = "the force of `volume: averaged` does not derive from a stored energy";
-        let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
-        return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
-    }
-    if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
-        return Ok(());
-    }
-    let message = match method {
-        Method::QuasiStatic { .. } => "load steps have no motion whose sums could drift",
-        Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
-        _ => "the built-in FEM does not compute the sums whose drift is bounded here",
-    };
-    let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
-    Err(diagnostic.with_help("restrict this expectation to MPM cases"))
 }
 
 /// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is true

@@ -10,13 +10,12 @@ use crate::mpm::{
     CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
     combine_precision, combine_volume,
 };
-use crate::suite::compile::expect::expectations;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
-use crate::verify::{Axis, Expectation};
+use crate::verify::Axis;
 use methods::{CaseLimit, NamedMethod, methods};
 
 const MOST_CASES: usize = 1000;
@@ -110,22 +109,6 @@ pub(crate) fn cases(
         gating: None,
     };
     Ok(drafts.into_iter().map(case).collect())
-}
-
-pub(crate) fn expected(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-) -> Result<Vec<Case>, Diagnostic> {
-    let cases = &plan.cases;
-    let names: Vec<_> = cases.iter().map(|case| (case.name.as_str(), case.method)).collect();
-    let expectations = expectations(evaluator, &spec.expect, plan, &names)?;
-    let with = |(case, expected): (&Case, Option<(Expectation, Option<Expectation>)>)| {
-        let (expectation, expectation_in_full) = expected.unzip();
-        let expectation_in_full = expectation_in_full.flatten();
-        Case { expectation, expectation_in_full, ..case.clone() }
-    };
-    Ok(cases.iter().zip(expectations).map(with).collect())
 }
 
 struct Draft {

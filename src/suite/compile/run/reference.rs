@@ -2,7 +2,6 @@
 //! spacing.
 
 use super::refine::{STEP_OF_EACH_H, step_formula};
-use crate::suite::compile::check::size;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
 use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan, RefinePlan};
@@ -79,7 +78,6 @@ pub(crate) fn same_method(
             let level = LevelPlan { cells, ..*finest };
             let level = with_step(evaluator, &path, spec, scene, level)?;
             finer(evaluator, &path, *finest, level)?;
-            size::fine_grid(evaluator, &path, scene, level, instants)?;
             Ok(Some(SameMethod::FineGrid(level)))
         }
         _ => {

@@ -2,8 +2,6 @@
 //! stated in the suite, or are a fraction of the stable time step.
 
 use crate::exact::formula::Formula;
-use crate::suite::compile::check::size::LevelPaths;
-use crate::suite::compile::check::steps::COARSE_TO_FINE;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RefineSpec, StepSpec};
 use crate::suite::model::Scene;
@@ -11,6 +9,15 @@ use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::scene::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
+
+/// Paths of a level in the file.
+pub(crate) struct LevelPaths {
+    pub(crate) size: Path,
+    pub(crate) dt: Path,
+}
+
+/// Label under the caret for a level that is not finer than the previous level.
+pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 struct Located<T> {
     value: T,

@@ -3,7 +3,7 @@
 //! Any parameter can be swept, so the whole specification is evaluated again for every value.
 
 use super::requested;
-use crate::suite::compile::check::size;
+use crate::suite::compile::check::levels;
 use crate::suite::compile::run::refine::{stable_share, step_formula};
 use crate::suite::compile::scene;
 use crate::suite::evaluator::{Evaluator, shown};
@@ -96,11 +96,11 @@ pub(crate) fn setup(
         steps_of.extend(std::iter::repeat_n(length("alternate", text)?, every));
     }
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
-    if let Some((what, amount)) = size::too_large(&scene, level) {
+    if let Some((what, amount)) = level.too_large(&scene) {
         let message = format!("{cells} cells along the first axis make {amount:.1e} {what}");
         return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
     }
-    size::held_faces(evaluator, &at, &scene, cells)?;
+    levels::held_faces(evaluator, &at, &scene, cells)?;
     let steps = evaluator.count(&run.then("steps"), &spec.run.steps, "the number of steps")?;
     let full_steps = spec.run.full_steps.as_ref().map_or(Ok(steps), |text| {
         evaluator.count(&run.then("full_steps"), text, "the number of steps")

@@ -57,10 +57,24 @@ pub(crate) fn exact(
     Ok(Some(Problem { bodies, ..problem }))
 }
 
+/// Refuses a suite without a solution that it needs, and a solution that violates its problem.
+/// `survey` is that of a single body.
+pub(crate) fn refuse_unfit(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+    survey: Option<&Survey>,
+) -> Result<(), Diagnostic> {
+    if plan.is_truthless() {
+        refuse_need_of_truth(evaluator, spec)?;
+    }
+    refuse_violated(evaluator, spec, plan, survey)
+}
+
 /// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
 /// conditions. `survey` contains sampled positions and the largest terms of a single body. For
 /// several bodies, these are computed here.
-pub(crate) fn refuse_violated(
+fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
@@ -357,15 +371,11 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Refuses a key that needs an exact solution or a reference if the suite has neither.
-pub(crate) fn refuse_need_of_truth(
+/// Refuses keys that need an exact solution or a reference, in a suite that has neither.
+fn refuse_need_of_truth(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    if !plan.is_truthless() {
-        return Ok(());
-    }
     let asked = |spec: &ExpectSpec| {
         let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();

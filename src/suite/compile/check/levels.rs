@@ -1,0 +1,269 @@
+//! Checks each level: that it fits into memory, that fixed faces have grid nodes, that the body and
+//! the sets contain particles, and that the time step is valid.
+
+use crate::suite::compile::run::refine::{COARSE_TO_FINE, LevelPaths};
+use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::model::refine_plan::{LevelPlan, MOST_POINTS, SameMethod};
+use crate::suite::model::{Against, Case, ConvergencePlan, Scene};
+use crate::suite::scene::lattice::{any_particle, is_vacant};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
+use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::{Axis, Clock, STEP_TOLERANCE};
+
+/// Maximum distance (cells) between a fixed face of the body and the grid face next to it.
+const ROUNDING: f64 = 1e-6;
+
+/// Refuses a level that is too large, has no nodes on a fixed face, has no particle in a set or a
+/// small body, or has an invalid time step.
+pub(crate) fn refuse_unfit(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    plan: &ConvergencePlan,
+    levels: &[LevelPaths],
+) -> Result<(), Diagnostic> {
+    references(evaluator, plan)?;
+    if !spec.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
+        for (level, place) in plan.refine.levels.iter().zip(levels) {
+            fits(evaluator, &place.size, &plan.scene, *level)?;
+        }
+    }
+    refuse_unusable_steps(evaluator, plan, levels)
+}
+
+fn fits(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Diagnostic> {
+    if let Some((what, amount)) = level.too_large(scene) {
+        let cells = level.cells;
+        let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
+        let diagnostic = evaluator.diagnostic(path, &message);
+        return Err(diagnostic.with_label(&format!("expected at most {MOST_POINTS:e} {what}")));
+    }
+    vacant(evaluator, path, scene, level)?;
+    held_faces(evaluator, path, scene, level.cells)?;
+    sets(evaluator, path, scene, level)
+}
+
+/// Refuses a round or polygonal body that is smaller than one particle volume.
+fn vacant(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Diagnostic> {
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
+    if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
+        return Ok(());
+    }
+    let cells = level.cells;
+    let message =
+        format!("with {cells} cells along the first axis the body is smaller than a particle");
+    let label = "expected cells small enough that the body contains a particle";
+    Err(evaluator.diagnostic(path, &message).with_label(label))
+}
+
+/// Refuses a grid whose high face does not coincide with a fixed face of the body, because the
+/// condition applies to the nodes on the grid face. Also refuses a periodic grid whose length is
+/// not the stated period.
+pub(crate) fn held_faces(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    cells: u64,
+) -> Result<(), Diagnostic> {
+    let h = cell_size(scene, cells);
+    for face in scene.faces.iter().filter(|face| !face.hold.is_free() && face.high) {
+        let (origin, along) = grid_axis(scene, face.axis, h);
+        let end = origin + along * h;
+        let body = match &scene.grid {
+            Some((_, to)) if face.hold.is_periodic() => to[face.axis],
+            _ => scene.to[face.axis],
+        };
+        if (end - body).abs() > ROUNDING * h {
+            let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
+            let message = format!(
+                "with {cells} cells along the first axis the {name} face, which {verb}, is at {}, \
+                 but the nearest nodes are at {end}",
+                shown(body)
+            );
+            let label = format!("expected a cell size that divides the length, not {h} m");
+            return Err(evaluator.diagnostic(path, &message).with_label(&label));
+        }
+    }
+    Ok(())
+}
+
+fn sets(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    scene: &Scene,
+    level: LevelPlan,
+) -> Result<(), Diagnostic> {
+    let cells = level.cells;
+    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
+    for set in &scene.sets {
+        // Particle centres are at from + length (i + 1/2)/count, see `Particles::fill`.
+        let some = |axis: usize| {
+            let (from, length) = (scene.from[axis], scene.to[axis] - scene.from[axis]);
+            let count = libm::round(level.particles_along(scene, axis)).max(1.0);
+            let index = libm::ceil((set.from[axis] - from) / length * count - 0.5).max(0.0);
+            from + length * (index.min(count - 1.0) + 0.5) / count <= set.to[axis]
+        };
+        let inside = |x0: &[f64], _| set.holds(x0);
+        let is_held = match (&scene.outline, per_axis) {
+            (Some(_), Some(n)) if scene.mapped.is_none() => {
+                any_particle(scene, scene, level.h, n, inside)
+            }
+            _ => (0..scene.dimension()).all(some),
+        };
+        if !is_held {
+            let name = &set.name;
+            let message = format!(
+                "with {cells} cells along the first axis the set `{name}` contains no particle"
+            );
+            return Err(evaluator.diagnostic(path, &message).with_label("expected more cells"));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a reference on an invalid fine grid, or whose states at all instants need too much
+/// memory.
+fn references(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
+    let fits_into_memory = |path: &Path, count: f64, shown: String, what: &str| {
+        if count * plan.instants as f64 <= MOST_POINTS {
+            return Ok(());
+        }
+        let message = format!("{shown} {what} at {} instants are too many to store", plan.instants);
+        let label = format!("expected at most {MOST_POINTS:e} {what} times instants");
+        Err(evaluator.diagnostic(path, &message).with_label(&label))
+    };
+    let top = Path::top("reference");
+    if let Some(fine) = &plan.reference {
+        let path = top.then("fem").then("cells");
+        fits_into_memory(&path, fine.cells as f64, fine.cells.to_string(), "elements")?;
+    }
+    if let Some(SameMethod::FineGrid(level)) = plan.same_method {
+        let path = top.then("same_method").then("cells");
+        fits(evaluator, &path, &plan.scene, level)?;
+        let particles = level.particles(&plan.scene);
+        fits_into_memory(&path, particles, format!("{particles:.1e}"), "particles")?;
+    }
+    Ok(())
+}
+
+/// A stated time step (s), and the actual steps computed from it.
+#[derive(Clone, Copy)]
+struct StatedStep {
+    dt: f64,
+    clock: Clock,
+}
+
+/// Checks that every level and the reference have valid time steps. If time is refined, the steps
+/// must decrease from level to level. A run that is compared with a computed reference must have
+/// steps that end at the instants of the reference, with a change of the time step by at most
+/// [`STEP_TOLERANCE`].
+fn refuse_unusable_steps(
+    evaluator: &Evaluator<'_>,
+    plan: &ConvergencePlan,
+    places: &[LevelPaths],
+) -> Result<(), Diagnostic> {
+    for case in &plan.cases {
+        let mut coarser: Option<StatedStep> = None;
+        for (level, place) in plan.refine.levels.iter().zip(places) {
+            let clock = case.clock(plan, level.dt);
+            let clock = usable(evaluator, &place.dt, clock, level.cells, level.dt)?;
+            let step = StatedStep { dt: level.dt, clock };
+            if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
+                if let Some(coarser) = coarser {
+                    finer(evaluator, &place.dt, coarser, step)?;
+                }
+                coarser = Some(step);
+            }
+            if case.against.is_computed() && plan.refine.rule.is_none() {
+                as_wanted(evaluator, &place.dt, case, step)?;
+            }
+        }
+        if let Some(fine) = case.against.fine_grid() {
+            let path = Path::top("reference").then("same_method").then("cells");
+            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), fine.cells, fine.dt)?;
+            if plan.refine.rule.is_none() {
+                as_wanted(evaluator, &path, case, StatedStep { dt: fine.dt, clock })?;
+            }
+        }
+        if let Some(fine) = &plan.reference {
+            let path = Path::top("reference").then("fem").then("dt");
+            let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
+            let clock = plan.clock(Against::Reference, case.until, dt);
+            usable(evaluator, &path, clock, fine.cells, dt)?;
+        }
+    }
+    Ok(())
+}
+
+fn usable(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    clock: Option<Clock>,
+    cells: u64,
+    dt: f64,
+) -> Result<Clock, Diagnostic> {
+    clock.ok_or_else(|| {
+        let message = format!("with {cells} cells the time step is {}", shown(dt));
+        let label = "expected a positive step, and at most 1e9 of them";
+        evaluator.diagnostic(path, &message).with_label(label)
+    })
+}
+
+/// Refuses a level whose stated or rounded time step is not smaller than on the previous level.
+fn finer(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    coarse: StatedStep,
+    fine: StatedStep,
+) -> Result<(), Diagnostic> {
+    let (wide, narrow) = (shown(coarse.dt), shown(fine.dt));
+    if !(fine.dt < coarse.dt) {
+        let message = format!("a level with dt = {narrow} after one with {wide}");
+        return Err(evaluator.diagnostic(path, &message).with_label(COARSE_TO_FINE));
+    }
+    if fine.clock.steps > coarse.clock.steps {
+        return Ok(());
+    }
+    let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine.clock.dt()));
+    let label = format!("both runs take {} steps", fine.clock.steps);
+    Err(evaluator.diagnostic(path, &message).with_label(&label))
+}
+
+/// Refuses a number of instants that changes the time step of `case` by more than
+/// [`STEP_TOLERANCE`].
+fn as_wanted(
+    evaluator: &Evaluator<'_>,
+    path: &Path,
+    case: &Case,
+    step: StatedStep,
+) -> Result<(), Diagnostic> {
+    let StatedStep { dt: wanted, clock } = step;
+    let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
+    if is_near(&clock) {
+        return Ok(());
+    }
+    let (dt, instants) = (shown(clock.dt()), clock.instants);
+    let message = format!(
+        "dt = {} is changed to {dt} s, so that steps end at {instants} instants",
+        shown(wanted)
+    );
+    let label = "expected a step that divides the time between instants to 1 %";
+    let fewer = (1..instants).rev().find(|instants| {
+        Clock::with_common_instants(case.until, wanted, *instants).is_some_and(|c| is_near(&c))
+    });
+    let help = fewer.map_or_else(
+        || format!("no step near this length divides a run until {} s", shown(case.until)),
+        |fewer| format!("`instants: {fewer}` keeps this step"),
+    );
+    Err(evaluator.diagnostic(path, &message).with_label(label).with_help(&help))
+}
