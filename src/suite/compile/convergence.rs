@@ -2,10 +2,10 @@
 
 use super::check::{CompiledStudy, load_steps, refuse_contradictions, sums};
 use super::expect;
-use super::run::{self, places, reference, refine};
+use super::run::reference::references;
+use super::run::{self, RunPlan};
 use super::scene;
-use super::truth::{self, conduction, judged_box};
-use crate::exact::Survey;
+use super::truth::{self, StatedTruth};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
@@ -13,48 +13,23 @@ use crate::suite::model::method::AnyMethod;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::StepKind;
 
-/// Default number of instants at which the error is measured.
-const INSTANTS: u64 = 50;
-
 pub(crate) fn convergence_plan(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
 ) -> Result<ConvergencePlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
     load_steps::refuse_unfit(evaluator, spec, &scene)?;
-    let until = run::ends(evaluator, &spec.run)?;
-    let (refine, levels) = refine::plan(evaluator, spec, &scene)?;
-    let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
-        evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
-    })?;
-    let latest = until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let conduction = conduction::conduction(evaluator, spec, &scene, latest)?;
-    let exact = match &conduction {
-        Some(_) => None,
-        None => truth::exact(evaluator, spec, &scene, latest)?,
-    };
-    let within = judged_box::judged_box(evaluator, spec, &scene, exact.as_ref())?;
-    // For several bodies, the largest terms are computed together with the conditions on their
-    // common faces.
-    let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
-    let exact = match (&within, exact, &survey) {
-        (Some(within), Some(exact), Some(survey)) => {
-            Some(judged_box::without_distant_faces(evaluator, within, exact, survey)?)
-        }
-        (_, exact, _) => exact,
-    };
-    let dimension = scene.dimension();
-    let reference =
-        spec.reference.as_ref().map(|spec| reference::reference(evaluator, spec, dimension));
-    let reference = reference.transpose()?.flatten();
-    let same_method = reference::same_method(evaluator, spec, &scene, &refine, &until, instants)?;
-    let observe = spec.observe.as_ref().map(|spec| places::observed(evaluator, spec, &scene));
+    let run = run::plan(evaluator, spec, &scene)?;
+    let latest = run.until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
+    let truth = truth::truth(evaluator, spec, &scene, latest)?;
+    let (reference, same_method) = references(evaluator, spec, &scene, &run)?;
     let scale = spec.judge.scale.as_ref().map(|text| {
         evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
     });
-    let scatter = places::scatter(evaluator, spec, &scene)?;
+    let RunPlan { until, refine, levels, instants, scatter } = run;
+    let StatedTruth { exact, conduction, survey, places } = truth;
     let mut plan = ConvergencePlan {
-        observe: observe.transpose()?,
+        observe: places.observe,
         scene,
         exact,
         conduction,
@@ -67,7 +42,7 @@ pub(crate) fn convergence_plan(
         norm: spec.judge.norm,
         of: spec.judge.of,
         sum: None,
-        within,
+        within: places.within,
         scale: scale.transpose()?,
         scale_formula: spec
             .judge

@@ -71,7 +71,7 @@ pub(crate) use scene::{
 pub(crate) use spectrum::{SpectrumExpectSpec, SpectrumSpec};
 pub(crate) use stability::{FigureSpec, StabilityExpectSpec, StabilitySpec};
 pub use truth::EquationName;
-pub(crate) use truth::{ExactSpec, LinearisedSpec, ManufacturedSpec};
+pub(crate) use truth::{ExactSpec, ManufacturedSpec};
 
 use serde::Deserialize;
 

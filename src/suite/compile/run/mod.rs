@@ -2,7 +2,6 @@
 //! combination of their values.
 
 pub(crate) mod methods;
-pub(crate) mod places;
 pub(crate) mod reference;
 pub(crate) mod refine;
 
@@ -11,23 +10,52 @@ use crate::mpm::{
     combine_precision, combine_volume,
 };
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec};
+use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec, ScatterSpec};
 use crate::suite::model::method::Method;
-use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
+use crate::suite::model::refine_plan::RefinePlan;
+use crate::suite::model::{Against, Case, ConvergencePlan, Scene, SceneFace};
+use crate::suite::scene::lattice::LatticeOffsets;
+use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
 use crate::verify::Axis;
 use methods::{CaseLimit, NamedMethod, methods};
+use refine::LevelPaths;
 
 const MOST_CASES: usize = 1000;
 
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// Compiles the end times of the runs. Each one is returned as the text for case names and the
-/// value (s, or number of load steps).
-pub(crate) fn ends(
+/// Default number of instants at which the error is measured.
+const INSTANTS: u64 = 50;
+
+/// Ends, levels and particles of the runs of a study.
+pub(crate) struct RunPlan {
+    /// Ends of the runs, each as the text for case names and the value (s, or number of load
+    /// steps).
+    pub(crate) until: Vec<(String, f64)>,
+    pub(crate) refine: RefinePlan,
+    /// Paths of the levels in the file.
+    pub(crate) levels: Vec<LevelPaths>,
+    /// Number of instants at which the error is measured.
+    pub(crate) instants: u64,
+    pub(crate) scatter: LatticeOffsets,
+}
+
+pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
-    run: &RunSpec,
-) -> Result<Vec<(String, f64)>, Diagnostic> {
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<RunPlan, Diagnostic> {
+    let until = ends(evaluator, &spec.run)?;
+    let (refine, levels) = refine::plan(evaluator, spec, scene)?;
+    let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
+        evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
+    })?;
+    Ok(RunPlan { until, refine, levels, instants, scatter: scatter(evaluator, spec, scene)? })
+}
+
+/// Compiles the ends of the runs.
+fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, Diagnostic> {
     match (&run.until, &run.load_steps) {
         (Some(spec), None) => until(evaluator, spec),
         (None, Some(spec)) => load_steps(evaluator, spec),
@@ -81,6 +109,66 @@ fn until(
         ends.push((text, until));
     }
     Ok(ends)
+}
+
+/// Maximum offset of a particle from its lattice point, as a fraction of the particle spacing. At
+/// this offset, the particle is halfway to the next lattice point.
+const MOST_OFFSET: f64 = 0.5;
+
+/// Maximum random offset, as a share of the spacing, if a face carries a load. The particle layer
+/// at the face then stays separate from the next layer.
+const MOST_OFFSET_AT_LOADS: f64 = 0.25;
+
+const SEED: u64 = 1;
+
+/// Compiles the offsets of particles from their lattice.
+fn scatter(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Result<LatticeOffsets, Diagnostic> {
+    let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
+        return Ok(LatticeOffsets::default());
+    };
+    let path = Path::top("particles");
+    if scene.each().iter().any(|body| body.outline.is_some()) {
+        let message = "`particles` is supported for boxes only: it moves particles off a regular \
+                       lattice";
+        return Err(evaluator.diagnostic_at_key(&path, message));
+    }
+    let numbers =
+        |texts: &[NumberText]| evaluator.point(&path.then("shift"), texts, scene.dimension());
+    let shift = shift.as_deref().map(numbers).transpose()?.unwrap_or_default();
+    let at = path.then("perturb");
+    let number = |text: &NumberText| evaluator.positive(&at, text, "the share of the spacing");
+    let perturb = perturb.as_ref().map(number).transpose()?.unwrap_or(0.0);
+    let at = path.then("seed");
+    let count = |text: &NumberText| evaluator.count(&at, text, "the seed");
+    if seed.is_some() && perturb == 0.0 {
+        let diagnostic = evaluator.diagnostic_at_key(&at, "`seed` has no effect without `perturb`");
+        return Err(diagnostic.with_help("add `perturb: 0.2`, or remove the seed"));
+    }
+    let seed = seed.as_ref().map(count).transpose()?.unwrap_or(SEED);
+    let furthest = shift.iter().fold(0.0_f64, |most, share| most.max(share.abs())) + perturb;
+    if !(furthest <= MOST_OFFSET) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(furthest));
+        let label =
+            format!("expected at most {MOST_OFFSET}, so that they stay in the body and apart");
+        return Err(evaluator.diagnostic(&path, &message).with_label(&label));
+    }
+    let at_face =
+        |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_) | LoadTarget::Rim(_));
+    if perturb > MOST_OFFSET_AT_LOADS && scene.loads.iter().any(at_face) {
+        let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
+        let label = format!("expected at most {MOST_OFFSET_AT_LOADS} at a face or rim with a load");
+        return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
+    }
+    let scatter = LatticeOffsets { shift, perturb, seed };
+    if scatter.is_none() {
+        let diagnostic = evaluator.diagnostic_at_key(&path, "`particles` moves no particle");
+        return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
+    }
+    Ok(scatter)
 }
 
 pub(crate) fn cases(

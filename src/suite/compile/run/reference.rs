@@ -1,17 +1,29 @@
 //! Compiles `reference`: a fine FEM computation, or a run by the same method with a much smaller
 //! spacing.
 
+use super::RunPlan;
 use super::refine::{STEP_OF_EACH_H, step_formula};
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
-use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan, RefinePlan};
+use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan};
 use crate::suite::model::{ReferencePlan, SameMethod, Scene};
 use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{Axis, Clock};
 
-/// Compiles the FEM reference, if `spec` states one.
-pub(crate) fn reference(
+/// Compiles the FEM reference and the same-method reference, if the suite states them.
+pub(crate) fn references(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    run: &RunPlan,
+) -> Result<(Option<ReferencePlan>, Option<SameMethod>), Diagnostic> {
+    let Some(stated) = &spec.reference else { return Ok((None, None)) };
+    let fem = fem(evaluator, stated, scene.dimension())?;
+    Ok((fem, same_method(evaluator, spec, stated, scene, run)?))
+}
+
+fn fem(
     evaluator: &Evaluator<'_>,
     spec: &ReferenceSpec,
     dimension: usize,
@@ -45,16 +57,16 @@ pub(crate) fn reference(
 /// finest level.
 const SHORTER: f64 = 8.0;
 
-pub(crate) fn same_method(
+fn same_method(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
+    stated: &ReferenceSpec,
     scene: &Scene,
-    refine: &RefinePlan,
-    until: &[(String, f64)],
-    instants: u64,
+    RunPlan { until, refine, instants, .. }: &RunPlan,
 ) -> Result<Option<SameMethod>, Diagnostic> {
-    let same = spec.reference.as_ref().and_then(|reference| reference.same_method.as_ref());
-    let (Some(same), Some(finest)) = (same, refine.levels.last()) else { return Ok(None) };
+    let (Some(same), Some(finest)) = (&stated.same_method, refine.levels.last()) else {
+        return Ok(None);
+    };
     let path = Path::top("reference").then("same_method");
     let refused = |message, help| Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
     match (&same.dt, &same.cells) {
@@ -68,7 +80,7 @@ pub(crate) fn same_method(
             refused(message, "list `cells` in `refine`, or use shorter steps (`dt`)")
         }
         (Some(dt), None) => {
-            let dt = shorter(evaluator, &path.then("dt"), dt, *finest, until, instants)?;
+            let dt = shorter(evaluator, &path.then("dt"), dt, *finest, until, *instants)?;
             Ok(Some(SameMethod::ShorterSteps(dt)))
         }
         (None, Some(cells)) => {

@@ -3,11 +3,12 @@
 //!
 //! A stated equilibrium is compared with the state at the end of the run.
 
-pub(crate) mod conduction;
+mod conduction;
 mod interface;
-pub(crate) mod judged_box;
+mod places;
 pub(crate) mod tolerance;
 
+use crate::exact::heat::Conduction;
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::mpm::{MaterialPlan, Matrix};
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
@@ -16,14 +17,50 @@ use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use conduction::ConductionInputs;
-use tolerance::{TOLERANCE, linearised, no_solution, tolerance, violated};
+use places::{JudgedPlaces, places, without_distant_faces};
+use tolerance::{TOLERANCE, no_solution, tolerances, violated};
 
 /// Maximum number of operations in a formula of a solution, because the check before a run
 /// evaluates the formula about 30000 times with all its derivatives.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// Compiles the problem that the stated formulas must solve, if any. The solution is checked later.
-pub(crate) fn exact(
+/// Solution that a suite states, and the positions at which the error is judged.
+pub(crate) struct StatedTruth {
+    /// Problem of a body that moves, or is in equilibrium.
+    pub(crate) exact: Option<Problem>,
+    /// Heat problem of a body at rest.
+    pub(crate) conduction: Option<Conduction>,
+    /// Sampled positions and largest terms of the exact motion of a single body. For several
+    /// bodies, they are computed together with the conditions on the common faces.
+    pub(crate) survey: Option<Survey>,
+    pub(crate) places: JudgedPlaces,
+}
+
+/// Compiles the solution of runs that end at `until` (s) at the latest. It is checked later.
+pub(crate) fn truth(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    until: f64,
+) -> Result<StatedTruth, Diagnostic> {
+    let conduction = conduction::conduction(evaluator, spec, scene, until)?;
+    let exact = match &conduction {
+        Some(_) => None,
+        None => exact(evaluator, spec, scene, until)?,
+    };
+    let places = places(evaluator, spec, scene, exact.as_ref())?;
+    let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
+    let exact = match (&places.within, exact, &survey) {
+        (Some(within), Some(exact), Some(survey)) => {
+            Some(without_distant_faces(evaluator, within, exact, survey)?)
+        }
+        (_, exact, _) => exact,
+    };
+    Ok(StatedTruth { exact, conduction, survey, places })
+}
+
+/// Compiles the problem that the stated formulas must solve, if any.
+fn exact(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
@@ -110,8 +147,7 @@ fn solution(
     at_rest: bool,
     until: f64,
 ) -> Result<Problem, Diagnostic> {
-    let tolerance = tolerance(evaluator, path, spec.tolerance.as_ref())?;
-    let linearised = linearised(evaluator, path, spec.linearised.as_ref())?;
+    let (tolerance, linearised) = tolerances(evaluator, path, spec)?;
     let (Some(name), Some(texts)) = (spec.equation, &spec.displacement) else {
         let message = "a body that moves needs an `equation` and a `displacement`";
         return Err(evaluator.diagnostic_at_key(path, message));

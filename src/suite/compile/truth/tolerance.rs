@@ -2,7 +2,7 @@
 
 use crate::exact::{Linearised, Problem, Violation};
 use crate::suite::evaluator::Evaluator;
-use crate::suite::grammar::LinearisedSpec;
+use crate::suite::grammar::ExactSpec;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 
 /// Default tolerance of an exact solution (relative residual). The value allows for rounding errors
@@ -27,16 +27,18 @@ pub(crate) fn tolerance(
     Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
 }
 
-pub(crate) fn linearised(
+/// Compiles the tolerance of the solution at `path`, and that of a linearised one.
+pub(crate) fn tolerances(
     evaluator: &Evaluator<'_>,
     path: &Path,
-    spec: Option<&LinearisedSpec>,
-) -> Result<Option<Linearised>, Diagnostic> {
-    let Some(spec) = spec else { return Ok(None) };
+    spec: &ExactSpec,
+) -> Result<(f64, Option<Linearised>), Diagnostic> {
+    let exact = tolerance(evaluator, path, spec.tolerance.as_ref())?;
+    let Some(spec) = &spec.linearised else { return Ok((exact, None)) };
     let path = path.then("linearised");
     let tolerance = tolerance(evaluator, &path, Some(&spec.tolerance))?;
     let because = evaluator.because(&path, "this linearised solution", &spec.because)?;
-    Ok(Some(Linearised { tolerance, because }))
+    Ok((exact, Some(Linearised { tolerance, because })))
 }
 
 /// Returns the diagnostic about a violation in `problem`. The message includes the residual of the

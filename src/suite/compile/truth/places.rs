@@ -1,5 +1,5 @@
-//! The box `judge.within` to which errors are restricted, and the faces that cannot affect the
-//! solution in the box.
+//! Positions at which the error is judged: the box `judge.within` to which errors are restricted,
+//! and the observed point. Faces that cannot affect the solution in the box are left out.
 //!
 //! The stated solution may violate the condition on a face if no elastic wave from that face
 //! reaches the box during the run. The solution in the box then depends only on initial data.
@@ -7,7 +7,7 @@
 use crate::exact::{Face, Problem, Survey};
 use crate::suite::compile::scene::outline;
 use crate::suite::evaluator::{Evaluator, shown};
-use crate::suite::grammar::ConvergenceSpec;
+use crate::suite::grammar::{ConvergenceSpec, ObserveSpec};
 use crate::suite::model::Scene;
 use crate::suite::yaml::{Diagnostic, Path};
 use crate::verify::{JudgedBox, format_number};
@@ -15,9 +15,36 @@ use crate::verify::{JudgedBox, format_number};
 /// Help for a box in a suite that states no motion.
 const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
-/// Compiles the box of `judge.within`, if the suite has one. `exact` is the problem of a stated
-/// solution.
-pub(crate) fn judged_box(
+/// Positions at which the error is judged.
+pub(crate) struct JudgedPlaces {
+    /// The box to which errors are restricted.
+    pub(crate) within: Option<JudgedBox>,
+    /// The observed point (m).
+    pub(crate) observe: Option<Vec<f64>>,
+}
+
+/// Compiles the box of `judge.within` and the observed point, if the suite has them. `exact` is the
+/// problem of a stated solution.
+pub(crate) fn places(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+    exact: Option<&Problem>,
+) -> Result<JudgedPlaces, Diagnostic> {
+    let observe = spec.observe.as_ref().map(|spec| observed(evaluator, spec, scene)).transpose()?;
+    let within = judged_box(evaluator, spec, scene, exact)?;
+    if let (Some(within), Some(place)) = (&within, &observe)
+        && !within.holds(place)
+    {
+        let path = Path::top("observe").then("at");
+        let diagnostic =
+            evaluator.diagnostic(&path, "the observed point is outside `judge.within`");
+        return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
+    }
+    Ok(JudgedPlaces { within, observe })
+}
+
+fn judged_box(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
@@ -58,17 +85,31 @@ pub(crate) fn judged_box(
         let message = "`within` is supported for a single body of kind `box` only";
         return refuse(message, "use `body: {box: ...}`, or remove `within`");
     }
-    let within = JudgedBox { from, to };
-    if let Some(observed) = &spec.observe {
-        let at = Path::top("observe").then("at");
-        let place = evaluator.point(&at, &observed.at, scene.dimension())?;
-        if !within.holds(&place) {
-            let diagnostic =
-                evaluator.diagnostic(&at, "the observed point is outside `judge.within`");
-            return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
+    Ok(Some(JudgedBox { from, to }))
+}
+
+/// Compiles the observed point, which must be in the body.
+fn observed(
+    evaluator: &Evaluator<'_>,
+    spec: &ObserveSpec,
+    scene: &Scene,
+) -> Result<Vec<f64>, Diagnostic> {
+    let path = Path::top("observe").then("at");
+    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
+    for (axis, x) in place.iter().enumerate() {
+        let (from, to) = (scene.from[axis], scene.to[axis]);
+        if !(from..=to).contains(x) {
+            let message = format!("{} is outside the body", shown(*x));
+            let label = format!("expected a number from {} to {}", shown(from), shown(to));
+            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
         }
     }
-    Ok(Some(within))
+    let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
+    if let Some(kind) = outside.map(|outline| outline.kind()) {
+        let diagnostic = evaluator.diagnostic(&path, "this point is outside the body");
+        return Err(diagnostic.with_label(&format!("expected a point in the {kind}")));
+    }
+    Ok(place)
 }
 
 /// Returns `exact` without the faces whose condition the motion violates, so that the check of the
