@@ -31,7 +31,8 @@ pub(crate) fn body(
     let grid = grid.map(|grid| outline::corners(evaluator, &at, grid, dimension)).transpose()?;
     let sets = sets::declared(evaluator, &top, spec, &shape)?;
     let substance = material::substance(evaluator, path, own, &shape, &spec.loads)?;
-    let has_faces = !shape.is_free() || spec.bodies.is_some();
+    let is_free = shape.outline.is_some() && shape.mapped.is_none();
+    let has_faces = !is_free || spec.bodies.is_some();
     let faces = if has_faces { faces(evaluator, &top, spec, dimension)? } else { Vec::new() };
     let Shape { from, to, outline, mapped, plane } = shape;
     let Substance { material, density, initial_stress, initial_displacement, initial_velocity } =

@@ -24,13 +24,6 @@ pub(crate) struct Shape {
     pub(crate) plane: PlaneState,
 }
 
-impl Shape {
-    /// Whether the body has a free surface instead of faces, such as a disk or a polygon.
-    pub(crate) fn is_free(&self) -> bool {
-        self.outline.is_some() && self.mapped.is_none()
-    }
-}
-
 /// Compiles the shape at `path`. Refuses conditions and loads of `scene` on faces that the body
 /// does not have.
 pub(crate) fn shape(
