@@ -38,9 +38,9 @@ fn measure<const D: usize>(method: (BasisName, TransferName), count: usize) -> [
 /// Returns the lines of P2G and of G2P in the figure.
 fn lines<const D: usize>(method: (BasisName, TransferName), counts: &[usize]) -> Vec<PlotSeries> {
     let name = |pass| format!("{D}d {} {} {pass}", method.0.name(), method.1.name());
-    let mut lines = [(0, "p2g"), (1, "g2p")].map(|(look, pass)| PlotSeries {
+    let mut lines = [(0, "p2g"), (1, "g2p")].map(|(k, pass)| PlotSeries {
         name: name(pass),
-        look,
+        look: 2 * (D - 1) + k,
         points: Vec::new(),
     });
     for &count in counts {
