@@ -33,6 +33,7 @@ pub(crate) fn plan(
     let methods = methods_in_time(evaluator, &spec.methods, &base)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
+    // Each swept value must give a valid setup.
     for value in &values {
         let ends = sought.as_ref().map_or(vec![None], |(name, from, to)| {
             vec![Some((name.as_str(), *from)), Some((name.as_str(), *to))]
