@@ -134,24 +134,24 @@ fn sets(
 /// Refuses a reference on an invalid fine grid, or whose states at all instants need too much
 /// memory.
 fn references(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
-    let fits_into_memory = |path: &Path, count: f64, shown: String, what: &str| {
+    let fits_into_memory = |path: &Path, count: f64, text: &str, what: &str| {
         if count * plan.instants as f64 <= MOST_POINTS {
             return Ok(());
         }
-        let message = format!("{shown} {what} at {} instants are too many to store", plan.instants);
+        let message = format!("{text} {what} at {} instants are too many to store", plan.instants);
         let label = format!("expected at most {MOST_POINTS:e} {what} times instants");
         Err(evaluator.diagnostic(path, &message).with_label(&label))
     };
     let top = Path::top("reference");
     if let Some(fine) = &plan.reference {
         let path = top.then("fem").then("cells");
-        fits_into_memory(&path, fine.cells as f64, fine.cells.to_string(), "elements")?;
+        fits_into_memory(&path, fine.cells as f64, &fine.cells.to_string(), "elements")?;
     }
     if let Some(SameMethod::FineGrid(level)) = plan.same_method {
         let path = top.then("same_method").then("cells");
         fits(evaluator, &path, &plan.scene, level)?;
         let particles = level.particles(&plan.scene);
-        fits_into_memory(&path, particles, format!("{particles:.1e}"), "particles")?;
+        fits_into_memory(&path, particles, &format!("{particles:.1e}"), "particles")?;
     }
     Ok(())
 }

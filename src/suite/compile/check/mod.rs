@@ -121,11 +121,11 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
 fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, .. } = study;
     let until = plan.cases.iter().map(|case| case.until).fold(0.0, f64::max);
-    let (scene, study) =
-        (&plan.scene, StudyFacts { manufactured: spec.manufactured.is_some(), until });
+    let facts = StudyFacts { manufactured: spec.manufactured.is_some(), until };
+    let scene = &plan.scene;
     for (i, load) in spec.scene.loads.iter().enumerate() {
         let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
-        load.keys().check(&entry, &study)?;
+        load.keys().check(&entry, &facts)?;
         if let Some(lacked) = load.keys().lacked_by_fem() {
             refuse_fem_without(evaluator, spec, lacked)?;
         }

@@ -42,9 +42,9 @@ pub(crate) struct CaseLimit {
     pub(crate) of_each_method: usize,
 }
 
-/// Compiles the entries of `methods`, one method for each combination of list values. The
-/// default law of an FEM case is that of `material`. Refuses an empty list, duplicate methods and
-/// too many cases.
+/// Compiles the entries of `methods`, one method for each combination of list values. `material`
+/// determines the default law of FEM cases. Refuses an empty list, duplicate methods and too many
+/// cases.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
@@ -281,7 +281,7 @@ fn count(spec: &MethodSpec) -> usize {
     lengths.into_iter().fold(1, usize::saturating_mul)
 }
 
-/// Gives the methods their final names.
+/// Assigns final names to the methods. Refuses an empty list and duplicate methods.
 fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,

@@ -30,7 +30,7 @@ pub(crate) fn plan(
     let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
     let base = setup(evaluator, spec)?;
-    let methods = methods_in_time(evaluator, &spec.methods, &base)?;
+    let methods = time_stepping_methods(evaluator, &spec.methods, &base)?;
     let (swept, values) = sweep(evaluator, spec)?;
     let sought = sought(evaluator, spec, &swept)?;
     // Each swept value must give a valid setup.
@@ -121,7 +121,7 @@ fn sought(
 
 /// Compiles the methods, which must take time steps of the built-in MPM. Refuses methods that the
 /// study or the scene does not support.
-fn methods_in_time(
+fn time_stepping_methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
     RunSetup { scene, ledger, .. }: &RunSetup,

@@ -94,8 +94,8 @@ fn exact(
     Ok(Some(Problem { bodies, ..problem }))
 }
 
-/// Refuses a suite without a solution that it needs, and a solution that violates its problem.
-/// `survey` is that of a single body.
+/// Refuses keys that need a solution in a suite without one, and a solution that violates its
+/// problem. `survey` is computed from the motion of a single body; `None` for several bodies.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
