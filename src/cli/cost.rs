@@ -1,6 +1,6 @@
 //! `mpm-verify cost`: measures the cost of accuracy on this machine.
 
-use super::arguments::{FormatArgs, SolversArgs, Targets, seconds};
+use super::arguments::{FormatArgs, SolversArgs, Targets};
 use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuiteRuns};
 use super::{output, select, solver};
@@ -8,9 +8,9 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
-use mpm_verify::study::cost::{TimedPart, best_candidate, price};
+use mpm_verify::study::cost::{TimedPart, price};
 use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
-use mpm_verify::verify::{BestCandidate, TimedSuite};
+use mpm_verify::verify::TimedSuite;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -18,10 +18,6 @@ use std::{fs, io};
 pub(super) struct CostArgs {
     #[command(flatten)]
     targets: Targets,
-    /// Choose and run the most accurate setting whose predicted time is within this budget: `10s`,
-    /// `500ms`, `2min`
-    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, conflicts_with_all = ["figures", "solver"])]
-    budget: Option<f64>,
     #[command(flatten)]
     format: FormatArgs,
     /// Write work-precision diagrams into this folder
@@ -42,37 +38,11 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     let (suites, refused): (Vec<_>, Vec<_>) =
         select::suites(&args.targets.targets).into_iter().partition(Result::is_ok);
     let suites: Vec<Suite> = suites.into_iter().filter_map(Result::ok).collect();
-    let found = match args.budget {
-        Some(budget) => best_candidates(&suites, budget, args),
-        None => prices(suites, args)?,
-    };
+    let found = prices(suites, args)?;
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
         output::diagnose(diagnostic);
     }
     Ok(if refused.is_empty() { found } else { Status::BadInput })
-}
-
-fn best_candidates(suites: &[Suite], budget: f64, args: &CostArgs) -> Status {
-    let mut found: Vec<(String, BestCandidate)> = Vec::new();
-    let mut code = Status::Passed;
-    for suite in suites {
-        match best_candidate(suite, budget) {
-            Ok(one) => {
-                if !args.format.is_json() {
-                    output::print(&format!("{}\n", report::best_candidate(&suite.name, &one)));
-                }
-                found.push((suite.name.clone(), one));
-            }
-            Err(reason) => {
-                output::complain(&format!("error: --budget: {}: {reason}", suite.name));
-                code = Status::Failed;
-            }
-        }
-    }
-    if args.format.is_json() {
-        output::print(&report::timed_json(&[], &found));
-    }
-    code
 }
 
 /// Measures the error and the time (s) of every level of each convergence study.
@@ -100,7 +70,7 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
         all.push(timed);
     }
     if args.format.is_json() {
-        output::print(&report::timed_json(&all, &[]));
+        output::print(&report::timed_json(&all));
     }
     Ok(code)
 }

@@ -80,8 +80,8 @@ enum Command {
     /// Write the initial state of one level, or its exact state at a given time, for any solver:
     /// particles, grid, faces, material, steps
     Problem(problem::ProblemArgs),
-    /// Measure the cost of accuracy: error against work and run time, the cheapest method for an
-    /// error, and the most accurate setting within a budget
+    /// Measure the cost of accuracy: error against work and run time, and the cheapest method for
+    /// an error
     Cost(cost::CostArgs),
     /// Estimate the order and the limit of a series of values whose exact limit is unknown, with
     /// intervals; exit status 1 if the series shows no limit, 2 on bad input

@@ -38,7 +38,7 @@ pub use suite::json::{json, profile as profile_json};
 pub use suite::overview::{glance, overview};
 pub use suite::svg;
 pub use suite::text::{case, summary, text};
-pub use text::cost::{best_candidate, cost, timed};
+pub use text::cost::{cost, timed};
 pub use text::diagnosis::diagnosis;
 pub use text::drift;
 pub use text::profile::{difference, profile, profiles};

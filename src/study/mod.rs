@@ -7,7 +7,7 @@
 //! gradient         derivatives that a differentiable solver reports
 //! spectrum         measured and predicted phase speed and damping of waves
 //! stability        growth in runs, and limits by bisection
-//! cost             seconds of every level, and the accuracy within a budget
+//! cost             seconds of every level
 //! cache            results of finished levels on disk
 //! describe         the rows that describe a problem in reports
 //! diagnosis        causes of a wrong order, from runs with single changes

@@ -48,9 +48,8 @@ pub use case::{CaseJudgement, judge_case};
 pub use conservation::{ConservationError, Conserved};
 pub use convergence::{Convergence, LevelOutcome};
 pub use cost::{
-    Agreement, BestCandidate, ConvergingPart, End, Exponent, Machine, MethodCost, Model,
-    PredictedError, Ranked, Ranking, Reach, Sample, TARGETS, TimedSuite, Timing, Unpredicted,
-    Workload, by_transfers, pareto_front, rankings,
+    Agreement, ConvergingPart, End, Exponent, Machine, MethodCost, Ranked, Ranking, Reach, Sample,
+    TARGETS, TimedSuite, Timing, Workload, by_transfers, pareto_front, rankings,
 };
 pub(crate) use error::clock::is_instant;
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE, StepKind};

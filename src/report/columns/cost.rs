@@ -2,7 +2,7 @@
 
 use super::{Cell, TableColumn, decimals, json_object, short};
 use crate::report::columns::number;
-use crate::verify::{Agreement, End, Exponent, Model, Ranked, Ranking, Reach};
+use crate::verify::{Agreement, End, Exponent, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;
 
@@ -111,37 +111,6 @@ fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
             times.map(number)
         }),
     ]
-}
-
-pub(crate) fn model<'a>() -> [TableColumn<'a, Model>; 4] {
-    let column = |k: usize, heading: &'static str, key: &'static str| {
-        TableColumn::<Model>::new(heading, key, "cost (ns, in JSON s)", move |model| {
-            let seconds = model.seconds[k];
-            let text = (seconds != 0.0).then(|| format!("{:.2}", 1e9 * seconds));
-            Cell { json: number(seconds), ..Cell::text(text) }
-        })
-    };
-    [
-        column(0, "per transfer", "transfer"),
-        column(1, "per particle", "particle"),
-        column(2, "per node", "node"),
-        column(3, "per step", "step"),
-    ]
-}
-
-/// Case name, cost model, and relative error of the model's prediction for the finest level.
-pub(crate) type FittedModel = (String, Model, Option<f64>);
-
-pub(crate) fn models<'a>() -> Vec<TableColumn<'a, FittedModel>> {
-    let name =
-        TableColumn::<FittedModel>::text("cost model, ns", "case", |(name, ..)| name.clone());
-    let terms = model().map(|column| column.within(|(_, model, _): &FittedModel| Some(model)));
-    let about = "relative error of the prediction for the finest level";
-    let finest =
-        TableColumn::<FittedModel>::new("off on finest level", "finest_off", about, |(.., off)| {
-            Cell::number(*off, |off| format!("{:+.0} %", 100.0 * off))
-        });
-    std::iter::once(name.flush_left()).chain(terms).chain([finest]).collect()
 }
 
 fn agreement(found: &Exponent) -> String {

@@ -58,7 +58,6 @@ fn the_document_lists_the_columns() {
         section("Methods by cost (`cost.methods`)", cost),
         section("Exponents (`cost.methods.exponent`)", vec![cost::exponents()]),
         section("Timed levels of `mpm-verify cost` (`levels`)", timed),
-        section("Cost models of `mpm-verify cost` (`model`)", vec![cost::models()]),
     ];
     let (_, listed) = DOCUMENT.split_once("\n## ").expect("a section");
     let expected = sections.join("\n");

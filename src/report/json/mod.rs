@@ -1,13 +1,11 @@
 //! Reports as JSON, an interface for programs.
 
 pub(crate) mod schema;
-use crate::report::columns::cost::{json_columns as cost_columns, model, models};
+use crate::report::columns::cost::json_columns as cost_columns;
 use crate::report::columns::timed_level::{json_columns as timed_columns, rows, timing};
 use crate::report::columns::{interval, json_object, number};
 use crate::report::text::diagnosis::paragraph;
-use crate::verify::{
-    BestCandidate, CaseOutcome, Cause, ChangedRun, Diagnosis, Machine, Ranking, TimedSuite,
-};
+use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Machine, Ranking, TimedSuite};
 use serde_json::{Value, json};
 
 /// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.
@@ -58,13 +56,14 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
     })
 }
 
-/// Creates the JSON document, indented and with a final newline. `best` contains names of suites
-/// with their best candidates.
-pub fn timed_json(timed: &[TimedSuite], best: &[(String, BestCandidate)]) -> String {
-    let suites = timed.iter().map(suite).chain(best.iter().map(|(name, found)| {
-        json!({"suite": name, "machine": null, "cases": [], "cost": [], "best_candidate": candidate(found)})
-    }));
-    format!("{:#}\n", json!({ "suites": suites.collect::<Vec<_>>() }))
+/// Creates the JSON document, indented and with a final newline.
+pub fn timed_json(timed: &[TimedSuite]) -> String {
+    let suites = timed.iter().map(suite).collect::<Vec<_>>();
+    format!(
+        "{:#}
+",
+        json!({ "suites": suites })
+    )
 }
 
 fn suite(timed: &TimedSuite) -> Value {
@@ -79,7 +78,6 @@ fn suite(timed: &TimedSuite) -> Value {
         "machine": machine(&timed.machine),
         "cases": cases.map(|(index, one)| case(timed, index, one)).collect::<Vec<_>>(),
         "cost": cost,
-        "best_candidate": null,
     })
 }
 
@@ -94,29 +92,8 @@ fn machine(machine: &Machine) -> Value {
 
 fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
     let columns = timed_columns();
-    let fitted = timed.model(index).map(|(model, off)| (case.case.clone(), model, off));
     json!({
         "case": case.case,
-        "model": fitted.map(|fitted| json_object(&models(), &fitted)),
         "levels": rows(timed, index).map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
-    })
-}
-
-fn candidate(best: &BestCandidate) -> Value {
-    let ([predicted, measured], (error, found)) = (best.seconds, best.error);
-    json!({
-        "budget": number(best.budget),
-        "case": best.case,
-        "cells": best.cells,
-        "dt": number(best.dt),
-        "ppc": best.ppc,
-        "seconds": {"predicted": number(predicted), "measured": number(measured)},
-        "error": {"predicted": number(error.value), "low": number(error.low),
-            "high": number(error.high), "measured": number(found)},
-        "beyond": best.beyond,
-        "limit": best.limit,
-        "failure": best.failure,
-        "model": json_object(&model(), &best.model),
-        "fitted": best.fitted,
     })
 }

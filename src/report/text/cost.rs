@@ -5,11 +5,8 @@
 //! Snapshots give work as the number of particle-node transfers, which is equal on all machines.
 
 use super::table::Table;
-use crate::report::columns::{TableColumn, cost as columns, short, timed_level};
-use crate::verify::{
-    BestCandidate, Convergence, Interval, Machine, Model, Quantity, Ranked, Ranking, Reach,
-    TimedSuite,
-};
+use crate::report::columns::{cost as columns, short, timed_level};
+use crate::verify::{Convergence, Machine, Quantity, Ranked, Ranking, Reach, TimedSuite};
 
 const TRANSFERS: &str = "particle-node transfers";
 
@@ -81,9 +78,6 @@ pub fn timed(timed: &TimedSuite) -> String {
     text += &machine(&timed.machine);
     text += &row("seconds", SECONDS);
     text += &format!("\n{}", lines(&levels(timed)));
-    if let Some(models) = models(timed) {
-        text += &format!("\n{}", lines(&models));
-    }
     let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
@@ -128,76 +122,4 @@ fn levels(timed: &TimedSuite) -> Vec<String> {
     let cases = 0..timed.outcome.cases.len();
     let rows = cases.flat_map(|case| timed_level::rows(timed, case));
     Table::new(&timed_level::columns(), rows).without_empty_columns().lines()
-}
-
-fn models(timed: &TimedSuite) -> Option<Vec<String>> {
-    let cases = timed.outcome.cases.iter().enumerate();
-    let rows = cases.filter_map(|(index, case)| {
-        let (model, off) = timed.model(index)?;
-        Some((case.case.clone(), model, off))
-    });
-    let table = Table::new(&columns::models(), rows);
-    (!table.is_empty()).then(|| table.lines())
-}
-
-/// Returns the report of the best setting within a budget.
-pub fn best_candidate(suite: &str, best: &BestCandidate) -> String {
-    let BestCandidate { budget, case, cells, dt, ppc, seconds, error, .. } = best;
-    let mut text = format!("{suite}: the most accurate setting predicted within {budget} s\n\n");
-    text += &row("case", case);
-    let ppc = ppc.map_or(String::new(), |ppc| format!(", {ppc} particles per cell"));
-    let beyond = if best.beyond { ", finer than all levels of the suite" } else { "" };
-    text += &row("setting", &format!("{cells} cells, dt = {} s{ppc}{beyond}", short(*dt)));
-    let (interval, found) = *error;
-    let rows = [
-        ("seconds", [seconds[0], seconds[1]], None),
-        ("error", [interval.value, found], Some(interval)),
-    ];
-    text += &format!("\n{}\n", lines(&Table::new(&predictions(), rows).lines()));
-    text += &row("share of budget", &format!("{:.0} %", 100.0 * seconds[1] / budget));
-    text += &row("model", &model(&best.model, best.fitted));
-    if let Some(limit) = &best.limit {
-        text += &row("nothing finer", limit);
-    }
-    if let Some(failure) = &best.failure {
-        text += &row("failure", failure);
-    }
-    text
-}
-
-type Predicted = (&'static str, [f64; 2], Option<Interval>);
-
-fn predictions() -> [TableColumn<'static, Predicted>; 5] {
-    [
-        TableColumn::<Predicted>::text("", "figure", |(name, ..)| *name).flush_left(),
-        TableColumn::<Predicted>::text("predicted", "by the models", |(_, [predicted, _], _)| {
-            short(*predicted)
-        }),
-        TableColumn::<Predicted>::text(
-            "95 % interval",
-            "interval of the prediction",
-            |(.., interval)| {
-                let ends = |one: &Interval| format!("[{}, {}]", short(one.low), short(one.high));
-                interval.as_ref().map_or("-".to_owned(), ends)
-            },
-        ),
-        TableColumn::<Predicted>::text("measured", "by the run", |(_, [_, measured], _)| {
-            short(*measured)
-        }),
-        TableColumn::<Predicted>::text(
-            "difference",
-            "relative difference",
-            |(_, [predicted, measured], _)| {
-                format!("{:+.0} %", 100.0 * (predicted / measured - 1.0))
-            },
-        ),
-    ]
-}
-
-fn model(model: &Model, fitted: usize) -> String {
-    let terms = columns::model();
-    let parts = terms.iter().zip(model.seconds).filter(|(_, seconds)| *seconds > 0.0);
-    let parts: Vec<String> =
-        parts.map(|(term, _)| format!("{} ns {}", term.cell(model).text, term.heading)).collect();
-    format!("{}, fitted to {fitted} shorter runs", parts.join(", "))
 }

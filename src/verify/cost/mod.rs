@@ -6,16 +6,12 @@
 //! | [`exponent`](Exponent) | cost of one more digit, compared with theory |
 //! | [`ranking`](Ranking) | methods of one problem, ranked by their cost |
 //! | [`timing`](Timing) | measured seconds, and a suite with timed levels |
-//! | [`model`](Model) | predicted seconds |
-//! | [`predicted_error`](PredictedError) | predicted errors, with an interval |
 //!
 //! Work is any additive measure, such as seconds or the number of particle-node transfers, which is
 //! equal on all machines. Rankings do not extrapolate: a method whose levels all have larger errors
 //! does not reach the target.
 
 mod exponent;
-mod model;
-mod predicted_error;
 mod ranking;
 mod sample;
 #[cfg(test)]
@@ -23,11 +19,9 @@ mod tests;
 mod timing;
 
 pub use exponent::{Agreement, Exponent};
-pub use model::{Model, Workload};
-pub use predicted_error::{PredictedError, Unpredicted};
 pub use ranking::{MethodCost, Ranked, Ranking, by_transfers, rankings};
 pub use sample::{ConvergingPart, End, Reach, Sample, pareto_front};
-pub use timing::{BestCandidate, Machine, TimedSuite, Timing};
+pub use timing::{Machine, TimedSuite, Timing, Workload};
 
 /// Target errors of tables, relative to the size of the solution.
 pub const TARGETS: [f64; 3] = [1e-2, 1e-3, 1e-4];

@@ -1,8 +1,7 @@
 //! Tests on series with known results.
 
 use super::{
-    Agreement, ConvergingPart, End, Exponent, MethodCost, PredictedError, Ranking, Reach, Sample,
-    TARGETS, Unpredicted,
+    Agreement, ConvergingPart, End, Exponent, MethodCost, Ranking, Reach, Sample, TARGETS,
 };
 use crate::verify::verdict::name::Verdict;
 use approx::assert_relative_eq;
@@ -126,81 +125,6 @@ fn exponent_ignores_levels_outside_the_window() {
     samples[0].asymptotic = false;
     let found = Exponent::of(&samples, &ConvergingPart::of(&samples), 2.0, 3.0).unwrap();
     assert_relative_eq!(found.observed.value, -1.5, max_relative = 1e-12);
-}
-
-fn predicted(samples: &[Sample]) -> PredictedError {
-    PredictedError::of(samples, &ConvergingPart::of(samples), Verdict::Converging, 2.0)
-}
-
-/// Without noise the interval covers a change of the order by 0.25 from one level to the next.
-#[test]
-fn a_power_law_goes_on_within_what_counts_as_settled() {
-    let found = predicted(&power(2.0, 3.0, 5)).at(1.0 / 64.0).unwrap();
-    let wanted = libm::exp2(-12.0);
-    assert_relative_eq!(found.value, wanted, max_relative = 1e-12);
-    assert_relative_eq!(found.low, wanted / libm::exp2(0.25), max_relative = 1e-12);
-    assert_relative_eq!(found.high, wanted * libm::exp2(0.25), max_relative = 1e-12);
-}
-
-/// Four levels with deviations of +- 0.1 from order 2 have rss = 0.04 - 0.2^2/5 = 0.032. One octave
-/// finer, 1 + 1/4 + 2.5^2/5 = 5/2; t(0.975, 2) = 4.3027.
-#[test]
-fn noise_widens_the_interval_of_a_predicted_error() {
-    let mut samples = power(2.0, 3.0, 4);
-    for (k, one) in samples.iter_mut().enumerate() {
-        one.error *= libm::exp(if k % 2 == 0 { 0.1 } else { -0.1 });
-    }
-    let found =
-        PredictedError::of(&samples, &ConvergingPart::of(&samples), Verdict::Converging, 3.0);
-    let found = found.at(1.0 / 32.0).unwrap();
-    let half_width = 4.3027 * (0.032_f64 / 2.0 * 2.5).sqrt() + 0.25 * std::f64::consts::LN_2;
-    let found = [found.value / found.low, found.high / found.value].map(libm::log);
-    assert_relative_eq!(found[0], half_width, max_relative = 1e-4);
-    assert_relative_eq!(found[1], half_width, max_relative = 1e-4);
-}
-
-/// The predicted error follows the theoretical order. Its interval includes the continuation of the
-/// higher observed order.
-#[test]
-fn order_above_theory_is_not_extrapolated() {
-    let found = predicted(&power(3.0, 3.0, 4)).at(1.0 / 32.0).unwrap();
-    assert_relative_eq!(found.value, libm::exp2(-14.0), max_relative = 1e-12);
-    assert_relative_eq!(found.low, libm::exp2(-15.25), max_relative = 1e-12);
-    assert_relative_eq!(found.high, libm::exp2(-13.75), max_relative = 1e-12);
-}
-
-#[test]
-fn between_levels_an_error_is_interpolated() {
-    let found = predicted(&power(2.0, 3.0, 5));
-    let level = found.at(0.125).unwrap();
-    assert_relative_eq!(level.value, 1.0 / 64.0, max_relative = 1e-12);
-    assert_relative_eq!(level.high / level.low, 1.0, max_relative = 1e-12);
-    let between = found.at(libm::exp2(-2.25)).unwrap();
-    assert_relative_eq!(between.value, libm::exp2(-4.5), max_relative = 1e-12);
-    assert_relative_eq!(between.high / between.low, libm::exp2(0.125), max_relative = 1e-12);
-    assert!(found.at(1.0).is_none() && found.at(f64::NAN).is_none());
-}
-
-#[rstest]
-#[case::floor(&[1.0, 0.25, 0.06, 0.06, 0.055], Unpredicted::End(End::Floor))]
-#[case::nan(&[1.0, 0.25, 0.06, f64::NAN], Unpredicted::End(End::Failed))]
-#[case::no_trend(&[1.0, 2.0, 1.0, 2.0], Unpredicted::End(End::NoTrend))]
-#[case::the_order_falls(&[1.0, 0.25, 0.0625, 0.0156, 0.0052], Unpredicted::Falling)]
-fn no_error_is_predicted_beyond(#[case] series: &[f64], #[case] obstacle: Unpredicted) {
-    let found = predicted(&errors(series));
-    assert_eq!(found.obstacle(), Some(obstacle));
-    assert!(found.at(1e-3).is_none());
-}
-
-#[test]
-fn no_error_is_predicted_without_a_settled_order() {
-    let mut samples = power(2.0, 3.0, 5);
-    let part = ConvergingPart::of(&samples);
-    let found = PredictedError::of(&samples, &part, Verdict::PreAsymptotic, 2.0);
-    assert_eq!(found.obstacle(), Some(Unpredicted::Verdict(Verdict::PreAsymptotic)));
-    assert!(found.at(1.0 / 64.0).is_none() && found.at(1.0 / 32.0).is_some());
-    samples[..3].iter_mut().for_each(|one| one.asymptotic = false);
-    assert_eq!(predicted(&samples).obstacle(), Some(Unpredicted::TooFew));
 }
 
 fn method(name: &str, samples: Vec<Sample>) -> MethodCost {

@@ -1,9 +1,20 @@
 //! Measured seconds: their spread, the machine, and a suite with timed levels.
 
-use super::model::{Model, Workload};
 use super::ranking::{Ranking, by_transfers, rankings};
-use crate::verify::order::fit::Interval;
 use crate::verify::outcome::SuiteOutcome;
+
+/// Work of a run, by kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Workload {
+    /// Number of particle-node transfers.
+    pub transfers: f64,
+    /// Number of particles times number of steps.
+    pub updates: f64,
+    /// Number of nodes times number of steps.
+    pub node_steps: f64,
+    /// Number of steps.
+    pub steps: f64,
+}
 
 /// Statistics of repeated measurements of one time (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,47 +97,6 @@ impl TimedSuite {
         let index = self.outcome.cases.iter().position(|known| known.case == case)?;
         self.levels.get(index)?.get(level)?.1
     }
-
-    /// Fits the cost model of a case to all its levels. Also returns a relative error: the finest
-    /// level is predicted by a fit to the other levels.
-    pub fn model(&self, case: usize) -> Option<(Model, Option<f64>)> {
-        let levels = self.levels.get(case)?.iter();
-        let runs: Vec<(Workload, f64)> =
-            levels.filter_map(|(load, timing)| Some((*load, timing.as_ref()?.median))).collect();
-        let off = runs.split_last().and_then(|((finest, seconds), coarser)| {
-            Some(Model::fit(coarser)?.predict(finest) / seconds - 1.0)
-        });
-        Some((Model::fit(&runs)?, off))
-    }
-}
-
-/// The most accurate setting whose predicted time is within a budget, with its measured result.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BestCandidate {
-    /// Time budget (s).
-    pub budget: f64,
-    /// Name of the case whose method is chosen.
-    pub case: String,
-    /// Cells along the first axis.
-    pub cells: u64,
-    /// Time step (s).
-    pub dt: f64,
-    /// Particles per cell.
-    pub ppc: Option<u64>,
-    /// Predicted and measured time (s) of all steps.
-    pub seconds: [f64; 2],
-    /// Predicted and measured error relative to the size of the solution.
-    pub error: (Interval, f64),
-    /// Whether the setting is finer than all levels of the suite.
-    pub beyond: bool,
-    /// Reason why no finer setting was considered, if the budget is not the reason.
-    pub limit: Option<String>,
-    /// Reason why the run ended early, if it did.
-    pub failure: Option<String>,
-    /// Cost model of the prediction.
-    pub model: Model,
-    /// Number of levels in the fit of the cost model.
-    pub fitted: usize,
 }
 
 #[cfg(test)]

@@ -90,18 +90,6 @@ impl FittedLine {
         Interval { value: self.slope, low: self.slope - half_width, high: self.slope + half_width }
     }
 
-    /// Returns the predicted value of another point at `x`, with its 95 % prediction interval
-    /// `line(x) -+ t s sqrt(1 + 1/n + (x - mean)^2 / Sxx)`. The ends are NaN for fewer than three
-    /// points.
-    pub(crate) fn another(&self, x: f64) -> Interval {
-        let (freedom, offset) = (self.points.saturating_sub(2), x - self.mean_x);
-        let spread = 1.0 + 1.0 / self.points as f64 + square(offset) / self.sxx;
-        let half_width =
-            t_quantile::two_sided_95(freedom) * (self.rss / freedom as f64 * spread).sqrt();
-        let value = self.mean_y + self.slope * offset;
-        Interval { value, low: value - half_width, high: value + half_width }
-    }
-
     /// Computes the drift of the order over the points of this line from a fit of the parabola
     /// `line + c q(x)`. The function `q` is `x^2` made orthogonal to the line.
     pub(crate) fn drift(&self, points: &[LogPoint]) -> Option<Trend> {

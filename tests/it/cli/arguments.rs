@@ -20,7 +20,6 @@ fn invalid_option_values_are_refused_with_the_expected_form() {
             "run bar.yaml --solver x --solver-memory -1",
             "run bar.yaml --solver x --solver-timeout -5s",
             "run bar.yaml --solver x --solver-timeout infs",
-            "cost bar.yaml --budget -1s",
             "run bar.yaml --shard -1/2",
             "compare a.json b.json --tolerance nan",
             "compare a.json b.json --tolerance -0.1",
@@ -53,8 +52,6 @@ fn invalid_option_values_are_refused_with_the_expected_form() {
     error: invalid value '-5s' for '--solver-timeout <TIME>': expected a time with its unit, such as `10s` or `500ms`
     run bar.yaml --solver x --solver-timeout infs
     error: invalid value 'infs' for '--solver-timeout <TIME>': expected a time with its unit, such as `10s` or `500ms`
-    cost bar.yaml --budget -1s
-    error: invalid value '-1s' for '--budget <TIME>': expected a time with its unit, such as `10s` or `500ms`
     run bar.yaml --shard -1/2
     error: invalid value '-1/2' for '--shard <K/N>': expected a number and a count, such as `2/5`, up to 10000
     compare a.json b.json --tolerance nan

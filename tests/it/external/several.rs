@@ -96,7 +96,6 @@ fn one_ranking_by_seconds_has_methods_and_solvers(folder: Folder) {
 #[case::a_second_solver_without_a_name("--solver|a=sh one.sh|--solver|sh two.sh")]
 #[case::a_name_of_a_method("--with-methods|--solver|fem-linear-lumped=sh one.sh")]
 #[case::methods_of_no_solver("--with-methods")]
-#[case::a_budget("--budget|1s|--solver|a=sh one.sh")]
 fn cost_refuses_what_run_refuses(folder: Folder, #[case] options: &str) {
     let options: Vec<&str> = options.split('|').collect();
     assert_eq!(folder.call(&[&["cost", "bar.yaml"], &options[..]].concat()).code, BAD_INPUT);

@@ -8,6 +8,5 @@ mod foundation;
 mod keys;
 mod locking;
 mod polygons;
-mod predicted_error;
 mod preflight;
 mod single_precision;
