@@ -3,7 +3,6 @@
 use super::{
     Agreement, ConvergingPart, End, Exponent, MethodCost, Ranking, Reach, Sample, TARGETS,
 };
-use crate::verify::verdict::name::Verdict;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use rstest::rstest;

@@ -155,19 +155,6 @@ mod tests {
         assert_abs_diff_eq!(order.half_width(), half_width, epsilon = 1e-4);
     }
 
-    /// Values computed by hand: the line of `three_points_by_hand` is -1/2 + 3/2 x, and 1 + 1/3 +
-    /// 2^2/2 = 10/3 at x = 3.
-    #[test]
-    fn another_point_by_hand() {
-        let y = [0.0, 0.0, 3.0];
-        let points: Vec<LogPoint> =
-            (0..3).map(|level| LogPoint { level, x: level as f64, y: y[level] }).collect();
-        let another = FittedLine::through(&points).unwrap().another(3.0);
-        assert_abs_diff_eq!(another.value, 4.0, epsilon = 1e-14);
-        assert_abs_diff_eq!(another.half_width(), 12.7062 * 5.0_f64.sqrt(), epsilon = 1e-3);
-        assert!(FittedLine::through(&points[1..]).unwrap().another(3.0).low.is_nan());
-    }
-
     #[test]
     fn a_parabola_drifts_and_a_line_does_not() {
         let curved = points(|x| 2.0 * x + 0.1 * x * x);
