@@ -105,7 +105,7 @@ def solver(client, fault, options, points=""):
     made = []
     module.__dict__["serve"] = made.append
     sys.argv[1:] = options.split()
-    exec(compile(program, "main", "exec"), module.__dict__)
+    exec(program, module.__dict__)
     return made[0], sys.modules["mpm_verify"].Problem
 
 

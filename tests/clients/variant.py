@@ -9,6 +9,7 @@ points, `--points shuffled` the same in a random order, and `--points nodes` the
 from __future__ import annotations
 
 import argparse
+import functools
 import sys
 import textwrap
 import types
@@ -30,6 +31,9 @@ SOURCES = {
 MAIN = '\nif __name__ == "__main__":\n'
 
 
+compiled = functools.lru_cache(64)(compile)
+
+
 def apply_edits(texts, fault):
     """The sources with the edits of `fault`; each old text must occur exactly once in all of them."""
     for old, new in fault.edits.items():
@@ -40,20 +44,30 @@ def apply_edits(texts, fault):
     return texts
 
 
-def load(client, fault):
-    """The module of the client, the name of its class, and its main program."""
+def compile_parts(client, fault):
+    """The code of each file of the client without its main program, of the patch of `fault`, and of the main program."""
     files, name = SOURCES[client]
     texts = [file.read_text() for file in files]
-    for file, text in zip(files, apply_edits(texts, fault) if fault else texts):
-        head, _, main = text.partition(MAIN)
+    parts = [text.partition(MAIN) for text in (apply_edits(texts, fault) if fault else texts)]
+    heads = [(file, compiled(head, str(file), "exec")) for file, (head, _, _) in zip(files, parts)]
+    patch = None
+    if fault and fault.patch:
+        text = f"class {name}({name}):\n" + textwrap.indent(textwrap.dedent(fault.patch).strip("\n"), "    ")
+        patch = compiled(text, f"<{fault.name}>", "exec")
+    return heads, patch, compiled(textwrap.dedent(parts[-1][2]), str(files[-1]), "exec")
+
+
+def load(client, fault):
+    """The module of the client, the name of its class, and the code of its main program."""
+    heads, patch, main = compile_parts(client, fault)
+    for file, head in heads:
         module = types.ModuleType(file.stem)
         module.__file__ = str(file)
         sys.modules[file.stem] = module
-        exec(compile(head, str(file), "exec"), module.__dict__)
-    if fault and fault.patch:
-        text = f"class {name}({name}):\n" + textwrap.indent(textwrap.dedent(fault.patch).strip("\n"), "    ")
-        exec(compile(text, f"<{fault.name}>", "exec"), module.__dict__)
-    return module, name, textwrap.dedent(main)
+        exec(head, module.__dict__)
+    if patch:
+        exec(patch, module.__dict__)
+    return module, SOURCES[client][1], main
 
 
 def ask_at(problem, places):
@@ -119,18 +133,29 @@ class AtNodes:
 POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
 
 
-def main():
+def parse(words):
+    """The arguments of this program, and the options of the client."""
     parser = argparse.ArgumentParser(allow_abbrev=False)
     parser.add_argument("--client", choices=SOURCES, default="numpy")
     parser.add_argument("--fault", choices=ALL, metavar="NAME")
     parser.add_argument("--points", choices=POINTS)
-    arguments, rest = parser.parse_known_args()
+    return parser.parse_known_args(words)
+
+
+def prepare(words):
+    """Compiles the client of a command line."""
+    arguments, _ = parse(words)
+    compile_parts(arguments.client, ALL.get(arguments.fault))
+
+
+def main():
+    arguments, rest = parse(sys.argv[1:])
     module, name, program = load(arguments.client, ALL.get(arguments.fault))
     if arguments.points:
         bases = (POINTS[arguments.points], module.__dict__[name])
         module.__dict__[name] = type(name, bases, {})
     sys.argv[1:] = rest
-    exec(compile(program, module.__file__, "exec"), module.__dict__)
+    exec(program, module.__dict__)
 
 
 if __name__ == "__main__":
