@@ -106,7 +106,7 @@ def solver(client, fault, options, points=""):
     module.__dict__["serve"] = made.append
     sys.argv[1:] = options.split()
     exec(program, module.__dict__)
-    return made[0], sys.modules["mpm_verify"].Problem
+    return made[0], module.Problem
 
 
 def answers(client, fault, options, points, message):

@@ -27,6 +27,7 @@ SOLVERS = CLIENTS.parents[1] / "examples/solvers"
 SOURCES = {
     "numpy": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py"], "Mpm"),
     "apic": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "apic_mpm.py"], "Apic"),
+    "total_lagrangian": ([CLIENTS / "total_lagrangian.py"], "TotalLagrangian"),
 }
 MAIN = '\nif __name__ == "__main__":\n'
 
