@@ -2,16 +2,13 @@
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::{CommandError, Status};
-use super::{select, show};
+use super::show;
 use clap::Args;
 use mpm_verify::study::describe::Dispensable;
-use mpm_verify::study::describe::sketch::{sketch_svg, sketch_text};
 use mpm_verify::study::{self, Estimate, PlannedLevel, planned_levels};
 use mpm_verify::suite::Suite;
 use mpm_verify::{nearest, report};
 use serde_json::{Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
@@ -20,38 +17,17 @@ pub(super) struct ExplainArgs {
     /// Show what a step would save without this effect of the scene
     #[arg(long, value_name = "EFFECT")]
     without: Option<String>,
-    /// Draw the scene of one suite into this SVG file, without other output
-    #[arg(long, value_name = "FILE")]
-    sketch: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
 
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
-    if let Some(file) = &args.sketch {
-        return draw(args, file);
-    }
     let targets = &args.targets.targets;
     if args.format.is_json() {
         return Ok(show::json(targets, |_, suite| Ok(explained(suite, without))));
     }
     Ok(show::each(targets, |suite| explanation(suite, without)))
-}
-
-/// Writes a sketch of the only requested suite into `file`.
-fn draw(args: &ExplainArgs, file: &Path) -> Result<Status, CommandError> {
-    let mut suites = select::suites(&args.targets.targets);
-    let suite = match (suites.pop(), suites.is_empty()) {
-        (Some(suite), true) => suite?,
-        _ => return Err(CommandError::about("--sketch", "name one suite")),
-    };
-    let svg = sketch_svg(&suite).ok_or_else(|| {
-        CommandError::about("--sketch", format!("`{}` has no scene to draw", suite.name))
-    })?;
-    fs::write(file, svg)
-        .map_err(|error| CommandError::option("--sketch", file.display(), error))?;
-    Ok(Status::Passed)
 }
 
 fn named(name: &str) -> Result<Dispensable, CommandError> {
@@ -76,9 +52,6 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     let about = suite.about.trim();
     if !about.is_empty() {
         page += &format!("{about}\n\n");
-    }
-    for (row, text) in sketch_text(suite).iter().enumerate() {
-        page += &line(if row == 0 { "sketch" } else { "" }, text);
     }
     page += &levels(suite);
     if let Some(cost) = study::estimate(suite) {

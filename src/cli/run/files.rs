@@ -4,9 +4,7 @@ use super::args::ReportArgs;
 use super::printing::labelled;
 use crate::cli::output::CommandError;
 use mpm_verify::report::{self, page};
-use mpm_verify::study::describe::sketch::sketch_svg;
 use mpm_verify::study::{Runner, SeriesError, SeriesFile};
-use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::BTreeSet;
@@ -67,12 +65,11 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the HTML page. `suites` and `outcomes` have the order of `sources`, without refused and
+/// Writes the HTML page. `outcomes` has the order of `sources`, without refused and
 /// skipped suites.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
-    suites: &[Suite],
     outcomes: &[SuiteOutcome],
     refused: usize,
 ) -> Result<(), CommandError> {
@@ -81,15 +78,9 @@ pub(super) fn write_page(
         name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     };
     let names: Vec<String> = sources.iter().map(named).collect();
-    let sketches: Vec<Option<String>> = suites.iter().map(sketch_svg).collect();
-    let parts = sources.iter().zip(&names).zip(outcomes).zip(&sketches);
+    let parts = sources.iter().zip(&names).zip(outcomes);
     let parts: Vec<page::SuiteSource<'_>> = parts
-        .map(|(((source, file), outcome), sketch)| page::SuiteSource {
-            outcome,
-            file,
-            yaml: source.text(),
-            sketch: sketch.as_deref(),
-        })
+        .map(|((source, file), outcome)| page::SuiteSource { outcome, file, yaml: source.text() })
         .collect();
     fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
 }

@@ -163,7 +163,7 @@ fn report(
     printing.of_all(args, &sources, &outcomes);
     let written =
         args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
-    let page = |file| files::write_page(file, &sources, &suites, &outcomes, refused.len());
+    let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
     let junit = |file| files::write_junit(file, &outcomes, &judging.required());
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
     let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(series);

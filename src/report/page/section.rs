@@ -118,19 +118,15 @@ fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
 /// Minimum size of text in a figure on the screen (px).
 const LEGIBLE: f64 = 9.0;
 
-/// Shows all figures, starting with the scene; `None` without figures.
+/// Shows all figures; `None` without figures.
 fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     let outcome = source.outcome;
-    let scene = source.sketch.map(|svg| {
-        let id = format!("scene-{}", outcome.suite);
-        figure(&id, svg, "Scene and grid of the coarsest level")
-    });
     let drawn = svg(outcome).into_iter().enumerate();
     let drawn = drawn.map(|(number, drawn)| {
         let id = format!("figure-{}.{}", outcome.suite, number + 1);
         figure(&id, &drawn.svg, &drawn.file)
     });
-    let figures: Vec<Html> = scene.into_iter().chain(drawn).collect();
+    let figures: Vec<Html> = drawn.collect();
     (!figures.is_empty()).then(|| Html::block("div", &[("class", "figures")], &figures))
 }
 

@@ -18,8 +18,6 @@ pub struct SuiteSource<'a> {
     pub file: &'a str,
     /// Text of the suite file.
     pub yaml: &'a str,
-    /// SVG sketch of the scene, if the suite has a scene.
-    pub sketch: Option<&'a str>,
 }
 
 /// Creates the table that counts the cases with the formal order, for each group of suites and each

@@ -38,7 +38,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
 }
 
 fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
-    let source = |outcome| SuiteSource { outcome, file: yaml, yaml, sketch: None };
+    let source = |outcome| SuiteSource { outcome, file: yaml, yaml };
     page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
 }
 

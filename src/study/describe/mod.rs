@@ -1,7 +1,5 @@
 //! Describes a problem in rows of name and value, for reports and `explain`.
 
-pub mod sketch;
-
 use crate::exact::formula::{Expr, Formula};
 use crate::mpm::{MaterialParameter, MaterialPlan, Matrix};
 use crate::study::setup::dispatch;

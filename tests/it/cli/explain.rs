@@ -37,9 +37,6 @@ fn local_suite_is_explained() {
     insta::assert_snapshot!(found.out, @"
     short-bar: Short bar
 
-      sketch            ##################################..........................
-                        grid from 0.0000 to 1.7500 m
-                        left: fixed; right: free
       levels            all cases
                           cells      h (m)  particles     dt (s)    steps  Courant number
                               4  2.5000e-1         16  1.0000e-3       50   0.0400
@@ -117,44 +114,4 @@ fn an_unknown_effect_is_refused_with_a_hint() {
     let text = refusals(&Folder::new(), &calls);
     let hints = ["did you mean `gravity`?", "help: known effects: gravity, body_force,"];
     assert_contains(&text, &["--without gravty: there is no such effect", hints[0], hints[1]]);
-}
-
-#[test]
-fn sketch_may_be_a_figure() {
-    let folder = Folder::with("bar.yaml", BAR);
-    let drawn = folder.call(&["explain", "bar.yaml", "--sketch", "bar.svg"]);
-    assert_eq!((drawn.code, drawn.out.as_str()), (SOUND, ""), "{}", drawn.errors);
-    let svg = folder.read("bar.svg");
-    assert!(svg.starts_with("<svg ") && svg.contains(">fixed</text>"), "{svg}");
-    let none = folder.call(&["explain", "grid-crossing", "--sketch", "x.svg"]);
-    assert!(none.code != SOUND && none.errors.contains("has no scene to draw"));
-}
-
-/// The sketch of a scene must show rims with holes, materials, symbols of faces and directions of
-/// loads. All other information must be text.
-#[rstest]
-#[case::a_hole("expanding-ring", &["fill-rule=\"evenodd\"", "annulus about (0, 0)"], 2)]
-#[case::two_materials("bar-of-two-materials", &["#d55e00", ">body 2<", ">contact<"], 2)]
-#[case::friction_in_space("sliding-block-3d", &["seen along Z", ">gravity<", ">back, front<"], 1)]
-#[case::a_study_of_stability("courant-limit", &["stroke-dasharray=\"6 4\"", ">left, right<"], 1)]
-#[case::an_axis("axisymmetric-wave", &["stroke-dasharray=\"9 3 2 3\"", "<circle"], 1)]
-fn the_scene_is_drawn(#[case] name: &str, #[case] marks: &[&str], #[case] rims: usize) {
-    let folder = Folder::new();
-    folder.accepted(&["explain", name, "--sketch", "scene.svg"]);
-    let svg = folder.read("scene.svg");
-    assert_contains(&svg, marks);
-    let paths = svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
-    assert_eq!(paths.map(|path| path.matches('M').count()).sum::<usize>(), rims, "{svg}");
-}
-
-/// The load of Cook's membrane acts along its face.
-#[test]
-fn arrows_have_the_direction_of_tractions() {
-    let folder = Folder::new();
-    folder.call(&["explain", "cooks-membrane", "--sketch", "scene.svg"]);
-    let svg = folder.read("scene.svg");
-    let arrow = svg.split("stroke=\"#d55e00\" fill=\"none\">").nth(1).expect("an arrow");
-    let end = |key: &str| arrow.split(&format!(" {key}=\"")).nth(1)?.split('"').next();
-    assert_eq!(end("x1"), end("x2"));
-    assert!(end("x1").is_some() && end("y1") != end("y2"), "{arrow}");
 }
