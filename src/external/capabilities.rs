@@ -126,13 +126,8 @@ impl Capabilities {
             lacking.push(format!("dimensions: {}", needs.dimension));
         }
         let column: Vec<&str> = needs.column.into_iter().collect();
-        for (capability, has, wanted) in [
-            ("laws", &self.laws, &needs.laws),
-            ("conditions", &self.conditions, &needs.conditions),
-            ("loads", &self.loads, &needs.loads),
-            ("columns", &self.columns, &column),
-            ("gradients", &self.gradients, &needs.gradients),
-        ] {
+        let wanted = [&needs.laws, &needs.conditions, &needs.loads, &column, &needs.gradients];
+        for ((capability, has), wanted) in self.lists().into_iter().zip(wanted) {
             let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
             lacking.extend(missing.map(|name| match misspelt(capability, name, has) {
                 Some(stated) => format!("{capability}: {name} (stated as `{stated}`)"),
@@ -148,6 +143,31 @@ impl Capabilities {
         lacking.extend(beyond.map(|what| format!("{what}, which the protocol does not support")));
         lacking
     }
+
+    /// Lists the capabilities as entries of `hello`, in the notation of [`Self::lacking`], such as
+    /// `loads: gravity` and `contact`. Unknown names are omitted.
+    pub fn entries(&self) -> Vec<String> {
+        let dimensions = self.dimensions.iter().filter(|d| (1..=3).contains(*d));
+        let mut all: Vec<String> = dimensions.map(|d| format!("dimensions: {d}")).collect();
+        for (capability, stated) in self.lists() {
+            let stated = stated.iter().filter(|name| known(capability).contains(&name.as_str()));
+            all.extend(stated.map(|name| format!("{capability}: {name}")));
+        }
+        let flags = FLAGS.iter().zip(self.flags()).chain([(&"binary", self.binary)]);
+        all.extend(flags.filter(|(_, has)| *has).map(|(name, _)| (*name).to_owned()));
+        all
+    }
+
+    /// Returns the names of the capabilities that are lists of names, and the lists.
+    fn lists(&self) -> [(&'static str, &Vec<String>); 5] {
+        [
+            ("laws", &self.laws),
+            ("conditions", &self.conditions),
+            ("loads", &self.loads),
+            ("columns", &self.columns),
+            ("gradients", &self.gradients),
+        ]
+    }
 }
 
 impl Capabilities {
@@ -160,13 +180,7 @@ impl Capabilities {
             let hint = hint(key, KEYS);
             warnings.push(format!("unknown capability `{key}`; {hint}"));
         }
-        for (capability, stated) in [
-            ("laws", &self.laws),
-            ("conditions", &self.conditions),
-            ("loads", &self.loads),
-            ("columns", &self.columns),
-            ("gradients", &self.gradients),
-        ] {
+        for (capability, stated) in self.lists() {
             let known = known(capability);
             for name in stated.iter().filter(|name| !known.contains(&name.as_str())) {
                 let hint = hint(name, known);
@@ -256,9 +270,38 @@ fn hint(name: &str, known: &[&'static str]) -> String {
     }
 }
 
+/// Creates the capabilities of a solver that supports everything.
+#[cfg(test)]
+pub(crate) fn everything() -> Capabilities {
+    let mut all = serde_json::to_value(Capabilities::default()).unwrap();
+    for (key, value) in all.as_object_mut().unwrap() {
+        *value = match key.as_str() {
+            "dimensions" => vec![1, 2, 3].into(),
+            "laws" | "conditions" | "loads" | "columns" | "gradients" => known(key).into(),
+            _ => true.into(),
+        };
+    }
+    serde_json::from_value(all).unwrap()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn entries_use_the_notation_of_missing_capabilities() {
+        let needs = ProblemNeeds {
+            dimension: 3,
+            laws: vec!["j2"],
+            loads: vec!["traction"],
+            contact: true,
+            ..ProblemNeeds::default()
+        };
+        let mut able = Capabilities::of(&[3, 4], &["j2", "glass"], &[], &["traction"]);
+        able.contact = true;
+        assert_eq!(able.entries(), Capabilities::default().lacking(&needs));
+        assert_eq!(able.entries().len(), 4);
+    }
 
     #[test]
     fn unlisted_capabilities_are_lacking() {

@@ -19,6 +19,8 @@ mod problem;
 mod program;
 
 use crate::subject::{Precision, Subject, SubjectError};
+#[cfg(test)]
+pub(crate) use capabilities::everything;
 pub use capabilities::{Capabilities, ProblemNeeds};
 pub use fields::{
     BodyForceField, FieldError, FieldName, FieldPlaces, HandedNumber, HandedValues,
@@ -66,6 +68,12 @@ pub trait SolverFactory: Sync {
     /// problem.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()
+    }
+
+    /// Returns the capabilities that the solver declares; `None`, the default, if it declares none.
+    /// `doctor` lists the declared capabilities that no examination covers.
+    fn capabilities(&self) -> Option<&Capabilities> {
+        None
     }
 
     /// Sets up the solver in the initial state of `problem`. Its labels are the reference positions

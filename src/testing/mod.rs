@@ -13,7 +13,8 @@ mod harness;
 
 pub use conformance::{Breach, conformance, conformance_on};
 pub use doctor::{
-    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor, page,
+    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
+    UnexaminedCapability, doctor, page,
 };
 #[cfg(feature = "testing")]
 pub use harness::SuiteFolder;

@@ -7,7 +7,7 @@ use super::frame::Outgoing;
 use super::inquiry::Inquiry;
 use super::subject::{ProgramSubject, QUESTIONS_PER_STEP, conclude, longest_answer};
 use crate::external::SolverFactory;
-use crate::external::capabilities::ProblemNeeds;
+use crate::external::capabilities::{Capabilities, ProblemNeeds};
 use crate::external::gradient::{Gradient, GradientError, GradientRequest};
 use crate::external::problem::LevelProblem;
 use crate::subject::{
@@ -201,6 +201,10 @@ impl SolverFactory for SolverProgram {
             lacking.extend(new);
         }
         lacking
+    }
+
+    fn capabilities(&self) -> Option<&Capabilities> {
+        Some(&self.hello.capabilities.known)
     }
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {

@@ -1,7 +1,7 @@
 //! Findings, and the report of all examinations as text.
 
 use crate::named::named;
-use crate::report::text::prose::{paragraph_lines, row};
+use crate::report::text::prose::{hanging, paragraph_lines, row};
 use serde::Serialize;
 
 named! {
@@ -90,6 +90,18 @@ pub struct DoctorReport {
     pub silent: Option<String>,
     /// The examinations, starting with the simplest.
     pub examinations: Vec<ExaminationReport>,
+    /// Capabilities that the solver declares and that no examination covers.
+    pub not_examined: Vec<UnexaminedCapability>,
+}
+
+/// A capability that a solver declares and that no examination covers.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct UnexaminedCapability {
+    /// The capability as an entry of `hello`, such as `loads: traction` or `contact`.
+    pub capability: String,
+    /// Names of up to three built-in suites that need this capability and that the solver can run.
+    pub suites: Vec<&'static str>,
 }
 
 impl DoctorReport {
@@ -152,6 +164,7 @@ pub fn page(report: &DoctorReport) -> String {
             }
         }
     }
+    not_examined_lines(&mut lines, &report.not_examined);
     lines.push(String::new());
     paragraph_lines(&mut lines, &verdict(report));
     lines.join("\n") + "\n"
@@ -172,6 +185,28 @@ fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
     row(lines, "  check", &finding.look_at);
 }
 
+/// Adds the capabilities that no examination covers. Capabilities that the same suites test share a
+/// row.
+fn not_examined_lines(lines: &mut Vec<String>, all: &[UnexaminedCapability]) {
+    let mut rows: Vec<(Vec<&str>, &[&str])> = Vec::new();
+    for one in all {
+        match rows.iter_mut().find(|(_, suites)| *suites == one.suites) {
+            Some((capabilities, _)) => capabilities.push(&one.capability),
+            None => rows.push((vec![&one.capability], &one.suites)),
+        }
+    }
+    if !rows.is_empty() {
+        lines.extend([String::new(), "claimed, not examined:".to_owned()]);
+    }
+    for (capabilities, suites) in rows {
+        let suites = match suites {
+            [] => "no built-in suite that this solver can run tests it".to_owned(),
+            _ => format!("suites that test it: {}", suites.join(", ")),
+        };
+        hanging(lines, "-", &format!("{}; {suites}", capabilities.join(", ")));
+    }
+}
+
 fn verdict(report: &DoctorReport) -> String {
     if let Some(why) = &report.silent {
         return format!("verdict: {} cannot be examined: {why}", report.solver);
@@ -186,13 +221,16 @@ fn verdict(report: &DoctorReport) -> String {
     let made = count(|result| matches!(result, ExaminationResult::Examined { .. }));
     let left_out = count(|result| matches!(result, ExaminationResult::LeftOut { .. }));
     let not = count(|result| matches!(result, ExaminationResult::NotApplicable { .. }));
+    let claimed = report.not_examined.len();
     let mut text = match report.defects() {
         0 => format!("verdict: no defect found in {made} examinations"),
         _ => format!("verdict: {}", names(FindingWeight::Defect)),
     };
-    for (number, what) in
-        [(not, "not applicable"), (left_out, "skipped until all defects are corrected")]
-    {
+    for (number, what) in [
+        (not, "not applicable"),
+        (left_out, "skipped until all defects are corrected"),
+        (claimed, "claimed capabilities not examined"),
+    ] {
         if number > 0 {
             text.push_str(&format!("; {number} {what}"));
         }

@@ -5,12 +5,14 @@
 //! finding       findings, and the report as text
 //! scene         small scenes, passed to the solver like those of suites
 //! patient       capabilities of a solver, its runs, and the type of an examination
+//! coverage      declared capabilities that no examination covers
 //! course        recorded runs, quantities computed from them, and vector fields
 //! motion/       causes of errors in uniform motion
 //! examination/  one file for each examination
 //! ```
 
 mod course;
+mod coverage;
 mod examination;
 mod finding;
 mod motion;
@@ -18,7 +20,8 @@ mod patient;
 mod scene;
 
 pub use finding::{
-    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, page,
+    DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
+    UnexaminedCapability, page,
 };
 
 use crate::external::SolverFactory;
@@ -34,6 +37,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         settings: solver.settings(),
         silent: None,
         examinations: Vec::new(),
+        not_examined: Vec::new(),
     };
     let patient = Patient { solver };
     for examination in ALL {
@@ -46,9 +50,10 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         report.examinations.push(ExaminationReport { examination: name, expected, result });
         report.silent = silent(&report.examinations[0].result);
         if report.silent.is_some() {
-            break;
+            return report;
         }
     }
+    report.not_examined = coverage::unexamined(solver, &report.examinations);
     report
 }
 

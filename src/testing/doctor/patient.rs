@@ -139,5 +139,9 @@ pub(super) struct Examination {
     pub(super) expected: &'static str,
     /// Examinations that must have no defects before this one runs.
     pub(super) after: &'static [&'static str],
+    /// Capabilities that the examination tests, in the notation of
+    /// [`Capabilities::entries`](crate::external::Capabilities::entries). Declared capabilities
+    /// that no applicable examination covers are listed at the end of the report.
+    pub(super) covers: &'static [&'static str],
     pub(super) examine: fn(&Patient<'_>) -> Result<Examined, Hindrance>,
 }

@@ -17,6 +17,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "the solver accepts a problem, takes the requested number of steps of the requested \
                length, and gives bit-identical results in a second run",
     after: &[],
+    covers: &["conditions: free", "binary"],
     examine,
 };
 

@@ -13,6 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body without stress keeps its velocity, also in steps in which its particles lie \
                exactly on cell faces",
     after: &["conversation", "rest", "translation"],
+    covers: &[],
     examine,
 };
 

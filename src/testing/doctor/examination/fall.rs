@@ -14,6 +14,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body without stress falls with the velocity v = g t, exact in any scheme, and the \
                displacement u = g t^2/2",
     after: &["conversation", "rest", "translation"],
+    covers: &["loads: gravity"],
     examine,
 };
 

@@ -13,6 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body that fills a periodic axis moves along this axis at constant velocity, and \
                its displacements are not wrapped",
     after: &["conversation", "rest", "translation", "stress"],
+    covers: &["conditions: periodic"],
     examine,
 };
 
@@ -29,6 +30,7 @@ pub(super) const ENDS: Examination = Examination {
         "stress",
         "walls",
     ],
+    covers: &["conditions: periodic"],
     examine: examine_ends,
 };
 

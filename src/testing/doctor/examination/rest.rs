@@ -13,6 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",
     expected: "a body at rest, without stress and loads, does not move",
     after: &["conversation"],
+    covers: &[],
     examine,
 };
 

@@ -19,6 +19,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "in compression, extension, shear and rotation, the column `stress` agrees with the \
                soil law, for one large step and for many small steps",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    covers: &["laws: drucker_prager", "laws: mohr_coulomb"],
     examine,
 };
 

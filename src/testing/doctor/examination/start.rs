@@ -19,6 +19,13 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body that starts with a displacement, F and stress is at the positions of the \
                problem, and the stress accelerates the body from the first step on",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    covers: &[
+        "initial_deformation",
+        "laws: linear_elastic",
+        "laws: neo_hookean",
+        "laws: corotated",
+        "laws: hencky",
+    ],
     examine,
 };
 

@@ -23,6 +23,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body without stress that rotates or stretches slowly conserves the first moment \
                of its momentum about the centre, or loses as much as PIC",
     after: &["conversation", "rest", "initial-velocity", "translation", "force"],
+    covers: &[],
     examine,
 };
 
@@ -31,6 +32,7 @@ pub(super) const INITIAL_VELOCITY: Examination = Examination {
     expected: "a body without stress that stretches slowly starts with the velocities of the \
                problem, which do not grow",
     after: &["conversation", "rest"],
+    covers: &[],
     examine: examine_initial_velocity,
 };
 

@@ -10,6 +10,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a body without stress moves at constant velocity through four cells, with x = X + v \
                t to rounding",
     after: &["conversation", "rest", "initial-velocity"],
+    covers: &[],
     examine,
 };
 

@@ -12,6 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "multiplying all lengths or all times by a thousandth, or all masses by 1e-12, \
                changes only the units of the answer",
     after: &["conversation", "rest", "translation", "faces", "force", "transfer", "stress"],
+    covers: &[],
     examine,
 };
 

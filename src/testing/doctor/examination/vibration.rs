@@ -16,6 +16,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "vibration",
     expected: "the kinetic energy of a free vibrating body is at most 1.3 times its initial value",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress"],
+    covers: &[],
     examine,
 };
 

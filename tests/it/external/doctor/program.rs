@@ -71,6 +71,24 @@ fn json_report_has_the_same_findings() {
     assert_eq!(of("fall")["result"], "not_applicable");
     assert_eq!(of("fall")["lacks"], "loads: gravity");
     assert_eq!(of("walls")["after"], "stress");
+    assert_eq!(report["not_examined"], serde_json::json!([]));
+}
+
+/// A capability that no examination covers is listed with the suites that test it.
+#[test]
+fn claimed_capabilities_without_an_examination_are_listed() {
+    let claiming =
+        HELLO.replace(r#""capabilities":{"#, r#""capabilities":{"varying_density":true,"#);
+    let script = MOVER.replace("HELLO", &claiming).replace('G', "0");
+    let (_, out, _) = call(&script, &["--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&out).expect("JSON");
+    let unexamined = &report["not_examined"];
+    assert_eq!(unexamined.as_array().map(Vec::len), Some(1), "{unexamined}");
+    assert_eq!(unexamined[0]["capability"], "varying_density");
+    let (_, out, _) = call(&script, &[]);
+    let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(out.contains("claimed, not examined: - varying_density; "), "{out}");
+    assert!(out.contains("1 claimed capabilities not examined"), "{out}");
 }
 
 #[test]

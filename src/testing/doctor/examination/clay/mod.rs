@@ -34,6 +34,7 @@ pub(super) const EXAMINATION: Examination = Examination {
                compaction, and approaches the critical state in shear and the K0 line in \
                compression",
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    covers: &["laws: cam_clay"],
     examine,
 };
 

@@ -31,6 +31,14 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "in a body that stretches and shears, momentum is transferred by the stress of the \
                law, and the total momentum is conserved",
     after: &["conversation", "rest", "translation", "force", "transfer"],
+    covers: &[
+        "dimensions: 1",
+        "dimensions: 2",
+        "dimensions: 3",
+        "laws: linear_elastic",
+        "columns: stress",
+        "columns: deformation_gradient",
+    ],
     examine,
 };
 

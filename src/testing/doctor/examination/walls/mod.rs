@@ -40,6 +40,7 @@ pub(super) const EXAMINATION: Examination = Examination {
         "stress",
         "vibration",
     ],
+    covers: &["conditions: fixed", "conditions: roller"],
     examine,
 };
 
