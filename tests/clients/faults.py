@@ -24,6 +24,7 @@ class Fault:
     points: str = ""  # the option `--points` of variant.py
     expected: frozenset[str] = frozenset()  # names of the finding that `doctor` is expected to report: EXPECTED
     also: frozenset[str] = frozenset()  # acceptable names of further defects
+    half: frozenset[str] = frozenset()  # names that give the direction, but not the cause: HALF
 
     def command(self) -> list[str]:
         """Arguments of `variant.py`."""
@@ -1126,6 +1127,77 @@ OUTPUT = [
           f"{CUBIC} {MUSL}", {'"deformation_gradient": self.f': '"deformation_gradient": np.linalg.inv(self.f)'}),
 ]
 
+# Mistakes of codes in the reference configuration.
+TOTAL_LAGRANGIAN = [
+    Fault("total-gradients-not-pushed-forward",
+          "Multiplies the Cauchy stress with reference gradients and volumes.",
+          "Cauchy stress is used in place of the first Piola-Kirchhoff stress",
+          ["", "--domain cell --scheme verlet"],
+          {"first_piola = j * self.sigma @ np.linalg.inv(self.f).transpose(0, 2, 1)": "first_piola = self.sigma"},
+          client="total_lagrangian"),
+    Fault("total-first-piola-transposed",
+          "Takes the nominal stress, the transposed first Piola-Kirchhoff stress, without changing the indices.",
+          "the first Piola-Kirchhoff stress is transposed",
+          "", {'"p,pab,pkb->pka", self.volume': '"p,pba,pkb->pka", self.volume'}, client="total_lagrangian"),
+    Fault("total-volume-current",
+          "Integrates internal forces over current volumes.",
+          "reference volumes are multiplied by J",
+          "--scheme verlet",
+          {'"p,pab,pkb->pka", self.volume': '"p,pab,pkb->pka", self.volume * j[:, 0, 0]'}, client="total_lagrangian"),
+    Fault("total-last-substep-missing",
+          "Ends the loop over sub-steps one too early in each message.",
+          "the last sub-step of each message is missing",
+          "--substeps 3", {"for step in range(count):": "for step in range(count - 1):"}, client="total_lagrangian"),
+    Fault("total-substeps-of-full-length",
+          "Takes several steps of the full length for each step.",
+          "steps are repeated without being shortened",
+          "--substeps 2", {"self.step(dt / self.substeps": "self.step(dt"}, client="total_lagrangian"),
+    Fault("total-force-of-the-step-start",
+          "Evaluates body forces of all sub-steps at the start of the step.",
+          "body forces are those of an earlier time",
+          "--substeps 5", {"time + step * dt / self.substeps": "time + step // self.substeps * dt"},
+          client="total_lagrangian"),
+    Fault("total-verlet-force-of-the-old-time",
+          "Evaluates body forces of the second half of a Verlet step at the time of the first.",
+          "body forces are those of one step earlier",
+          "--scheme verlet", {"self.acceleration(time + dt)": "self.acceleration(time)"}, client="total_lagrangian"),
+    Fault("total-verlet-force-before-positions",
+          "Evaluates the forces of a Verlet step before the positions are updated.",
+          "internal forces are those of an earlier deformation: vibrations grow",
+          "--scheme verlet",
+          {"self.move(dt)\n            self.a = self.acceleration(time + dt)":
+           "self.a = self.acceleration(time + dt)\n            self.move(dt)"}, client="total_lagrangian"),
+    Fault("total-sample-weights-of-one-particle",
+          "Names every second particle as a point, with the volume of one particle as weight.",
+          "the weights sum to half the volume of the body",
+          "--sample 2", {"weight = share * (self.volume.sum() / share.sum())": "weight = share"},
+          client="total_lagrangian"),
+    Fault("total-offset-subtracted-twice",
+          "Subtracts the offset of positions from displacements too.",
+          "displacements lack the offset of positions",
+          "--offset 1000", {'"displacement": self.x - self.x0': '"displacement": self.x - self.x0 - self.offset'},
+          client="total_lagrangian"),
+    Fault("total-f-from-transposed-gradient",
+          "Exchanges the indices of the velocity gradient.",
+          "the increment of F is transposed",
+          "--domain cell", {'dt * np.einsum("pka,pkb->pab"': 'dt * np.einsum("pka,pkb->pba"'}, client="total_lagrangian"),
+    Fault("total-hencky-in-reference-axes",
+          "Uses the right singular vectors of F as the axes of the Kirchhoff stress.",
+          "the stress does not rotate with the body",
+          "--scheme verlet", {"axes, stretch, _ = np.linalg.svd(self.f)":
+                              "_, stretch, rows = np.linalg.svd(self.f); axes = rows.transpose(0, 2, 1)"},
+          client="total_lagrangian"),
+    Fault("total-wall-one-node-inside",
+          "Holds the nodes up to one cell from a wall.",
+          "walls hold nodes inside the body",
+          "", {"inward < 0.5 * h": "inward < 1.5 * h"}, client="total_lagrangian"),
+    Fault("total-starts-undeformed",
+          "Starts with F = I.",
+          "the initial deformation gradient is ignored",
+          "", {'self.f, self.sigma = columns["deformation_gradient"]':
+               'self.f, self.sigma = np.zeros_like(columns["stress"]) + np.eye(self.d)'}, client="total_lagrangian"),
+]
+
 
 # Fault -> names of findings that name it. Where two faults cannot be separated from outside, the text of the
 # finding lists both.
@@ -1298,7 +1370,27 @@ EXPECTED = {
     "output-f-transposed": "deformation-gradient-transposed",
     "output-f-minus-one": "deformation-gradient-column",
     "output-f-inverse": "deformation-gradient-column",
+    "total-gradients-not-pushed-forward": "stress-at-finite-strain",
+    "total-first-piola-transposed": "stress-at-finite-strain stress-not-objective",
+    "total-volume-current": "volume-at-finite-strain",
+    "total-last-substep-missing": "steps-depend-on-messages",
+    "total-substeps-of-full-length": "displacement-scaled",
+    "total-force-of-the-step-start": "force-of-another-time",
+    "total-verlet-force-of-the-old-time": "force-of-another-time",
+    "total-verlet-force-before-positions": "vibration-grows",
+    "total-sample-weights-of-one-particle": "weights-of-points",
+    "total-offset-subtracted-twice": "displaced-from-the-start",
+    "total-f-from-transposed-gradient": "deformation-gradient-transposed",
+    "total-hencky-in-reference-axes": "stress-not-objective",
+    "total-wall-one-node-inside": "wall-force",
+    "total-starts-undeformed": "initial-deformation-dropped",
 }
+
+# Fault -> further names whose text gives the direction, but not the cause.
+HALF = {
+}
+# A run that does not end is quoted without a cause.
+WITHOUT_CAUSE = frozenset({"silent", "does-not-get-through"})
 
 # Fault -> why `doctor` does not name it.
 UNNAMED = {
@@ -1312,6 +1404,7 @@ UNNAMED = {
 def variants(fault):
     """A fault for each of its settings."""
     fault.expected = frozenset(EXPECTED[fault.name].split())
+    fault.half = WITHOUT_CAUSE | frozenset(HALF.get(fault.name, "").split())
     if isinstance(fault.settings, str):
         return [fault]
     names = [fault.name, *(f"{fault.name}-{k}" for k in range(2, len(fault.settings) + 1))]
@@ -1320,7 +1413,8 @@ def variants(fault):
 
 
 FAMILIES = {"positions": POSITIONS, "loads": LOADS, "walls": WALLS, "affine transfer": AFFINE, "materials": MATERIALS, "soils": SOILS,
-            "initial state": INITIAL, "grid and basis": GRID, "time": TIME, "output": OUTPUT}
+            "initial state": INITIAL, "grid and basis": GRID, "time": TIME, "output": OUTPUT,
+            "reference configuration": TOTAL_LAGRANGIAN}
 FAULTS = {fault.name: fault for family in FAMILIES.values() for each in family for fault in variants(each)}
 
 # Faults that fail none of the suites of `ci/doctor --gate`, and why.

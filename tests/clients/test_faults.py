@@ -88,6 +88,7 @@ PROBLEMS = {
     "periodic": problem("neo_hookean", PERIODIC[:4], (5, 4), 2, "asked", 18.0),
     "rotating cone of soil": problem("drucker_prager", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
     "rotating pyramid of soil": problem("mohr_coulomb", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
+    "block of the Hencky law": problem("hencky", FREE[:4], (4, 3), 2, "none", 0.5, -0.05, 5.0),
     "falling": problem("linear_elastic", FREE[:4], (4, 3), 2, "constant", 1.0),
     "bar": problem("linear_elastic", ["fixed", "free"], (6,), 2, "asked", -5.0),
     "block": problem("linear_elastic", FREE, (2, 3, 2), 2, "none", 0.5, -0.05, 5.0),
@@ -114,7 +115,9 @@ def answers(client, fault, options, points, message):
     harness = Harness()
     try:
         subject, kind = solver(client, fault, options, points)
-        if not {face["condition"] for face in message["faces"]} <= set(subject.capabilities["conditions"]):
+        needed = {"conditions": [face["condition"] for face in message["faces"]],
+                  "laws": [material["law"] for material in message["materials"]]}
+        if any(not set(names) <= set(subject.capabilities[key]) for key, names in needed.items()):
             return None
         made = kind(message, harness)
         named = subject.setup(made)
@@ -125,7 +128,7 @@ def answers(client, fault, options, points, message):
             taken += steps
             states.append({key: np.array(value, float) for key, value in subject.state().items()
                            if isinstance(value, np.ndarray)})
-        return states
+        return [*states, {"weight": np.array(named["weight"])}] if named else states
     except (ArithmeticError, ValueError, IndexError) as error:
         return str(error)
 

@@ -80,7 +80,7 @@ class TotalLagrangian:
         walls = ["fixed", "roller"] if domain == "particle" else []
         self.capabilities = {
             "dimensions": [1, 2, 3], "conditions": ["free", *walls], "loads": ["gravity", "body_force"],
-            "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated"], "manufactured": True,
+            "laws": ["linear_elastic", "neo_hookean", "hencky", "corotated", "small_strain"], "manufactured": True,
             "columns": ["stress", "deformation_gradient"], "initial_deformation": True, "initial_stress": True,
             "varying_density": True}
 
@@ -212,6 +212,11 @@ class TotalLagrangian:
 
     def with_initial(self, kirchhoff, j):
         return (kirchhoff + self.f @ self.s0 @ self.f.transpose(0, 2, 1)) / j
+
+    def small_strain(self, j, _):
+        """P = lambda tr(grad u) I + 2 mu sym(grad u), linear in u."""
+        gradient = self.f - np.eye(self.d)
+        return self.hooke(0.5 * (gradient + gradient.transpose(0, 2, 1))) @ self.f.transpose(0, 2, 1) / j
 
     def neo_hookean(self, j, _):
         one = np.eye(self.d)

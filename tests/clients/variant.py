@@ -4,6 +4,7 @@
 
 The remaining options are those of the client. `--points particles` names the particles' reference positions as
 points, `--points shuffled` the same in a random order, and `--points nodes` the mesh nodes in the body.
+`--laws` restricts the laws, and `--shift` moves the positions that the NumPy client holds.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ SOLVERS = CLIENTS.parents[1] / "examples/solvers"
 SOURCES = {
     "numpy": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py"], "Mpm"),
     "apic": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "apic_mpm.py"], "Apic"),
+    "sph": ([SOLVERS / "mpm_verify.py", SOLVERS / "lagrangian.py", SOLVERS / "sph.py"], "Sph"),
     "total_lagrangian": ([CLIENTS / "total_lagrangian.py"], "TotalLagrangian"),
 }
 MAIN = '\nif __name__ == "__main__":\n'
@@ -131,6 +133,23 @@ class AtNodes:
                 **{key: self.share @ state[key] for key in ("displacement", "velocity")}}
 
 
+class Offset:
+    """Positions, and the grid, moved by the same distance along each axis: `offset` (m)."""
+
+    offset = 0.0
+
+    def setup(self, problem):
+        problem.position = problem.position + self.offset
+        problem.origin = problem.origin + self.offset
+        return super().setup(problem)
+
+    def node_places(self):
+        return super().node_places() - self.offset
+
+    def state(self):
+        return {**super().state(), "displacement": self.x - (self.problem.reference_position + self.offset)}
+
+
 POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
 
 
@@ -140,6 +159,8 @@ def parse(words):
     parser.add_argument("--client", choices=SOURCES, default="numpy")
     parser.add_argument("--fault", choices=ALL, metavar="NAME")
     parser.add_argument("--points", choices=POINTS)
+    parser.add_argument("--laws", nargs="+", metavar="LAW", help="the only laws that the client declares")
+    parser.add_argument("--shift", type=float, help="offset of the positions that the NumPy client holds (m)")
     return parser.parse_known_args(words)
 
 
@@ -152,6 +173,16 @@ def prepare(words):
 def main():
     arguments, rest = parse(sys.argv[1:])
     module, name, program = load(arguments.client, ALL.get(arguments.fault))
+    if arguments.laws:
+        own = module.__dict__[name]
+
+        def restricted(self, *more, **options):
+            own.__init__(self, *more, **options)
+            self.capabilities = {**self.capabilities, "laws": arguments.laws}
+
+        module.__dict__[name] = type(name, (own,), {"__init__": restricted})
+    if arguments.shift:
+        module.__dict__[name] = type(name, (Offset, module.__dict__[name]), {"offset": arguments.shift})
     if arguments.points:
         bases = (POINTS[arguments.points], module.__dict__[name])
         module.__dict__[name] = type(name, bases, {})
