@@ -57,6 +57,28 @@ impl Course {
         self.states.len() - 1
     }
 
+    /// Returns the displacements and velocities of the points in a box, such as one of two bodies.
+    pub(super) fn within(&self, (low, high): &(Vec<f64>, Vec<f64>)) -> Self {
+        let d = self.problem.dimension;
+        let part = |state: &Samples| {
+            let mut part = Samples::default();
+            for (p, label) in state.label.chunks_exact(d).enumerate() {
+                let is_inside = |(x, (a, b)): (&f64, (&f64, &f64))| {
+                    let rounding = 1e-9 * (b - a);
+                    (a - rounding..=b + rounding).contains(x)
+                };
+                if label.iter().zip(low.iter().zip(high)).all(is_inside) {
+                    let at = p * d..(p + 1) * d;
+                    let (u, v) = (&state.displacement[at.clone()], &state.velocity[at]);
+                    part.push(label, u, v, state.weight[p]);
+                }
+            }
+            part
+        };
+        let states = self.states.iter().map(part).collect();
+        Self { states, times: self.times.clone(), ..Self::new(&self.problem) }
+    }
+
     /// Returns the mean over the body of a vector column in state `k`.
     pub(super) fn mean(&self, field: Field, k: usize) -> [f64; 3] {
         let (samples, d) = (&self.states[k], self.problem.dimension);

@@ -7,6 +7,7 @@
 //! patient       capabilities of a solver, its runs, and the type of an examination
 //! coverage      declared capabilities that no examination covers
 //! course        recorded runs, quantities computed from them, and vector fields
+//! rules         findings by tables of expected values
 //! motion/       causes of errors in uniform motion
 //! examination/  one file for each examination
 //! ```
@@ -17,6 +18,7 @@ mod examination;
 mod finding;
 mod motion;
 mod patient;
+mod rules;
 mod scene;
 
 pub use finding::{
@@ -39,7 +41,11 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         examinations: Vec::new(),
         not_examined: Vec::new(),
     };
-    let patient = Patient { solver };
+    let patient = Patient {
+        solver,
+        #[cfg(test)]
+        built_in: None,
+    };
     for examination in ALL {
         progress(examination.name);
         let result = match ground(examination, &report) {

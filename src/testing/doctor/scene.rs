@@ -80,9 +80,25 @@ pub(super) struct BoxScene {
     pub(super) gravity: Option<Vec<f64>>,
     /// Names of faces and their conditions; all other faces are free.
     pub(super) faces: Vec<(&'static str, &'static str)>,
+    pub(super) extras: Extras,
     pub(super) steps: u64,
     /// Step length (s).
     pub(super) dt: f64,
+}
+
+/// Parts of a scene that few examinations need. They are not converted by [`BoxScene::scaled`].
+#[derive(Debug, Clone, Default)]
+pub(super) struct Extras {
+    /// Names of faces and their conditions in suite notation, for conditions with a value.
+    pub(super) walls: Vec<(&'static str, String)>,
+    /// Loads in suite notation, such as `damping: 2`.
+    pub(super) loads: Vec<String>,
+    /// Formulas of the initial velocity, one for each axis, in place of the affine field.
+    pub(super) velocity: Option<Vec<String>>,
+    /// Second body: box, material and initial velocity of this scene.
+    pub(super) second: Option<Box<BoxScene>>,
+    /// Coefficient of friction between the bodies; `None` for bodies without contact.
+    pub(super) contact: Option<f64>,
 }
 
 impl BoxScene {
@@ -115,6 +131,7 @@ impl BoxScene {
             displacement: AffineField::default(),
             gravity: None,
             faces: Vec::new(),
+            extras: Extras::default(),
             steps: 20,
             dt: 0.04,
         }
@@ -128,6 +145,11 @@ impl BoxScene {
     pub(super) fn with_waves(self, cells: f64, steps: u64) -> Self {
         let dt = cells * self.h / self.wave_speed() / steps as f64;
         Self { steps, dt, ..self }
+    }
+
+    /// Returns the time of the last step (s).
+    pub(super) fn end(&self) -> f64 {
+        self.steps as f64 * self.dt
     }
 
     pub(super) fn soft(&self) -> Self {
@@ -204,38 +226,55 @@ impl BoxScene {
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
+    /// Formats box, material and initial velocity of the body as keys of a suite.
+    fn body_keys(&self) -> String {
+        let Self { body: (from, to), dimension, extras, .. } = self;
+        let affine = || self.velocity.formulas(*dimension);
+        let velocity = extras.velocity.clone().unwrap_or_else(affine);
+        format!(
+            "body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {}, initial_velocity: \
+             {velocity:?}",
+            self.material()
+        )
+    }
+
     /// Formats the scene as the text of a suite with this method.
     fn text(&self, method: &str) -> String {
-        let (from, to) = &self.body;
-        let (low, high) = &self.grid;
-        let d = self.dimension;
+        let Self { extras, grid: (low, high), dimension: d, .. } = self;
         let cells = libm::round((high[0] - low[0]) / self.h);
-        let faces: Vec<String> =
+        let mut faces: Vec<String> =
             self.faces.iter().map(|(face, condition)| format!("{face}: {condition}")).collect();
-        let mut optional = String::new();
+        faces.extend(extras.walls.iter().map(|(face, wall)| format!("{face}: {wall}")));
+        let gravity = self.gravity.iter().map(|g| format!("gravity: {g:?}"));
+        let loads: Vec<String> = gravity.chain(extras.loads.iter().cloned()).collect();
+        let mut keys = match &extras.second {
+            Some(second) => {
+                format!("bodies: [{{{}}}, {{{}}}]", self.body_keys(), second.body_keys())
+            }
+            None => self.body_keys(),
+        };
         if !faces.is_empty() {
-            optional.push_str(&format!("  boundary: {{{}}}\n", faces.join(", ")));
+            keys.push_str(&format!(", boundary: {{{}}}", faces.join(", ")));
         }
-        if let Some(g) = &self.gravity {
-            optional.push_str(&format!("  loads:\n    - gravity: {g:?}\n"));
+        if !loads.is_empty() {
+            keys.push_str(&format!(", loads: [{{{}}}]", loads.join("}, {")));
         }
         if !self.displacement.is_zero() {
-            let formulas = self.displacement.formulas(d);
-            optional.push_str(&format!("  initial_displacement: {formulas:?}\n"));
+            let formulas = self.displacement.formulas(*d);
+            keys.push_str(&format!(", initial_displacement: {formulas:?}"));
+        }
+        if let Some(friction) = extras.contact {
+            keys.push_str(&format!(", contact: {{friction: {friction}}}"));
         }
         format!(
             "suite: doctor\ntitle: a box\nsource: mpm-verify doctor\n\
-             scene:\n  dimension: {d}\n  body: {{box: {{from: {from:?}, to: {to:?}}}}}\n  \
-             grid: {{from: {low:?}, to: {high:?}}}\n  material: {material}\n\
-             {optional}  initial_velocity: {velocity:?}\n\
+             scene: {{dimension: {d}, grid: {{from: {low:?}, to: {high:?}}}, {keys}}}\n\
              run: {{until: {until:e}, dt: {dt:e}}}\nrefine: {{cells: {cells}, ppc: {ppc}}}\n\
              methods:\n  - mpm: {{{method}}}\n\
              expect:\n  - drift: {{mass: 1e-13}}\n    because: no step is made\n",
-            material = self.material(),
-            velocity = self.velocity.formulas(d),
-            until = self.steps as f64 * self.dt,
+            until = self.end(),
             dt = self.dt,
-            ppc = self.ppc.pow(d as u32),
+            ppc = self.ppc.pow(*d as u32),
         )
     }
 

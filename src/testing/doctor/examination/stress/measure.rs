@@ -25,8 +25,8 @@ pub(in crate::testing::doctor) const STEPS: u64 = 6;
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
 /// (force along y) and sigma_yx relative to the shear. In 1-D, only `along` is measured.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct MeasuredModuli {
-    pub(super) along: f64,
+pub(in crate::testing::doctor) struct MeasuredModuli {
+    pub(in crate::testing::doctor) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
     /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate.
@@ -57,7 +57,7 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
 
 /// Computes moduli from the momentum of the two halves of tubes along the axes. The momentum in a
 /// run without stiffness (`soft`) is subtracted, so that averaging does not count as stress.
-pub(super) fn moduli_by_momentum(
+pub(in crate::testing::doctor) fn moduli_by_momentum(
     course: &Course,
     soft: Option<&Course>,
     scene: &BoxScene,

@@ -16,7 +16,8 @@ mod measure;
 mod moduli;
 
 pub(super) use measure::{
-    STEPS, TRAVEL, constant_and_rate, impulses, inside, largest_entry, mean_tensor, spreading,
+    STEPS, TRAVEL, constant_and_rate, impulses, inside, largest_entry, mean_tensor,
+    moduli_by_momentum, spreading,
 };
 
 use crate::subject::Precision;
@@ -24,7 +25,7 @@ use crate::testing::doctor::course::{Course, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC};
-use measure::{MeasuredModuli, STRETCH, moduli_by_momentum};
+use measure::{MeasuredModuli, STRETCH};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "stress",

@@ -23,7 +23,8 @@ use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
 use judge::finding;
-use measure::{Wall, bar, walls_across};
+pub(super) use measure::bar;
+use measure::{Wall, walls_across};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "walls",
