@@ -96,7 +96,15 @@ def cpp_configurations():
                             start == "half_step_back")
 
 
+def other_configurations():
+    for basis, start in itertools.product(BASES, STARTS):
+        yield Configuration("Client for several bodies", f"several-bodies-{basis}-{start}",
+                            ["{python}", "tests/clients/several_bodies.py", "--basis", basis, "--start", start], False)
+    yield Configuration("FEM client", "fem", ["{python}", "tests/clients/fem.py"], False)
+
+
 CONFIGURATIONS = [
+    *other_configurations(),
     *numpy_configurations("", BLENDS),
     *numpy_configurations("particles", [1.0, 0.95]),
     *numpy_configurations("shuffled", [1.0, 0.0]),

@@ -1199,9 +1199,97 @@ TOTAL_LAGRANGIAN = [
 ]
 
 
+PULL = "pull = area[:, None] * self.problem.load(index, time, places)"
+DAMP = "np.exp(-self.problem.load(index, time)[0] * dt)"
+SLOWED = "slowed = np.maximum(speed - coefficient * stop, 0.0)"
+SHARE = "np.minimum(coefficient * pressed / speed, 1.0)"
+SETUP = "solver.setup(part)"
+
+SURFACES = [
+    Fault("traction-halved", "Shares a traction with nodes beyond the face, which have no mass.", "half of the traction acts",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {PULL: f"{PULL} / 2"}),
+    Fault("traction-of-the-start", "Asks for tractions once, at the start.", "tractions keep their first value",
+          [f"{LINEAR} {USL}", f"{CUBIC} {MUSL}"], {PULL: PULL.replace("time", "0.0")}),
+    Fault("traction-normal-only", "Applies a traction along the normal only, as a pressure.", "tangential tractions are lost",
+          f"{QUADRATIC} {MUSL}", {PULL: f"{PULL} * (np.abs(arm) > 0)"}),
+    Fault("traction-ignored", "Ignores tractions.", "tractions have no effect", f"{LINEAR} {USL}", {PULL: f"{PULL} * 0"}),
+    Fault("damping-twice", "Damps nodes and particles.", "damping acts twice",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"], {DAMP: f"{DAMP}**2"}),
+    Fault("damping-of-the-start", "Asks for the damping rate once, at the start.", "the rate keeps its first value",
+          f"{LINEAR} {USL}", {DAMP: DAMP.replace("time", "0.0")}),
+    Fault("damping-sign", "Adds damping with the wrong sign.", "velocities grow", f"{CUBIC} {MUSL}", {DAMP: f"1 / {DAMP}"}),
+    Fault("local-damping-uniform", "Local damping without the sign of the velocity.", "the force of local damping has one direction",
+          LINEAR, {"* np.sign(self.velocity())": "* 1.0"}, client="several_bodies"),
+    Fault("wall-velocity-of-the-start", "Asks for the velocity of a wall once, at the start.", "the wall velocity keeps its first value",
+          [f"{LINEAR} {USL}", f"{QUADRATIC} {MUSL}"],
+          {"return self.problem.face_velocity(face, t, places)": "return self.problem.face_velocity(face, 0.0, places)"}),
+    Fault("wall-velocity-normal-only", "Gives nodes the normal component of the wall velocity only.",
+          "tangential components of the wall velocity are zero", [f"{LINEAR} {USL}", f"{QUADRATIC} {MUSL}"],
+          {"return self.problem.face_velocity(face, t, places)":
+           'return self.problem.face_velocity(face, t, places) * (np.arange(self.d) == face["axis"])'}),
+    Fault("wall-velocity-reversed", "Gives nodes the velocity of the body relative to the wall.", "the wall velocity has the wrong sign",
+          f"{LINEAR} {MUSL}", {"return self.problem.face_velocity(face, t, places)": "return -self.problem.face_velocity(face, t, places)"}),
+    Fault("friction-ignored", "Treats a wall with friction as smooth.", "friction has no effect",
+          [LINEAR, QUADRATIC], {SLOWED: "slowed = speed"}, client="several_bodies"),
+    Fault("friction-pushes", "Adds friction in the direction of the motion.", "friction has the wrong sign",
+          LINEAR, {SLOWED: "slowed = speed + coefficient * stop"}, client="several_bodies"),
+    Fault("friction-reverses", "Keeps the direction of friction after the body has stopped.", "friction does not end at a stop",
+          [LINEAR, QUADRATIC], {"change[axis] = np.sign(velocity[:, axis]) * (slowed - speed)": "change[axis] = -coefficient * stop"},
+          client="several_bodies"),
+]
+
+BODIES = [
+    Fault("one-law", "Takes the law of the first body for all bodies.", "all bodies have one law",
+          [LINEAR, QUADRATIC], {"part.materials = [material]": "part.materials = [problem.materials[0]]"}, client="several_bodies"),
+    Fault("last-law", "Takes the law of the last body for all bodies.", "all bodies have one law",
+          LINEAR, {"part.materials = [material]": "part.materials = [problem.materials[-1]]"}, client="several_bodies"),
+    Fault("one-density", "Takes the density of the first body for all bodies.", "all bodies have one density", CUBIC,
+          {SETUP: f'part.mass = part.reference_volume * problem.materials[0]["density"]; {SETUP}'}, client="several_bodies"),
+    Fault("contact-ignored", "Ignores contact.", "bodies pass through each other", LINEAR,
+          {"part.contact = np.where(both, change, 0.0) / dt": "part.contact = 0.0"}, client="several_bodies"),
+    Fault("contact-bonded", "Gives touching bodies one velocity.", "bodies are bonded", [LINEAR, QUADRATIC],
+          {"if self.problem.contact is not None:": "if False:"}, client="several_bodies"),
+    Fault("contact-smooth", "Ignores friction between bodies.", "contact has no friction", LINEAR, {SHARE: "0.0"}, client="several_bodies"),
+    Fault("contact-rough", "Bodies in contact stick.", "friction has no limit", LINEAR, {SHARE: "1.0"}, client="several_bodies"),
+]
+
+ELEMENTS = [
+    Fault("one-point", "Integrates elements with one point, without hourglass control.", "hourglass modes have no stiffness",
+          "", {"QUADRATURE = [-1 / 3**0.5, 1 / 3**0.5]": "QUADRATURE = [0.0]"}, client="fem"),
+    Fault("strain-averaged", "Averages the deformation gradient and the stress over each element.", "hourglass modes have no stiffness",
+          "", {"self.cells = np.repeat(cells, len(points), axis=0)":
+               "self.dn_middle = np.tile(signs / 2 / sizes, (len(cells) * 4, 1, 1)); self.cells = np.repeat(cells, len(points), axis=0)",
+               "self.u[self.cells], self.dn)": "self.u[self.cells], self.dn_middle)",
+               '"p,pab,pkb->pka", self.weight, stress, self.dn)': '"p,pab,pkb->pka", self.weight, stress, self.dn_middle)'}, client="fem"),
+]
+
+
 # Fault -> names of findings that name it. Where two faults cannot be separated from outside, the text of the
 # finding lists both.
 EXPECTED = {
+    "traction-halved": "traction-halved",
+    "traction-of-the-start": "traction-of-one-time",
+    "traction-normal-only": "traction-along-normal-only",
+    "traction-ignored": "traction-missing",
+    "damping-twice": "damping-doubled",
+    "damping-of-the-start": "damping-of-one-time",
+    "damping-sign": "damping-sign",
+    "local-damping-uniform": "local-damping-differs",
+    "wall-velocity-of-the-start": "wall-velocity-missing",
+    "wall-velocity-normal-only": "wall-velocity-along-normal-only",
+    "wall-velocity-reversed": "wall-velocity-sign",
+    "friction-ignored": "friction-missing",
+    "friction-pushes": "friction-pushes",
+    "friction-reverses": "friction-reverses",
+    "one-law": "one-law-for-all-bodies",
+    "last-law": "one-law-for-all-bodies",
+    "one-density": "one-density-for-all-bodies",
+    "contact-ignored": "contact-missing",
+    "contact-bonded": "contact-pulls",
+    "contact-smooth": "friction-missing",
+    "contact-rough": "friction-differs",
+    "one-point": "hourglass-mode",
+    "strain-averaged": "hourglass-mode",
     "position-from-mean-velocity": "particles-cross-wall positions-before-velocities",
     "position-from-particle-velocity": "particles-cross-wall",
     "position-from-old-grid-velocity": "positions-before-velocities",
@@ -1412,7 +1500,8 @@ def variants(fault):
             for name, settings in zip(names, fault.settings)]
 
 
-FAMILIES = {"positions": POSITIONS, "loads": LOADS, "walls": WALLS, "affine transfer": AFFINE, "materials": MATERIALS, "soils": SOILS,
+FAMILIES = {"positions": POSITIONS, "loads": LOADS, "walls": WALLS, "loads and walls with values": SURFACES,
+            "several bodies": BODIES, "elements": ELEMENTS, "affine transfer": AFFINE, "materials": MATERIALS, "soils": SOILS,
             "initial state": INITIAL, "grid and basis": GRID, "time": TIME, "output": OUTPUT,
             "reference configuration": TOTAL_LAGRANGIAN}
 FAULTS = {fault.name: fault for family in FAMILIES.values() for each in family for fault in variants(each)}

@@ -29,6 +29,8 @@ SOURCES = {
     "numpy": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py"], "Mpm"),
     "apic": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "apic_mpm.py"], "Apic"),
     "sph": ([SOLVERS / "mpm_verify.py", SOLVERS / "lagrangian.py", SOLVERS / "sph.py"], "Sph"),
+    "several_bodies": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "several_bodies.py"], "Bodies"),
+    "fem": ([CLIENTS / "fem.py"], "Fem"),
     "total_lagrangian": ([CLIENTS / "total_lagrangian.py"], "TotalLagrangian"),
 }
 MAIN = '\nif __name__ == "__main__":\n'
