@@ -3,7 +3,7 @@
 use super::conservation::ConservationError;
 use super::convergence::{Convergence, LevelOutcome};
 use super::exclusion::leaves_too_few;
-use super::expectation::gate::{Acceptance, GateResult, Gating};
+use super::expectation::gate::{Acceptance, GateResult, Gating, rounding_remark};
 use super::expectation::limits::{Limits, Measured};
 use super::expectation::{CaseFindings, Expectation};
 use super::figure::{CaseFigure, counted};
@@ -57,6 +57,14 @@ pub fn judge_case<R: Reruns>(
     for (level, order) in levels.iter_mut().zip(&judgement.pairwise) {
         level.order = *order;
     }
+    let remarks =
+        gate.as_ref().map_or_else(Vec::new, |gate| remarks(plan, gate, &judgement, &levels));
+    if let Some(gate) = &gate {
+        for level in &mut levels {
+            let bound = gate.rounding * plan.scale.unwrap_or(1.0);
+            level.rounding_bound = level.rounding_bound.or((bound > 0.0).then_some(bound));
+        }
+    }
     let measured = measure(&levels);
     let unmet = match (plan.expectation, &gate) {
         (Some(expectation), _) => {
@@ -81,8 +89,7 @@ pub fn judge_case<R: Reruns>(
     };
     let met = gate.as_ref().and_then(|gate| gate.result.as_ref().ok()).copied();
     let cause = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
-    let remark = gate.as_ref().and_then(|gate| gate.remark.clone());
-    let reasons: Vec<String> = [Some(reason), cause, remark].into_iter().flatten().collect();
+    let reasons: Vec<String> = [Some(reason), cause].into_iter().flatten().chain(remarks).collect();
     CaseJudgement {
         verdict: met.map_or(verdict, |met| met.verdict(judgement.verdict)),
         reason: reasons.join("; "),
@@ -90,6 +97,26 @@ pub fn judge_case<R: Reruns>(
         exemption,
         study: plan.study(levels, judgement, floor, gate.as_ref()),
     }
+}
+
+/// Returns the remarks on a case that meets its requirement: the levels at rounding, an order that
+/// is far too high, and a shorter time step that restored the order.
+fn remarks(
+    plan: &JudgePlan<'_>,
+    gate: &GateResult,
+    judgement: &Judgement,
+    levels: &[LevelOutcome],
+) -> Vec<String> {
+    let counted = levels.iter().filter(|level| level.usable);
+    let errors: Vec<f64> = counted.map(|level| level.error).collect();
+    let within = errors.iter().filter(|error| **error <= gate.rounding).count();
+    let rounding = (within > 0 && gate.result.is_ok() && gate.remark.is_none())
+        .then(|| rounding_remark(gate.rounding, within, errors.len()));
+    let excess = match plan.gating {
+        Some(Gating::Required(required)) if gate.remark.is_none() => required.excess(judgement),
+        _ => None,
+    };
+    [rounding, excess, gate.remark.clone()].into_iter().flatten().collect()
 }
 
 impl JudgePlan<'_> {

@@ -82,8 +82,9 @@ pub struct LevelOutcome {
     pub error: f64,
     /// Whether the level may count for the verdict.
     pub usable: bool,
-    /// Bound on the rounding error of positions (m) in the judged norm, if a solver in single
-    /// precision is judged by its displacement.
+    /// Bound on the rounding error in the judged norm, in the unit of the judged quantity, if a
+    /// solver in single precision is judged by its displacement, or if `run --gate` has a
+    /// requirement for the case.
     pub rounding_bound: Option<f64>,
     /// Whether the displacement error (m) is smaller than `rounding_bound`.
     pub is_below_rounding: bool,

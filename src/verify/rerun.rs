@@ -113,8 +113,8 @@ pub(super) fn gate<R: Reruns>(
         _ => None,
     };
     match remark {
-        Some((met, remark)) => GateResult { result: Ok(met), remark: Some(remark) },
-        None => GateResult { result, remark: None },
+        Some((met, remark)) => GateResult { result: Ok(met), remark: Some(remark), rounding },
+        None => GateResult { result, remark: None, rounding },
     }
 }
 

@@ -226,7 +226,8 @@ pub(crate) fn json_columns<'a>() -> Vec<LevelColumn<'a>> {
         ),
         LevelColumn::json(
             "rounding_bound",
-            "bound of the rounding error of positions in single precision, in the judged norm (m)",
+            "bound of the rounding error in the judged norm, before the division by the scale of the \
+             suite, in single precision and with `run --gate`",
             |row| row.level.rounding_bound.map(number),
         ),
         LevelColumn::json("h", "cell size (m)", |row| number(row.level.h)),

@@ -19,6 +19,13 @@ use thiserror::Error;
 /// Loss of order that a typical defect causes.
 const FAULT: f64 = 0.5;
 
+/// Minimum number of levels within a bound that no `any_method` and no configuration states, if
+/// coarser levels exceed the bound.
+const FEWEST_WITHIN: usize = 2;
+
+/// Maximum excess of the observed order over the required order without a remark.
+const MOST_EXCESS: f64 = 1.0;
+
 /// Treatment of an external solver's case by `run --gate`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gating {
@@ -79,6 +86,8 @@ pub struct GateResult {
     pub result: Result<Acceptance, UnmetRequirement>,
     /// Remark that a shorter time step restored the order; `None` without such a step.
     pub remark: Option<String>,
+    /// Bound at or below which errors count as rounding errors, in the unit of the judged error.
+    pub rounding: f64,
 }
 
 impl Requirement {
@@ -133,24 +142,25 @@ impl Requirement {
         judgement: &Judgement,
         rounding: f64,
     ) -> Result<Acceptance, UnmetRequirement> {
-        if judgement.verdict == Verdict::Failed {
+        let counted: Vec<&Level> = levels.iter().filter(|level| level.usable).collect();
+        let is_complete = counted.iter().all(|level| level.error.is_finite());
+        if judgement.verdict == Verdict::Failed || !is_complete {
             return Err(UnmetRequirement("expected every level to run to its end".to_owned()));
         }
-        let counted: Vec<&Level> = levels.iter().filter(|level| level.usable).collect();
         let bound = self.bound();
         let accepted = bound.unwrap_or(0.0).max(rounding);
         let above = counted.iter().take_while(|level| !(level.error <= accepted)).count();
         let (coarse, fine) = counted.split_at(above);
-        let ends_within = !fine.is_empty() && fine.iter().all(|level| level.error <= accepted);
+        let is_stated = self.error_below.is_some_and(|bound| fine.iter().all(|l| l.error <= bound));
+        let fewest = if is_stated || above == 0 { 1 } else { FEWEST_WITHIN };
+        let ends_within = fine.len() >= fewest && fine.iter().all(|level| level.error <= accepted);
         let is_met = ends_within
             && match above {
                 0 => true,
                 // If there are too few coarse levels for an order, their errors may be
                 // pre-asymptotic. Without a bound, these errors must decrease down to the rounding
                 // error.
-                1..FEWEST_LEVELS => {
-                    bound.is_some() || coarse.windows(2).all(|pair| pair[1].error <= pair[0].error)
-                }
+                1..FEWEST_LEVELS => bound.is_some() || self.falls(coarse),
                 _ => {
                     let coarse: Vec<Level> = coarse.iter().map(|level| (*level).clone()).collect();
                     self.has_order(&judge(&coarse, &self.hypothesis(axis)))
@@ -160,10 +170,40 @@ impl Requirement {
             let is_rounding = counted.iter().all(|level| level.error <= rounding);
             return Ok(if is_rounding { Acceptance::Rounding } else { Acceptance::Bound });
         }
-        if self.has_order(judgement) {
+        let ends = counted.first().zip(counted.last());
+        if ends.is_some_and(|(first, last)| last.error < first.error) && self.has_order(judgement) {
             return Ok(Acceptance::Order);
         }
-        Err(UnmetRequirement(self.unmet(judgement, &counted)))
+        let mut unmet = self.unmet(judgement, &counted);
+        let within = counted.iter().filter(|level| level.error <= rounding).count();
+        if within > 0 {
+            unmet += &format!("; {}", rounding_remark(rounding, within, counted.len()));
+        }
+        Err(UnmetRequirement(unmet))
+    }
+
+    /// Whether the errors of levels decrease from level to level, in total with about the lowest
+    /// accepted order.
+    fn falls(&self, levels: &[&Level]) -> bool {
+        let (Some(lowest), [first, .., last]) = (self.lowest_low(), levels) else {
+            return levels.len() == 1;
+        };
+        let is_steady = levels.windows(2).all(|pair| pair[1].error < pair[0].error);
+        is_steady && first.error / last.error >= libm::pow(first.h / last.h, lowest)
+    }
+
+    /// Returns a remark if the whole interval of the order lies more than 1 above the required
+    /// order.
+    pub(crate) fn excess(&self, judgement: &Judgement) -> Option<String> {
+        let (required, order) = (self.order?, judgement.order?);
+        let is_far = order.low > required + MOST_EXCESS;
+        let required = format_number(required);
+        is_far.then(|| {
+            format!(
+                "the observed order is more than {MOST_EXCESS} above the required order {required}; \
+                 the gate accepts this, but it is no evidence of that order"
+            )
+        })
     }
 
     pub(crate) fn hypothesis(&self, axis: Axis) -> OrderHypothesis {
@@ -176,7 +216,12 @@ impl Requirement {
         use Verdict::{Converging, PreAsymptotic, TooGood, TooLow};
         let (Some(lowest), Some(order)) = (self.lowest(), judgement.order) else { return false };
         let falls = matches!(judgement.verdict, Converging | TooGood | PreAsymptotic | TooLow);
-        falls && order.high >= lowest && order.low >= (lowest - FAULT).max(0.5 * lowest)
+        falls && order.high >= lowest && self.lowest_low().is_some_and(|low| order.low >= low)
+    }
+
+    /// Returns the minimum of the lower end of the interval of the order.
+    fn lowest_low(&self) -> Option<f64> {
+        self.lowest().map(|lowest| (lowest - FAULT).max(0.5 * lowest))
     }
 
     fn unmet(&self, judgement: &Judgement, counted: &[&Level]) -> String {
@@ -191,6 +236,12 @@ impl Requirement {
         };
         format!("expected {}, got {observed}", self.summary())
     }
+}
+
+/// Describes the rounding bound and the number of levels within it.
+pub(crate) fn rounding_remark(bound: f64, within: usize, levels: usize) -> String {
+    let bound = rounded(bound, 2);
+    format!("errors at most {bound:e} count as rounding: {within} of {levels} levels")
 }
 
 #[cfg(test)]
@@ -252,6 +303,9 @@ mod tests {
     #[case::rounding(&[1e-15, 3e-15, 9e-15, 1e-14], Some(Acceptance::Rounding))]
     #[case::rounding_that_grows_above(&[1e-15, 3e-15, 9e-15, 1e-12], None)]
     #[case::exact(&[0.0, 0.0, 0.0, 0.0], Some(Acceptance::Rounding))]
+    #[case::rounding_on_the_last_level(&[0.9, 0.8, 0.7, 1e-15], None)]
+    #[case::zero_on_the_last_level(&[0.9, 0.8, 0.7, 0.0], None)]
+    #[case::coarse_levels_without_an_order(&[0.9, 0.8, 1e-15, 1e-15], None)]
     #[case::rounding_on_fine_levels(&[1e-12, 1e-13, 1e-14, 5e-15], Some(Acceptance::Bound))]
     #[case::a_rise_before_it(&[1e-12, 1e-9, 1e-14, 5e-15], None)]
     #[case::not_a_number(&[1e-15, f64::NAN, 1e-15, 1e-15], None)]

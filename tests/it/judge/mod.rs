@@ -1,6 +1,7 @@
 //! The whole judge, tested on series with known verdicts.
 
 mod coverage;
+mod gate;
 mod limits;
 mod pitfalls;
 mod properties;
