@@ -1,7 +1,7 @@
 //! Writes VTK files in XML format for ParaView: points and grids with data, and time series of such
-//! files (VTK File Formats, "XML File Formats"). Numbers are appended as raw bytes, because text
-//! readers stop at the first NaN. The existing VTK crate is not used, because it depends on parsers
-//! that future Rust versions will reject.
+//! files (VTK File Formats, "XML File Formats"). Numbers are appended in base64, because text
+//! readers stop at the first NaN, and a file with raw bytes is not XML. The existing VTK crate is
+//! not used, because it depends on parsers that future Rust versions will reject.
 
 use crate::subject::StateField;
 use std::fmt::Write;
@@ -92,7 +92,7 @@ fn head(kind: &str, attributes: &str) -> String {
 #[derive(Default)]
 struct VtkFile {
     xml: String,
-    appended: Vec<u8>,
+    appended: String,
 }
 
 impl VtkFile {
@@ -130,14 +130,29 @@ impl VtkFile {
             "<DataArray Name=\"{name}\" type=\"{kind}\" NumberOfComponents=\"{components}\" \
              format=\"appended\" offset=\"{offset}\"/>"
         );
-        self.appended.extend((bytes.len() as u64).to_le_bytes());
-        self.appended.extend(bytes);
+        let length = (bytes.len() as u64).to_le_bytes();
+        self.appended += &base64(&[&length[..], &bytes].concat());
     }
 
     fn written(self, kind: &str, attributes: &str) -> Vec<u8> {
         let xml = head(kind, attributes) + &self.xml;
-        let tail = format!("</{kind}>\n<AppendedData encoding=\"raw\">\n_");
+        let tail = format!("</{kind}>\n<AppendedData encoding=\"base64\">\n_");
         let end = "\n</AppendedData>\n</VTKFile>\n";
-        [xml.as_bytes(), tail.as_bytes(), &self.appended, end.as_bytes()].concat()
+        [xml, tail, self.appended, end.to_owned()].concat().into_bytes()
     }
+}
+
+/// Encodes bytes in base64 with padding (RFC 4648, section 4).
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let byte = |k: usize| u32::from(group.get(k).copied().unwrap_or(0));
+        let number = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for k in 0..4 {
+            let digit = char::from(DIGITS[(number >> (18 - 6 * k)) as usize & 63]);
+            text.push(if k <= group.len() { digit } else { '=' });
+        }
+    }
+    text
 }

@@ -262,6 +262,7 @@ class Session:
 
     solver: Solver
     channel: Channel
+    has_points: bool = False  # whether states are given at points of the solver
 
     def answer(self, request: Message) -> Message:
         """The answer of the solver to a request."""
@@ -276,6 +277,7 @@ class Session:
         if request["type"] == "problem":
             problem = Problem(request, self.channel)
             points = solver.setup(problem)
+            self.has_points = points is not None
             if points is None:
                 return {"type": "ready"}
             points = {key: np.asarray(value, float) for key, value in points.items()}
@@ -308,4 +310,7 @@ def serve(solver: Solver) -> None:
         except Exception as error:
             traceback.print_exc()
             line = " ".join(f"{type(error).__name__}: {error}".split())
+            if "broadcast" in line and session.has_points:
+                line += (" (`setup` has returned points: without `places`, values are given at these"
+                         " points; pass `places=problem.reference_position` for the particles)")
             channel.write({"type": "failed", "reason": line})

@@ -16,7 +16,9 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 pub(super) struct EstimateArgs {
     /// File with a spacing and a value on each line, separated by spaces, a tab, a comma or a
-    /// semicolon; a heading and comments (`#`) are allowed. Default, or `-`: standard input
+    /// semicolon; a heading and comments (`#`) are allowed. With the heading `cells`, the first
+    /// number is the number of cells, and the spacing is its inverse. Default, or `-`: standard
+    /// input
     #[arg(value_name = "FILE")]
     file: Option<PathBuf>,
     #[command(flatten)]
@@ -72,6 +74,8 @@ struct InputLine {
 fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     let mut lines: Vec<InputLine> = Vec::new();
     let mut is_first = true;
+    // Whether the heading names the first column as a number of cells, not as a spacing.
+    let mut is_count = false;
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         let content = line.split('#').next().unwrap_or_default();
@@ -83,6 +87,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
         let is_heading = std::mem::take(&mut is_first)
             && fields.iter().all(|field| text[field.clone()].parse::<f64>().is_err());
         if is_heading {
+            let name = text[fields[0].clone()].to_lowercase();
+            is_count = ["cells", "elements", "n"].contains(&name.as_str());
             continue;
         }
         let at = |range: &Range<usize>, message: &str| {
@@ -110,6 +116,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
         if h <= 0.0 {
             return Err(at(spacing, "expected a positive spacing"));
         }
+        let h = if is_count { h.recip() } else { h };
         if let Some(other) = lines.iter().find(|other| other.point.h == h) {
             let first = text[..other.spacing.start].matches('\n').count() + 1;
             return Err(at(spacing, &format!("line {first} has the same spacing")));
@@ -137,6 +144,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');
     let range = |part: &str| {
+        let is_quoted = |q| part.len() > 1 && part.starts_with(q) && part.ends_with(q);
+        let part = if is_quoted('"') || is_quoted('\'') { &part[1..part.len() - 1] } else { part };
         let offset = part.as_ptr() as usize - line.as_ptr() as usize;
         start + offset..start + offset + part.len()
     };
@@ -245,6 +254,9 @@ mod tests {
     #[case::tabs("h\tu\n1\t4\n0.5\t2")]
     #[case::csv("h, u\n1,4\n 0.5 , 2\n")]
     #[case::semicolons("1;4\n\n0.5;2\n")]
+    #[case::quotes("\"h\",\"u\"\n\"1\",\"4\"\n'0.5','2'\n")]
+    #[case::cells("cells,u\n1,4\n2,2\n")]
+    #[case::elements("\"Elements\" u\n1 4\n2 2\n")]
     #[case::comments("# a bar\n1 4 # coarse\r\n0.5 2\r\n")]
     fn formats_of_a_series(#[case] text: &str) {
         let lines = parse("a", text).unwrap();

@@ -25,7 +25,9 @@ pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>) -> String {
         }
         report.add_test_suite(suite);
     }
-    report.to_string().expect("memory is written to")
+    let text = report.to_string().expect("memory is written to");
+    // XML 1.0 forbids these two characters. Control characters are already removed.
+    text.replace(['\u{fffe}', '\u{ffff}'], "\u{fffd}")
 }
 
 fn status(case: &CaseOutcome, is_required: bool) -> TestCaseStatus {

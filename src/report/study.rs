@@ -89,7 +89,8 @@ fn remarks(study: &Convergence) -> Vec<String> {
     };
     let failures = study.levels.iter().filter_map(failure);
     let floor = study.floor.iter().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
-    too_long.into_iter().chain(failures).chain(floor).collect()
+    let gate = study.remarks.iter().cloned();
+    too_long.into_iter().chain(failures).chain(floor).chain(gate).collect()
 }
 
 fn judge(study: &Convergence) -> Value {

@@ -89,13 +89,14 @@ pub fn judge_case<R: Reruns>(
     };
     let met = gate.as_ref().and_then(|gate| gate.result.as_ref().ok()).copied();
     let cause = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
-    let reasons: Vec<String> = [Some(reason), cause].into_iter().flatten().chain(remarks).collect();
+    let reasons: Vec<String> =
+        [Some(reason), cause].into_iter().flatten().chain(remarks.clone()).collect();
     CaseJudgement {
         verdict: met.map_or(verdict, |met| met.verdict(judgement.verdict)),
         reason: reasons.join("; "),
         unmet,
         exemption,
-        study: plan.study(levels, judgement, floor, gate.as_ref()),
+        study: Convergence { remarks, ..plan.study(levels, judgement, floor, gate.as_ref()) },
     }
 }
 
@@ -153,6 +154,7 @@ impl JudgePlan<'_> {
                 || accepted.is_some_and(|accepted| accepted != Acceptance::Order)
                 || gate.is_some_and(|gate| gate.remark.is_some()),
             accepted,
+            remarks: Vec::new(),
             drifts: limits.map_or_else(|| self.sums.clone(), Limits::drifts),
             rated: limits.is_some_and(|limits| limits.energy_rate.is_some()),
             judgement,

@@ -45,6 +45,9 @@ pub struct Convergence {
     pub bounded: bool,
     /// Reason why an external solver meets the requirement of `run --gate`, if it does.
     pub accepted: Option<Acceptance>,
+    /// Remarks of `run --gate`: the rounding bound, an order far above the required one, and a
+    /// shorter time step that restored the order.
+    pub remarks: Vec<String>,
     /// Conserved sums with a reported drift.
     pub drifts: Vec<Conserved>,
     /// Whether the energy rate is reported.
@@ -236,6 +239,7 @@ pub(in crate::verify) mod tests {
             steps: StepKind::Time,
             bounded: false,
             accepted: None,
+            remarks: Vec::new(),
             drifts: Vec::new(),
             rated: false,
             judgement: judge(&levels, &OrderHypothesis::formal(2.0)),

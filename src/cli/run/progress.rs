@@ -133,7 +133,8 @@ fn time_left(seconds: f64, done: f64, all: f64) -> Option<String> {
 
 /// Describes how to resume the interrupted run. `kept` is true if finished levels are stored.
 pub(super) fn interrupt_note(kept: bool) -> String {
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let words: Vec<String> = words.collect();
     note_of(&words, kept)
 }
 

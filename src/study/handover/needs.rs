@@ -25,6 +25,9 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         ..of_scene(&plan.scene)
     };
     let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];
+    if plan.refine.levels.iter().any(|level| level.ppc.is_none()) {
+        needs.beyond.push("levels without particles (`refine` states no `ppc`)");
+    }
     if plan.of.sum_need().is_some_and(|need| energy_or_wall.contains(&need)) {
         needs.beyond.push("the judged energy or reaction");
     }

@@ -11,6 +11,7 @@ use crate::mpm::BasisName;
 use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::ConvergencePlan;
+use crate::suite::model::SceneFace;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::scene::{grid_axis, per_axis};
@@ -86,7 +87,16 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
                 level.cells
             );
             let found = preflight.finding(Severity::Warning, &preflight.motion(), &message);
-            let help = "state a larger `grid` in `scene`, or a smaller motion";
+            // A body with a condition on a face must end where the grid ends.
+            let is_beyond = |face: &SceneFace| {
+                face.axis == axis && if face.high { high > end + room } else { low < start - room }
+            };
+            let is_held = scene.faces.iter().any(|face| is_beyond(face) && !face.hold.is_free());
+            let help = if is_held {
+                "state a smaller motion: the grid must end at a face that has a condition"
+            } else {
+                "state a larger `grid` in `scene`, or a smaller motion"
+            };
             return vec![found.with_help(help)];
         }
     }

@@ -140,6 +140,9 @@ impl<'a> Fault<'a> {
         let valid: Vec<&str> = valid.split('`').skip(1).step_by(2).collect();
         let help = match nearest(name, valid.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
+            _ if name.bytes().all(|c| c.is_ascii_digit()) => {
+                "a comma separates entries; write numbers with a decimal point: `0.5`".to_owned()
+            }
             None if valid.is_empty() => format!("no {kind} is possible here"),
             None => format!("possible {kind}s: {}", listed(&valid)),
         };

@@ -220,13 +220,19 @@ fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
         '\t' | '\n' => false,
         '\r' => !text[at + 1..].starts_with('\n'),
         '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => true,
+        // A space that YAML does not recognise joins a key to its value.
+        '\u{a0}' | '\u{2007}' | '\u{202f}' | '\u{3000}' => {
+            let before = text[..*at].rsplit('\n').next().unwrap_or_default();
+            before.trim().is_empty() || before.ends_with([':', '-'])
+        }
+        '\u{ad}' | '\u{200b}' | '\u{2060}' => true,
         c => c.is_control(),
     });
     let Some((at, c)) = bad else { return Ok(()) };
     let message = format!("character U+{:04X} is not allowed", u32::from(c));
     Err(Diagnostic::at(name, text, at..at + c.len_utf8(), &message)
         .with_label("an invisible character")
-        .with_help("delete it"))
+        .with_help(if c.is_whitespace() { "replace it by a space" } else { "delete it" }))
 }
 
 fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {

@@ -59,7 +59,8 @@ impl Reason {
         match self {
             Self::Failed(diagnostic) => diagnostic.clone(),
             Self::TooFew { usable } => {
-                format!("{usable} usable levels, but an order needs {FEWEST_LEVELS}")
+                let noun = if *usable == 1 { "level" } else { "levels" };
+                format!("{usable} usable {noun}, but an order needs {FEWEST_LEVELS}")
             }
             Self::Oscillatory => oscillation(levels),
             Self::Divergent { from, to } => {

@@ -77,6 +77,7 @@ fn with_any_method(text: &str, keys: &str) -> String {
 #[case::no_order("0.1", FAILED, "FAIL")]
 #[case::rounding("1e-16", SOUND, "at rounding")]
 #[case::nothing("0", SOUND, "at rounding")]
+#[case::rounding_on_the_last_level("(h < 0.1 ? 1e-16 : 0.5 + 1.6*h)", FAILED, "FAIL")]
 fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] words: &str) {
     let folder = folder(error);
     let found = gate(&folder, &["bar.yaml"], &[]);
@@ -85,6 +86,9 @@ fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] w
     // A case that passes must not count as an expected failure.
     let report = folder.call(&["run", "--gate", "--solver", "sh solver.sh", "bar.yaml"]);
     assert_eq!(report.out.contains("1 case as expected\n"), code == SOUND, "{}", report.out);
+    let is_at_rounding = error.contains("1e-16") || error == "0";
+    assert_eq!(report.out.contains("count as rounding"), is_at_rounding, "{}", report.out);
+    assert_eq!(report.out.contains("no evidence"), error == "h*h*h*h", "{}", report.out);
 }
 
 /// Errors below the rounding bound determine no order. An error above the bound is judged, even in

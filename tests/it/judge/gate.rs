@@ -28,7 +28,7 @@ fn kind() -> impl Strategy<Value = Kind> {
     };
     let kinds =
         [Constant, Random, Growing, SlowFall, RoundingOnTheLastLevel, NotANumber, ZeroSomewhere];
-    prop::sample::select(&kinds[..])
+    prop::sample::select(kinds.to_vec())
 }
 
 /// Creates four to nine errors of this kind, of any magnitude above rounding.
@@ -86,7 +86,7 @@ proptest! {
 
     #[test]
     fn growing_errors_and_failed_levels_never_pass_for_any_interval(
-        kind in prop::sample::select(&[Kind::Constant, Kind::Growing, Kind::NotANumber][..]),
+        kind in prop::sample::select(vec![Kind::Constant, Kind::Growing, Kind::NotANumber]),
         seed in 1_u64..u64::MAX,
         low in -20.0..50.0_f64,
         width in 0.0..50.0_f64,
