@@ -86,7 +86,24 @@ def total_lagrangian_configurations():
                                 not suffix and (domain, grid) == ("particle", "body") and scheme != "euler")
     for scheme, steps in itertools.product(["leapfrog", "verlet", "euler"], "235"):
         yield Configuration("total Lagrangian GIMP", f"total-{scheme}-substeps-{steps}",
-                            [*client, "--scheme", scheme, "--substeps", steps], scheme != "euler")
+                            [*client, "--scheme", scheme, "--parts", steps], scheme != "euler")
+
+
+def substep_configurations():
+    for basis, scheme, start, steps in itertools.product(BASES, SCHEMES, STARTS, ["2", "3", "5"]):
+        options = ["--substeps", steps, "--basis", basis, "--scheme", scheme, "--start", start]
+        yield Configuration("NumPy client with sub-steps", f"substeps-{steps}-{basis}-{scheme}-{start}",
+                            [*VARIANT, *options], start == "half_step_back")
+    for start, steps in itertools.product(STARTS, ["4", "10", "2,3,5", "0.3+0.7"]):
+        yield Configuration("NumPy client with sub-steps", f"substeps-{steps}-quadratic_bspline-usl-{start}",
+                            [*VARIANT, "--substeps", steps, "--basis", BASES[1], "--start", start], False)
+    for basis, start, steps in itertools.product(BASES[1:], STARTS, ["2", "3", "5"]):
+        options = ["--substeps", steps, "--basis", basis, "--start", start]
+        yield Configuration("APIC client with sub-steps", f"apic-substeps-{steps}-{basis}-{start}",
+                            [*VARIANT, "--client", "apic", *options], start == "half_step_back")
+    for flip, steps in itertools.product(BLENDS[1:], ["2", "3"]):
+        yield Configuration("NumPy client with sub-steps", f"substeps-{steps}-quadratic_bspline-usl-flip-{flip}",
+                            [*VARIANT, "--substeps", steps, "--basis", BASES[1], "--flip", str(flip)], False)
 
 
 def cpp_configurations():
@@ -114,6 +131,7 @@ CONFIGURATIONS = [
     *shifted_configurations(),
     *sph_configurations(),
     *total_lagrangian_configurations(),
+    *substep_configurations(),
     *cpp_configurations(),
     Configuration("Fortran client", "fortran", ["{fortran}"], False),
 ]

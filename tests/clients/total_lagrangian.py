@@ -1,6 +1,6 @@
 """A total Lagrangian GIMP in one to three dimensions, in NumPy: a solver that shares no code with examples/solvers.
 
-    mpm-verify run SUITE --solver 'python3 tests/clients/total_lagrangian.py --scheme verlet --substeps 3'
+    mpm-verify run SUITE --solver 'python3 tests/clients/total_lagrangian.py --scheme verlet --parts 3'
 
 The functions are those of Bardenhagen & Kober (2004), integrated over the particle domains of the reference
 configuration once, as in de Vaucorbeil, Nguyen & Hutchinson (2020), Comput. Methods Appl. Mech. Eng. 360. Particles
@@ -270,7 +270,7 @@ if __name__ == "__main__":
     parser.add_argument("--grid", choices=["body", "problem"], default="body", help="where nodes are placed")
     parser.add_argument("--scheme", choices=["leapfrog", "verlet", "euler"], default="leapfrog",
                         help="the symplectic Euler method uses the velocity of t = 0 as that of -dt/2")
-    parser.add_argument("--substeps", type=int, default=1, help="for each step that is requested")
+    parser.add_argument("--parts", dest="substeps", type=int, default=1, help="steps for each step that is requested")
     parser.add_argument("--offset", type=float, default=0.0, help="added to all positions that the solver holds (m)")
     parser.add_argument("--sample", type=int, default=1, help="states at every particle with this stride")
     serve(TotalLagrangian(**vars(parser.parse_args())))

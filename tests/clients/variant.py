@@ -1,10 +1,12 @@
 """Runs a Python client with a fault of `faults.py`, or with its states given at other points.
 
-    python3 tests/clients/variant.py [--client NAME] [--fault NAME] [--points KIND] OPTION ...
+    python3 tests/clients/variant.py [--client NAME] [--fault NAME] [--points KIND] [--substeps K] OPTION ...
 
 The remaining options are those of the client. `--points particles` names the particles' reference positions as
 points, `--points shuffled` the same in a random order, and `--points nodes` the mesh nodes in the body.
 `--laws` restricts the laws, and `--shift` moves the positions that the NumPy client holds.
+`--substeps 3` takes three steps of dt/3 for each step, `--substeps 2,3,5` these numbers of steps in turn, and
+`--substeps 0.3+0.7` steps of 0.3 dt and 0.7 dt.
 """
 
 from __future__ import annotations
@@ -125,6 +127,7 @@ class AtNodes:
         share = share[share.sum(axis=1) > 1e-9 * volume.max()]
         weight = share.sum(axis=1)
         self.share = share / weight[:, None]
+        weight = getattr(super(), "point_weights", lambda weight, _: weight)(weight, problem)
         ask_at(problem, problem.reference_position)
         super().setup(problem)
         return {"reference_position": self.share @ problem.reference_position, "weight": weight}
@@ -152,6 +155,25 @@ class Offset:
         return {**super().state(), "displacement": self.x - (self.problem.reference_position + self.offset)}
 
 
+class SubSteps:
+    """Several shorter steps for each step: `plan` has the shares of dt for one or more steps, which alternate."""
+
+    plan, taken = [[1.0]], 0
+
+    def step(self, dt, time):
+        for share in self.plan[self.taken % len(self.plan)]:
+            super().step(share * dt, time)
+            time += share * dt
+        self.taken += 1
+
+
+def shares_of(text):
+    """Shares of dt for each step, from the value of `--substeps`."""
+    if "+" in text:
+        return [[float(share) for share in text.split("+")]]
+    return [[1 / int(count)] * int(count) for count in text.split(",")]
+
+
 POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
 
 
@@ -163,6 +185,7 @@ def parse(words):
     parser.add_argument("--points", choices=POINTS)
     parser.add_argument("--laws", nargs="+", metavar="LAW", help="the only laws that the client declares")
     parser.add_argument("--shift", type=float, help="offset of the positions that the NumPy client holds (m)")
+    parser.add_argument("--substeps", type=shares_of)
     return parser.parse_known_args(words)
 
 
@@ -188,6 +211,8 @@ def main():
     if arguments.points:
         bases = (POINTS[arguments.points], module.__dict__[name])
         module.__dict__[name] = type(name, bases, {})
+    if arguments.substeps:
+        module.__dict__[name] = type(name, (SubSteps, module.__dict__[name]), {"plan": arguments.substeps})
     sys.argv[1:] = rest
     exec(program, module.__dict__)
 

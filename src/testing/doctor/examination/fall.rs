@@ -2,12 +2,12 @@
 
 use crate::subject::Precision;
 use crate::testing::doctor::course::{
-    Course, displacement, line, minus, shown, shown_vector, size, times, velocity,
+    Course, Field, displacement, line, minus, shown, shown_vector, size, times, velocity,
 };
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene};
+use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
@@ -26,13 +26,7 @@ const GRAVITY: f64 = 3.7;
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
-        let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
-        let mut gravity = vec![0.0; kind.0];
-        gravity[kind.0 - 1] = -GRAVITY;
-        scene.gravity = Some(gravity);
-        BoxScene { steps: 40, dt: 0.01, ..scene }
-    })?;
+    let scene = patient.able(&[2, 3, 1], &ANY, &scene)?;
     let course = patient.run(&scene)?;
     let mut g = [0.0; 3];
     g[scene.dimension - 1] = -GRAVITY;
@@ -46,12 +40,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown_vector(times(end, g), d),
         shown_vector(times(0.5 * end * end, g), d)
     );
-    let mut findings: Vec<SolverFinding> = of_speed(patient, &course, g).into_iter().collect();
-    // Positions are examined only if the velocities have no defect, because wrong velocities cause
-    // wrong positions.
-    if findings.iter().all(|finding| finding.weight == FindingWeight::Remark) {
-        findings.extend(of_distance(patient, &course, g));
-    }
+    let finding = of_force(patient, &course, g).or_else(|| of_times(patient, &course, g));
+    let findings: Vec<SolverFinding> = finding.into_iter().collect();
     if findings.is_empty()
         && let Some(failure) = course.failure
     {
@@ -60,8 +50,25 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, findings))
 }
 
-/// Returns a finding if the velocities differ from g t.
-fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+fn scene(kind: Kind) -> BoxScene {
+    let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
+    let mut gravity = vec![0.0; kind.0];
+    gravity[kind.0 - 1] = -GRAVITY;
+    scene.gravity = Some(gravity);
+    BoxScene { steps: 40, dt: 0.01, ..scene }
+}
+
+/// Whether the solver takes several shorter steps for each step. `false` for solvers without
+/// gravity.
+pub(super) fn divides_steps(patient: &Patient<'_>) -> bool {
+    let course = patient.able(&[2, 3, 1], &ANY, &scene).and_then(|scene| patient.run(&scene));
+    course.is_ok_and(|course| {
+        course.last() > 1 && FallTimes::new(&course, -GRAVITY).is_of_shorter_steps()
+    })
+}
+
+/// Returns a finding if the acceleration differs from g, or velocities have few digits.
+fn of_force(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let end = course.times[last];
     let off = |k: usize| course.farthest(velocity, k, times(course.times[k], g));
@@ -88,7 +95,7 @@ fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     }
     let axis = d - 1;
     let along: Vec<f64> = (1..=last).map(|k| course.mean(velocity, k)[axis]).collect();
-    let (start, slope, _) = line(&course.times[1..], &along);
+    let (_, slope, _) = line(&course.times[1..], &along);
     let factor = slope / g[axis];
     let across = size(minus(v, std::array::from_fn(|i| if i == axis { v[i] } else { 0.0 })));
     if across > NEAR * GRAVITY * end {
@@ -111,30 +118,189 @@ fn of_speed(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
              force, once and with the sign of the problem",
         ));
     }
-    let steps = start / (g[axis] * course.problem.dt);
-    let seen = format!(
-        "the measured velocity is v = g (t {}{} dt), expected v = g t",
-        if steps < 0.0 { "- " } else { "+ " },
-        shown(steps.abs())
-    );
-    Some(if (steps + 0.5).abs() <= NEAR {
-        SolverFinding::remark(
-            "velocity-half-a-step-behind",
-            seen,
-            "the scheme is a leapfrog: the reported velocities belong to a time half a step before \
-             the reported positions",
-            "the velocities in `state`. Suites that judge velocities will show order 1 in dt. The \
-             mean of two successive velocities belongs to the time of the positions",
-        )
-    } else {
-        SolverFinding::defect(
-            "velocity-of-another-time",
-            seen,
-            "the reported velocities belong neither to the time after the step, nor to half a step \
-             before this time as in a leapfrog",
-            "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the number \
-             of steps; the variable from which the answer takes velocities",
-        )
+    None
+}
+
+/// Times to which the velocities and positions of a falling body belong, in steps.
+struct FallTimes {
+    /// Smallest and largest l of the velocities `g (t - l dt)`.
+    lag: [f64; 2],
+    /// Smallest and largest q of the steps: each step moves the body by `v dt + (1 + q) g dt^2/2`,
+    /// with the velocity v before the step. Shorter steps of the lengths `f dt` give the sum of all
+    /// f^2.
+    share: [f64; 2],
+}
+
+impl FallTimes {
+    fn new(course: &Course, g: f64) -> Self {
+        let (axis, dt) = (course.problem.dimension - 1, course.problem.dt);
+        let at = |field: Field, k: usize| course.mean(field, k)[axis];
+        let range = |all: &dyn Fn(usize) -> f64, end: usize| {
+            (1..end).map(all).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            })
+        };
+        let lag = |k: usize| (course.times[k] - at(velocity, k) / g) / dt;
+        let share = |k: usize| {
+            let moved = at(displacement, k + 1) - at(displacement, k);
+            (moved - at(velocity, k) * dt) / (0.5 * g * dt * dt) - 1.0
+        };
+        Self { lag: range(&lag, course.last() + 1), share: range(&share, course.last()) }
+    }
+
+    fn has_lag(&self, lag: f64) -> bool {
+        self.lag.iter().all(|l| (l - lag).abs() <= NEAR)
+    }
+
+    fn has_share(&self, share: f64) -> bool {
+        self.share.iter().all(|q| (q - share).abs() <= 0.1)
+    }
+
+    fn has_lag_of_scheme(&self) -> bool {
+        self.has_lag(0.0) || self.has_lag(0.5)
+    }
+
+    /// Whether positions and velocities are those of shorter steps, with velocities at most half a
+    /// shorter step early.
+    fn is_of_shorter_steps(&self) -> bool {
+        let [[lag, most_lag], [share, most_share]] = [self.lag, self.share];
+        let is_lag = lag >= -NEAR && most_lag <= 0.5 * most_share.sqrt() + NEAR;
+        share > NEAR && most_share < 0.98 && is_lag
+    }
+
+    /// Number of equal steps that the solver takes for each step, or `None` if the steps differ.
+    fn count(&self) -> Option<f64> {
+        let count = libm::round(1.0 / self.share[1].abs());
+        let equal = self.share.iter().all(|q| (q.abs() * count - 1.0).abs() <= NEAR);
+        equal.then_some(count)
+    }
+}
+
+/// A rule for the times of a fall. The first rule whose condition holds gives the finding.
+struct FallRule {
+    holds: fn(&FallTimes) -> bool,
+    weight: FindingWeight,
+    name: &'static str,
+    cause: &'static str,
+    look_at: &'static str,
+}
+
+const RULES: [FallRule; 8] = [
+    FallRule {
+        holds: |fall| fall.has_lag(0.0) && fall.has_share(1.0),
+        weight: FindingWeight::Remark,
+        name: "start-half-a-step-off",
+        cause: "each step updates velocities first and then positions, but the run starts with the \
+                velocity at t = 0 instead of -dt/2. The velocities that move particles are then \
+                too large by a dt/2 (a: acceleration), which lowers the order in time by one",
+        look_at: "the start of the run: subtract dt/2 times the initial acceleration from the \
+                  velocity before the first step. Suites then show the order in time of the scheme",
+    },
+    FallRule {
+        holds: |fall| fall.has_lag(0.5) && fall.has_share(1.0),
+        weight: FindingWeight::Remark,
+        name: "velocity-half-a-step-behind",
+        cause: "the scheme is a leapfrog: the reported velocities belong to a time half a step \
+                before the reported positions",
+        look_at: "the velocities in `state`. Suites that judge velocities will show order 1 in dt. \
+                  The mean of two successive velocities belongs to the time of the positions",
+    },
+    FallRule {
+        holds: FallTimes::is_of_shorter_steps,
+        weight: FindingWeight::Remark,
+        name: "steps-are-divided",
+        cause: "the solver takes several shorter steps for each requested step. A single step that \
+                moves particles by a weighted mean of the old and the new velocity gives the same \
+                values",
+        look_at: "time step control of the solver. The order in time is that of the shorter steps, \
+                  if their number does not change with dt",
+    },
+    FallRule {
+        holds: |fall| fall.has_lag(0.5) && fall.has_share(0.0),
+        weight: FindingWeight::Defect,
+        name: "positions-from-mean-velocity",
+        cause: "each step moves the body by the mean of the reported velocities before and after \
+                the step. Both are half a step early, so positions are half a step behind",
+        look_at: "the velocity that moves particles: the new velocity of the grid, not a mean with \
+                  the old velocity of the particle",
+    },
+    FallRule {
+        holds: |fall| fall.has_lag_of_scheme() && fall.has_share(-1.0),
+        weight: FindingWeight::Defect,
+        name: "positions-before-velocities",
+        cause: "positions are updated with the velocity before the step. This has order 1 in time \
+                (forward Euler, if strains use this velocity too)",
+        look_at: "the order of the updates: first velocities, then positions with the new \
+                  velocities",
+    },
+    FallRule {
+        holds: |fall| fall.has_lag(0.5) && fall.has_share(2.0),
+        weight: FindingWeight::Remark,
+        name: "velocity-half-a-step-behind",
+        cause: "the reported velocities belong to a time half a step before the end of the step, \
+                for example as means of the velocities before and after the step. Positions move \
+                with the later velocity, so the scheme is not a leapfrog",
+        look_at: "the velocities in `state`, and the velocity at the start of the run: the \
+                  positions are those of a run that starts with the velocity at t = 0 instead of \
+                  -dt/2",
+    },
+    FallRule {
+        holds: |fall| {
+            let is_in_step = fall.lag[0] >= -NEAR && fall.lag[1] <= 0.5 + NEAR;
+            !is_in_step || (fall.has_share(1.0) && !fall.has_lag_of_scheme())
+        },
+        weight: FindingWeight::Defect,
+        name: "velocity-of-another-time",
+        cause: "the reported velocities belong neither to the time after the step, nor to half a \
+                step before this time as in a leapfrog",
+        look_at: "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the \
+                  number of steps; the variable from which the answer takes velocities",
+    },
+    FallRule {
+        holds: |_| true,
+        weight: FindingWeight::Defect,
+        name: "way-not-of-velocities",
+        cause: "the reported positions do not follow from the reported velocities",
+        look_at: "the velocity that moves particles, which must include gravity exactly once",
+    },
+];
+
+/// Returns a finding if the acceleration is g, but velocities or positions belong to other times.
+fn of_times(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+    let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
+    let (end, g) = (course.times[last], g[axis]);
+    let late = (course.mean(velocity, last)[axis] / g - end) / dt;
+    let ahead = (course.mean(displacement, last)[axis] / g - 0.5 * end * end) / (0.5 * end * dt);
+    if late.abs().max(ahead.abs()) * dt / end <= patient.rounding() {
+        return None;
+    }
+    let fall = FallTimes::new(course, g);
+    let term = |x: f64, unit: &str| {
+        let sign = if x < 0.0 { "-" } else { "+" };
+        let is_zero = x.abs() * dt / end <= patient.rounding();
+        if is_zero { String::new() } else { format!(" {sign} {}{unit}", shown(x.abs())) }
+    };
+    let [low, high] = fall.share.map(shown);
+    let range = if low == high { low } else { format!("{low} to {high}") };
+    let rule = RULES.iter().find(|rule| (rule.holds)(&fall))?;
+    let steps = match fall.count() {
+        Some(k) if rule.name == "steps-are-divided" => {
+            format!(". The solver takes {k} steps of dt/{k} for each step")
+        }
+        _ => String::new(),
+    };
+    Some(SolverFinding {
+        weight: rule.weight,
+        name: rule.name,
+        seen: format!(
+            "the measured velocity is v = g (t{}), expected v = g t; the measured displacement is \
+             u = g t^2/2{}, expected u = g t^2/2. Each step moves the body by v dt + (1 + q) g \
+             dt^2/2 with q = {range}, where v is the velocity before the step{steps}",
+            term(late, " dt"),
+            term(ahead, " g t dt/2")
+        ),
+        cause: rule.cause.to_owned(),
+        look_at: rule.look_at.to_owned(),
     })
 }
 
@@ -177,47 +343,4 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
     let cause =
         known.map_or("the acceleration is multiplied by an unknown factor", |(_, cause)| cause);
     ("gravity-scaled", cause.to_owned())
-}
-
-/// Returns a finding if the positions differ from g t^2/2 although the velocities are correct.
-fn of_distance(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
-    let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
-    let end = course.times[last];
-    let off = course.mean(displacement, last)[axis] - 0.5 * g[axis] * end * end;
-    let steps = off / (g[axis] * end * 0.5 * dt);
-    if steps.abs() * dt / end <= patient.rounding() {
-        return None;
-    }
-    let seen = format!(
-        "the measured displacement is u = g t^2/2 {} {} g t dt/2, expected u = g t^2/2",
-        if steps < 0.0 { "-" } else { "+" },
-        shown(steps.abs())
-    );
-    let near = 0.1;
-    Some(if (steps - 1.0).abs() <= near {
-        SolverFinding::remark(
-            "start-half-a-step-off",
-            seen,
-            "each step updates velocities first and then positions, but the run starts with the \
-             velocity at t = 0 instead of -dt/2. The velocities that move particles are then too \
-             large by a dt/2 (a: acceleration), which lowers the order in time by one",
-            "the start of the run: subtract dt/2 times the initial acceleration from the velocity \
-             before the first step. Suites then show the order in time of the scheme",
-        )
-    } else if (steps + 1.0).abs() <= near {
-        SolverFinding::defect(
-            "positions-before-velocities",
-            seen,
-            "positions are updated with the velocities before the step (forward Euler). This has \
-             order 1 in time, and stresses make the energy grow",
-            "the order of the updates: first velocities, then positions with the new velocities",
-        )
-    } else {
-        SolverFinding::defect(
-            "way-not-of-velocities",
-            seen,
-            "the reported positions do not follow from the reported velocities",
-            "the velocity that moves particles, which must include gravity exactly once",
-        )
-    })
 }

@@ -201,11 +201,17 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let end = course.times[last];
     let gained = |k: usize| course.mean(velocity, k)[0] - VELOCITY[0];
     let wanted = integral(end);
-    let steps = (gained(last) - wanted) / (0.5 * RATE * end * dt);
-    let is = |wanted: f64| (steps - wanted).abs() <= NEAR;
-    // Velocities half a step behind (leapfrog) are allowed.
-    let behind = (gained(last) - integral(end - 0.5 * dt)).abs() <= 0.5 * NEAR * RATE * end * dt;
-    if is(-1.0) || is(0.0) || behind {
+    let instants = &course.times[1..];
+    // With velocities that lag by l steps and forces of a time s steps later, the error of the speed
+    // is `-l dt F + (s - l) dt R t`.
+    let errors: Vec<f64> = (1..=last).map(|k| gained(k) - integral(course.times[k])).collect();
+    let (start, slope, off) = line(instants, &errors);
+    let (lag, late) = (-start / (FORCE * dt), slope / (RATE * dt));
+    let shift = late + lag;
+    let is_shifted = off <= NEAR * RATE * end * dt;
+    // Forces are constant in each step, or in shorter steps. Velocities lag by at most half a step.
+    let is_scheme = (-NEAR..=0.5 + NEAR).contains(&lag);
+    if is_shifted && is_scheme && (-0.5 - NEAR..=NEAR).contains(&shift) {
         return None;
     }
     let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -221,9 +227,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
         shown(at[at.len() - 1]),
         at.len()
     );
-    // In a leapfrog scheme, the momentum does not show that forces are late, but the requests do.
-    let is_late = at.len() as u64 == last as u64 && (at[0] / dt - 1.0).abs() <= NEAR;
-    if is(1.0) || is_late {
+    if is_shifted && (late - 0.5).abs() <= NEAR {
         return Some(SolverFinding::remark(
             "force-of-the-end-of-the-step",
             seen,
@@ -241,15 +245,29 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
              `dt` in each step. The force must be requested in each step",
         ));
     }
-    let (_, slope, _) = line(
-        &course.times[1..].iter().map(|t| integral(*t)).collect::<Vec<f64>>(),
-        &(1..=last).map(gained).collect::<Vec<f64>>(),
-    );
+    if is_shifted && shift.abs() <= 3.5 {
+        let side = if shift < 0.0 { "before" } else { "after" };
+        return Some(SolverFinding::remark(
+            "force-shifted-in-time",
+            seen,
+            &format!(
+                "the force of each step belongs to a time about {} dt {side} the time of the \
+                 velocities between which it acts",
+                shown(0.1 * libm::round(10.0 * shift.abs()))
+            ),
+            "the time `t` of requests: a step from t - dt/2 to t + dt/2 (leapfrog) uses the force \
+             at t. A shift lowers the order in time to one",
+        ));
+    }
+    let expected: Vec<f64> = instants.iter().map(|t| integral(*t)).collect();
+    let (_, slope, _) = line(&expected, &(1..=last).map(gained).collect::<Vec<f64>>());
     let (_, cause) = factor_cause(slope, course);
+    let factor = format!("the force is multiplied by about {}: {cause}", shown(slope));
+    let is_scaled = (slope - 1.0).abs() > 0.02;
     Some(SolverFinding::defect(
         "force-scaled",
         seen,
-        &format!("the force is multiplied by about {}: {cause}", shown(slope)),
+        if is_scaled { &factor } else { "the steps use forces of different times" },
         "the code that adds body forces: add mass times the received values (m/s2) to the nodal \
          force; the times of the requests",
     ))

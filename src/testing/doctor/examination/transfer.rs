@@ -13,6 +13,7 @@
 //! 2015, eq. 8 to 11). If the matrix is wrong by the factor a, the loss is `1 - a` times that of
 //! PIC. If the matrix is transposed, the loss of a rotation is twice that of PIC.
 
+use super::fall::divides_steps;
 use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -103,7 +104,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown(rotation.first),
         shown(rotation.later)
     );
-    let finding = cause(stretch, rotation, small, &averaging);
+    let finding = cause(patient, [stretch, rotation, small], &averaging);
     Ok(Examined::new(measured, finding.into_iter().collect()))
 }
 
@@ -201,9 +202,8 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
 /// Finds the cause of losses by comparing them with the averaging losses of each basis. `small`
 /// contains the losses in a stretch of a body with an eighth of the size.
 fn cause(
-    stretch: Losses,
-    rotation: Losses,
-    small: Losses,
+    patient: &Patient<'_>,
+    [stretch, rotation, small]: [Losses; 3],
     averaging: &[Losses],
 ) -> Option<SolverFinding> {
     let seen = format!(
@@ -269,7 +269,10 @@ fn cause(
     });
     let is_even =
         is_alike(stretch.later, rotation.later) && is_alike(stretch.first, rotation.first);
-    if !(is_share && is_even && (is_averaging || is_blend)) {
+    // A solver with several shorter steps for each step averages as many times in each step.
+    let is_repeated = || losses.iter().all(|loss| *loss > 0.0) && divides_steps(patient);
+    let is_known = is_share && (is_averaging || is_blend);
+    if !(is_even && (is_known || is_repeated())) {
         return defect(
             "affine-matrix-scaled",
             "the affine matrix C has a wrong factor or sign, or a part of C is missing: C does not \
