@@ -34,9 +34,11 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     if let Some(failure) = stepwise.failure {
         return Err(Hindrance::Broke(failure));
     }
-    let mut findings = Vec::new();
+    let mut findings: Vec<SolverFinding> = wrong_weights(&stepwise, &scene).into_iter().collect();
     let second = patient.run_problem(&scene, problem.clone())?;
-    findings.extend(repeated(&stepwise, &second, patient));
+    if findings.is_empty() {
+        findings.extend(repeated(&stepwise, &second, patient));
+    }
     if findings.is_empty() {
         let mut at_once = problem;
         at_once.instants = vec![STEPS];
@@ -52,6 +54,33 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     }
     let (n, d, law) = (stepwise.states[0].len(), scene.dimension, scene.law);
     Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
+}
+
+/// Returns a finding if the weights of the points do not sum to the volume of the body. If the
+/// points are a sample of the particles, the sum may be wrong by less than one weight.
+fn wrong_weights(course: &Course, scene: &BoxScene) -> Option<SolverFinding> {
+    let weights = &course.states[0].weight;
+    let volume: f64 =
+        scene.body.0.iter().zip(&scene.body.1).map(|(low, high)| high - low).product();
+    let (sum, largest) =
+        (weights.iter().sum::<f64>(), weights.iter().fold(0.0_f64, |a, b| a.max(*b)));
+    let is_near = (sum - volume).abs() <= (0.95 * largest).min(0.5 * volume) + 1e-6 * volume;
+    (!is_near).then(|| {
+        SolverFinding::defect(
+            "weights-of-points",
+            format!(
+                "the weights of {} points sum to {} m^{}, which is {} times the volume of the body",
+                weights.len(),
+                shown(sum),
+                scene.dimension,
+                shown(sum / volume)
+            ),
+            "the weights of the points in `ready` are not the volumes that the points represent",
+            "`weight` of `points`: volumes of the undeformed body (m, m^2 or m^3), not masses or \
+             ones. A node on the boundary of a mesh has only the parts of its cells inside the body, \
+             such as half a cell on a face",
+        )
+    })
 }
 
 /// Returns the largest difference of a column at the end of two runs, relative to the largest value

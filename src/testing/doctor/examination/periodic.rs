@@ -4,7 +4,7 @@
 use super::translation::VELOCITY;
 use crate::testing::doctor::course::{AffineField, displacement, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::motion::uniform;
+use crate::testing::doctor::motion::{CHANGED, uniform};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, FACES, H, Kind};
 
@@ -107,7 +107,8 @@ fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, H
 
 fn one_axis(patient: &Patient<'_>, scene: &BoxScene, axis: usize) -> Result<Examined, Hindrance> {
     let examined = uniform(patient, scene)?;
-    let Some(first) = examined.findings.first() else { return Ok(examined) };
+    let first = examined.findings.first().filter(|finding| finding.name != CHANGED);
+    let Some(first) = first else { return Ok(examined) };
     let course = patient.run(scene)?;
     let (last, period) = (course.last(), CELLS * H);
     let distance = VELOCITY[0] * course.times[last];

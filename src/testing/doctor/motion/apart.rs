@@ -15,7 +15,10 @@ const RIM: f64 = 1.6;
 /// Returns a cause that is recognised even if the error is small: a position limit, nodes with
 /// little mass, or cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
-    limit(motion).or_else(|| light_nodes(motion)).or_else(|| crossing(motion))
+    limit(motion)
+        .or_else(|| changed_on_faces(motion))
+        .or_else(|| light_nodes(motion))
+        .or_else(|| crossing(motion))
 }
 
 pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
@@ -147,6 +150,56 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
             "clamps on positions or cell indices; walls of a unit cube. The grid of the problem \
              begins at `grid.origin`, and the motion stays inside this grid",
         ))
+    })
+}
+
+/// Name of the finding on solvers that change the positions of particles on cell faces.
+pub(in crate::testing::doctor) const CHANGED: &str = "positions-changed";
+
+/// Maximum change (v dt) of a position that weights do not explain. If a weight of a particle on a
+/// face is missing or counted twice, the error is larger.
+const SLIGHT: f64 = 0.05;
+
+/// Returns a finding if velocities are correct, and only the positions of particles that are on a
+/// cell face before or after a step have an error in this step.
+fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
+    let (course, v) = (&motion.course, motion.velocity);
+    let (rounding, origin) = (motion.patient.rounding(), &course.problem.grid.origin);
+    if !(motion.off().1 <= rounding) {
+        return None;
+    }
+    let is_on_face = |x: [f64; 3]| {
+        let cells = origin.iter().enumerate().map(|(i, low)| (x[i] - low) / motion.scene.h);
+        cells.into_iter().any(|s| (s - libm::round(s)).abs() <= 1e-3)
+    };
+    let place = |(x, u): ([f64; 3], [f64; 3])| std::array::from_fn(|i| x[i] + u[i]);
+    let (mut most, mut step) = (0.0_f64, 0);
+    for k in 1..=course.last() {
+        let way = times(course.times[k] - course.times[k - 1], v);
+        let pairs = course.points(displacement, k - 1).zip(course.points(displacement, k));
+        for (before, after) in pairs {
+            let off = size(minus(minus(after.1, before.1), way)) / size(way);
+            if off > rounding * course.last() as f64 {
+                if !(off <= SLIGHT && (is_on_face(place(before)) || is_on_face(place(after)))) {
+                    return None;
+                }
+                (most, step) = (most.max(off), if step == 0 { k } else { step });
+            }
+        }
+    }
+    (step > 0).then(|| {
+        SolverFinding::defect(
+            CHANGED,
+            format!(
+                "velocities are correct. From step {step} on, particles that lie on a cell face \
+                 move by up to {} v dt more or less than v dt, and all other particles by v dt",
+                shown(most)
+            ),
+            "the solver changes the positions of particles on cell faces, for example to move them \
+             into one of the cells. Wrong weights would cause a larger error",
+            "the update of positions, x <- x + dt v; code that finds the cell of a particle, which \
+             must not change the position",
+        )
     })
 }
 

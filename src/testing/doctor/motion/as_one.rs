@@ -184,6 +184,9 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let mean = |k| course.mean(displacement, k);
     let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
     let (ahead, slope, off) = line(t, &ways);
+    if let Some(found) = unequal_steps(&ways, dt) {
+        return Some(found);
+    }
     // Smaller errors are rounding errors, which another finding reports.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
     if off > NEAR * dt || !is_systematic {
@@ -227,6 +230,32 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
+/// Returns a finding if most steps move the body by v dt and some steps do not. `ways` contains the
+/// displacements divided by the velocity after each step (s).
+fn unequal_steps(ways: &[f64], dt: f64) -> Option<SolverFinding> {
+    let before = std::iter::once(&0.0).chain(ways);
+    let lengths: Vec<f64> = ways.iter().zip(before).map(|(now, then)| (now - then) / dt).collect();
+    let other = |k: &usize| (lengths[*k] - 1.0).abs() > 1e-3;
+    let steps: Vec<usize> = (0..lengths.len()).filter(other).collect();
+    let first = *steps.first().filter(|_| 2 * steps.len() < lengths.len())?;
+    Some(SolverFinding::defect(
+        "steps-of-another-length",
+        format!(
+            "velocities are correct, and {} of {} steps move the body by v dt, but step {} moves \
+             it by {} v dt{}",
+            lengths.len() - steps.len(),
+            lengths.len(),
+            first + 1,
+            shown(lengths[first]),
+            if steps.len() > 1 { " (the first of several such steps)" } else { "" }
+        ),
+        "positions are moved with another step length in these steps, for example to end the run or \
+         to write output at a certain time, or they are changed after the step",
+        "the step length in x <- x + dt v; comparisons of the time with an end or output time, \
+         which need a tolerance for rounding; a special first or last step",
+    ))
+}
+
 /// Returns the likely cause if velocities or displacements are wrong by `factor`.
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
@@ -251,7 +280,12 @@ pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
             shown_vector(motion.velocity, d),
             shown_vector(times(course.times[last], motion.velocity), d)
         ),
-        "the solver applies a force that is not in the problem, or limits the motion",
-        "loads, walls and limits that the solver adds by default",
+        if motion.off().1 <= motion.patient.rounding() {
+            "velocities are correct, but positions do not follow from them"
+        } else {
+            "the solver applies a force that is not in the problem, or limits the motion"
+        },
+        "the update of positions, x <- x + dt v; loads, walls and limits that the solver adds by \
+         default",
     )
 }

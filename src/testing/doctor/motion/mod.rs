@@ -8,6 +8,8 @@
 mod apart;
 mod as_one;
 
+pub(super) use apart::CHANGED;
+
 use super::course::shown;
 use super::finding::SolverFinding;
 use super::patient::{Examined, Hindrance, Patient};
