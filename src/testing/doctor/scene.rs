@@ -78,6 +78,8 @@ pub(super) struct BoxScene {
     pub(super) displacement: AffineField,
     /// Gravity (m/s2), if any.
     pub(super) gravity: Option<Vec<f64>>,
+    /// Total force (N) along the first axis, distributed over the body, if any.
+    pub(super) force: Option<f64>,
     /// Names of faces and their conditions; all other faces are free.
     pub(super) faces: Vec<(&'static str, &'static str)>,
     pub(super) extras: Extras,
@@ -130,6 +132,7 @@ impl BoxScene {
             velocity: AffineField::default(),
             displacement: AffineField::default(),
             gravity: None,
+            force: None,
             faces: Vec::new(),
             extras: Extras::default(),
             steps: 20,
@@ -246,13 +249,19 @@ impl BoxScene {
             self.faces.iter().map(|(face, condition)| format!("{face}: {condition}")).collect();
         faces.extend(extras.walls.iter().map(|(face, wall)| format!("{face}: {wall}")));
         let gravity = self.gravity.iter().map(|g| format!("gravity: {g:?}"));
-        let loads: Vec<String> = gravity.chain(extras.loads.iter().cloned()).collect();
+        let mut loads: Vec<String> = gravity.chain(extras.loads.iter().cloned()).collect();
         let mut keys = match &extras.second {
             Some(second) => {
                 format!("bodies: [{{{}}}, {{{}}}]", self.body_keys(), second.body_keys())
             }
             None => self.body_keys(),
         };
+        if let Some(force) = self.force {
+            let (from, to) = &self.body;
+            let value: Vec<f64> = (0..*d).map(|i| if i == 0 { force } else { 0.0 }).collect();
+            keys.push_str(&format!(", sets: {{all: {{box: {{from: {from:?}, to: {to:?}}}}}}}"));
+            loads.push(format!("force: {{on: all, value: {value:?}}}"));
+        }
         if !faces.is_empty() {
             keys.push_str(&format!(", boundary: {{{}}}", faces.join(", ")));
         }

@@ -8,7 +8,9 @@
 
 use super::stress::{impulses, inside};
 use crate::mpm::{det_of_rows, inverse};
-use crate::testing::doctor::course::{AffineField, Course, displacement, minus, shown, size};
+use crate::testing::doctor::course::{
+    AffineField, Course, displacement, minus, shown, size, velocity,
+};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind, SOFT};
@@ -40,6 +42,10 @@ const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
+
+/// State with small strains. The errors in this state and at half its time show whether an error
+/// grows with the strain.
+const EARLY: usize = 4;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able_with(&[2, 3, 1], &FINITE, &scene, &|needs| {
@@ -84,7 +90,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         } else if let (Some(column), true) =
             (&stress_column, stress_off.is_some_and(|off| !(off <= NEAR)))
         {
-            of_law.push(of_stress(&name, column, &stress, gradient, scene)?);
+            let earlier = [EARLY, EARLY / 2].map(|k| stress_errors(course, scene, k));
+            let [early, earliest] = earlier;
+            let law = of_parameters(&name, stress_error(column, &stress), early?, earliest?);
+            of_law.push(match law {
+                Some(finding) => finding,
+                None => of_stress(&name, column, &stress, gradient, scene)?,
+            });
         }
     }
     // A wrong F also causes a wrong stress, so findings on F replace findings on the stress.
@@ -105,6 +117,69 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         findings.extend(finding);
     }
     Ok(Examined::new(measured.join("; "), findings))
+}
+
+/// The stress in the middle of a body, compared with the law.
+struct StressError {
+    /// Least-squares ratio of the stress to that of the law.
+    factor: f64,
+    /// Largest error of a component, relative to the largest component of the law.
+    error: f64,
+    /// Error of the stress divided by `factor`.
+    remainder: f64,
+}
+
+fn stress_error(column: &[f64], law: &[f64]) -> StressError {
+    let dot = |a: &[f64]| a.iter().zip(law).map(|(a, b)| a * b).sum::<f64>();
+    let factor = dot(column) / dot(law);
+    let scaled: Vec<f64> = column.iter().map(|x| x / factor).collect();
+    StressError { factor, error: error(column, law), remainder: error(&scaled, law) }
+}
+
+/// Compares the column `stress` in state `k` with the law.
+fn stress_errors(course: &Course, scene: &BoxScene, k: usize) -> Result<StressError, Hindrance> {
+    let state = &course.states[k];
+    let f = inside(course, scene, &state.deformation_gradient);
+    let f = f.unwrap_or_else(|| deformation_gradient_at(course, scene, k));
+    let column = inside(course, scene, &state.stress).unwrap_or_default();
+    Ok(stress_error(&column, &law_at(scene, &f)?.0))
+}
+
+/// Returns a finding if the stress is wrong by a constant factor, or already at small strains. Errors
+/// of other stress measures grow with the strain.
+fn of_parameters(
+    name: &str,
+    end: StressError,
+    early: StressError,
+    earliest: StressError,
+) -> Option<SolverFinding> {
+    let is_scaled =
+        |at: &StressError| at.remainder <= NEAR && (at.factor / end.factor - 1.0).abs() <= NEAR;
+    let look_at = "the parameters of this law: E, nu, and the moduli that are computed from them; \
+                   the unit of its stress";
+    if (end.factor - 1.0).abs() > NEAR && [&end, &early, &earliest].into_iter().all(is_scaled) {
+        let factor = shown(end.factor);
+        return Some(SolverFinding::defect(
+            "law-scaled",
+            format!("{name}: at all strains, the stress is {factor} times the stress of the law"),
+            "a modulus of this law is wrong by this factor, or all moduli are",
+            look_at,
+        ));
+    }
+    let is_constant = (earliest.error / early.error - 1.0).abs() <= 0.4;
+    (is_constant && earliest.error > 2.0 * NEAR).then(|| {
+        SolverFinding::defect(
+            "law-differs",
+            format!(
+                "{name}: already at small strains, the stress has an error of {} of its largest \
+                 component",
+                shown(earliest.error)
+            ),
+            "the parameters of this law are wrong, or lambda and mu are used in the wrong places. \
+             Another strain or stress measure would cause no error at small strains",
+            look_at,
+        )
+    })
 }
 
 /// Whether displacement and F after the first step are close to their initial values.
@@ -147,21 +222,59 @@ fn volumes(
         expected += weight / 12.0 * law_at(&scene, &f)?.0[0];
     }
     let ratio = (impulse(&courses[0]) - impulse(&courses[1])) / expected;
-    let finding = (!((ratio - 1.0).abs() <= 0.15)).then(|| {
+    if (ratio - 1.0).abs() <= 0.15 {
+        return Ok(Some((ratio, None)));
+    }
+    let masses = mass_ratio(patient, &scene);
+    let seen = format!(
+        "{}: the impulse of the internal force is {} of the expected impulse{}",
+        scene.law,
+        shown(ratio),
+        masses.map_or(String::new(), |mass| format!(
+            ". Under a given total force, the accelerations show that the mass of the stretched \
+             body is {} times the initial mass",
+            shown(mass)
+        ))
+    );
+    let finding = if masses.is_some_and(|mass| !((mass - 1.0).abs() <= 0.1)) {
+        SolverFinding::defect(
+            "mass-at-finite-strain",
+            seen,
+            "the masses of particles change with J = det F, for example because they are \
+             recomputed as initial density times present volume",
+            "the mass of a particle, which never changes: rho0 V0 = rho V",
+        )
+    } else {
         SolverFinding::defect(
             "volume-at-finite-strain",
-            format!(
-                "{}: the impulse of the internal force is {} of the expected impulse",
-                scene.law,
-                shown(ratio)
-            ),
-            "the particle volumes do not follow J = det F: they are not updated, updated twice, or \
-             divided by J",
+            seen,
+            if masses.is_some() {
+                "the particle volumes do not follow J = det F: they are not updated, updated \
+                 twice, or divided by J"
+            } else {
+                "the particle volumes do not follow J = det F: they are not updated, updated \
+                 twice, or divided by J. Masses that are recomputed from present volumes give the \
+                 same motion"
+            },
             "the volume in internal forces: V = J V0 with the Cauchy stress, or V0 with the \
-             Kirchhoff stress",
+             Kirchhoff stress; the mass of a particle, which never changes",
         )
-    });
-    Ok(Some((ratio, finding)))
+    };
+    Ok(Some((ratio, Some(finding))))
+}
+
+/// Returns the mass of the stretched body, relative to its initial mass: the acceleration under a
+/// constant total force in the first steps, divided by that in the last steps. `None` if the solver
+/// does not support such a force.
+fn mass_ratio(patient: &Patient<'_>, scene: &BoxScene) -> Option<f64> {
+    let force = scene.density * (0..scene.dimension).fold(0.01, |f, _| f * 12.0 * H);
+    let pulled = |_| BoxScene { force: Some(force), ..scene.soft() };
+    let scene = patient.able(&[scene.dimension], &[scene.law], &pulled).ok()?;
+    let course = patient.run(&scene).ok()?;
+    let last = course.last();
+    let gained = |to: usize| course.mean(velocity, to)[0] - course.mean(velocity, to - 4)[0];
+    let ratio = gained(5) / gained(last);
+    ratio.is_finite().then_some(ratio)
 }
 
 fn scene(kind: Kind) -> BoxScene {
@@ -186,14 +299,19 @@ fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineFiel
     AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
-/// Computes F in the middle of the body at the end of the run, row by row, by a least-squares fit
-/// to the displacements.
+/// Computes F in the middle of the body at the end of the run, row by row.
 pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64> {
+    deformation_gradient_at(course, scene, course.last())
+}
+
+/// Computes F in the middle of the body in state `k`, row by row, by a least-squares fit to the
+/// displacements.
+fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let is_near =
         |label: &[f64; 3]| (0..d).all(|i| (label[i] - centre[i]).abs() <= scene.h * (1.0 + 1e-9));
     let points: Vec<_> = course
-        .points(displacement, course.last())
+        .points(displacement, k)
         .filter(|(label, _)| is_near(label))
         .map(|(label, u)| (minus(label, centre), u))
         .collect();

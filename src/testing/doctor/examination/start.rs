@@ -8,7 +8,7 @@
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, minus, shown, size, times,
+    AffineField, Course, displacement, dot, minus, shown, shown_vector, size, times,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -73,6 +73,15 @@ const PLACEMENTS: [BodyPlacement; 3] = [
 /// the state.
 const NEAR: f64 = 0.12;
 
+/// Maximum force in the first step normal to the expected force, relative to the expected force.
+const ACROSS: f64 = 0.15;
+
+/// Name of the finding for an initial stress without effect.
+const DROPPED: &str = "initial-stress-dropped";
+
+/// Name of the finding for wrong components of the initial stress.
+const COMPONENTS: &str = "initial-stress-components";
+
 /// Examines the body at one position, and if this shows a defect, at further positions. At nodes
 /// with little mass, a run with linear functions or GIMP may fail although the solver is correct. A
 /// defect of the start does not depend on the position, so it must appear at all positions.
@@ -119,14 +128,24 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
             all.measured.push_str("; ");
         }
         all.measured.push_str(&format!(
-            "{}: the force due to the initial stress is {} of the expected force (relative error \
-             of the force vector: {}) and begins {} steps after the start",
+            "{}: {} (relative error of the force vector: {})",
             scene.law,
-            shown(forces.ratio),
-            shown(forces.error),
-            forces.shown_delay()
+            forces.describe(),
+            shown(forces.error)
         ));
         let finding = cause(course, scene, &forces);
+        // A law whose initial stress has wrong components only loses all of it.
+        match &finding {
+            Some(found) if found.name == COMPONENTS => {
+                all.findings.retain(|earlier| earlier.name != DROPPED);
+            }
+            Some(found) if found.name == DROPPED => {
+                if all.findings.iter().any(|earlier| earlier.name == COMPONENTS) {
+                    continue;
+                }
+            }
+            _ => {}
+        }
         let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
         let new = finding.filter(is_new);
         all.findings.extend(new);
@@ -165,8 +184,12 @@ struct Forces {
     ratio: f64,
     /// Difference from the expected force, relative to the expected force.
     error: f64,
-    /// Delay of the force (steps).
+    /// Delay of the force (steps); NaN without a force.
     late: f64,
+    /// Expected force, divided by its magnitude.
+    unit: [f64; 3],
+    /// Force in the first step, relative to the expected force.
+    first: [f64; 3],
 }
 
 impl Forces {
@@ -189,11 +212,13 @@ impl Forces {
         }
         let whole = size(expected);
         let unit = times(1.0 / whole, expected);
-        let mut measured = [0.0; 3];
+        let (mut measured, mut first) = ([0.0; 3], [0.0; 3]);
         let mut along = vec![0.0; course.states.len()];
         for j in 0..d {
             let impulse = impulses(course, scene, 0, j);
-            measured[j] = constant_and_rate(&course.times, &impulse)[0];
+            let [constant, rate] = constant_and_rate(&course.times, &impulse);
+            let t = course.times[1];
+            (measured[j], first[j]) = (constant, impulse[1] / t - 0.5 * rate * t);
             along.iter_mut().zip(&impulse).for_each(|(sum, impulse)| *sum += unit[j] * impulse);
         }
         let [constant, rate] = constant_and_rate(&course.times, &along);
@@ -203,11 +228,44 @@ impl Forces {
             ratio: constant / whole,
             error: size(minus(measured, expected)) / whole,
             late: start / t,
+            unit,
+            first: times(1.0 / whole, first),
         }
     }
 
-    fn shown_delay(&self) -> String {
-        shown(libm::round(10.0 * self.late) / 10.0 + 0.0)
+    fn describe(&self) -> String {
+        let late = libm::round(10.0 * self.late) / 10.0 + 0.0;
+        let delay = format!(" and begins {} steps after the start", shown(late));
+        format!(
+            "the force due to the initial stress is {} of the expected force{}",
+            shown(self.ratio),
+            if self.ratio.abs() <= NEAR { String::new() } else { delay }
+        )
+    }
+
+    /// Describes the components of the initial stress that are wrong, if the force in the first step
+    /// has another direction than expected. In a sheared body, the force along axis j is `sigma_jx -
+    /// sigma_jy`. A run that starts half a step back has half this force in the first step.
+    fn wrong_components(&self, scene: &BoxScene) -> Option<String> {
+        let across = minus(self.first, times(dot(self.first, self.unit), self.unit));
+        if size(across) <= ACROSS {
+            return None;
+        }
+        let name = [1.0, 2.0].into_iter().find_map(|factor| {
+            let change = minus(times(factor, self.first), self.unit);
+            let [x, y, z] = change;
+            let all =
+                [("xx", [y, z]), ("yy", [x, z]), ("xy", [x + y, z]), ("of the z axis", [x, y])];
+            let is_zero = |a: &f64| a.abs() <= 0.1 * size(change);
+            all.into_iter().find(|(_, others)| others.iter().all(is_zero)).map(|(name, _)| name)
+        });
+        let name = name
+            .map_or("several components are".to_owned(), |name| format!("the component {name} is"));
+        let [first, unit] = [self.first, self.unit].map(|f| shown_vector(f, scene.dimension));
+        Some(format!(
+            "the force in the first step is {first} of the magnitude of the expected force, expected \
+             {unit}: {name} wrong"
+        ))
     }
 }
 
@@ -240,12 +298,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     let size_of_f = largest(f, &identity);
     let mean = inside(course, scene, &course.states[1].deformation_gradient);
     let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
-    let force = format!(
-        "{law}: the force due to the initial stress is {} of the expected force and begins {} \
-         steps after the start",
-        shown(forces.ratio),
-        forces.shown_delay()
-    );
+    let force = format!("{law}: {}", forces.describe());
     let turned: Vec<f64> = (0..d * d).map(|k| f[(k % d) * d + k / d]).collect();
     if mean.as_ref().is_some_and(|mean| f_is_lost && largest(mean, &turned) <= 0.2 * size_of_f) {
         return Some(SolverFinding::defect(
@@ -265,9 +318,29 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
             "`particles.deformation_gradient` of the problem; the initialisation of F",
         ));
     }
+    // Laws in rate form keep a wrong initial stress, which the column shows.
+    let sigma = &course.problem.particles.stress[..d * d];
+    let scale = largest(sigma, &vec![0.0; d * d]);
+    let column = inside(course, scene, &course.states[1].stress);
+    let column = column.filter(|column| largest(column, &vec![0.0; d * d]) > 0.2 * scale);
+    let wrong = column.filter(|column| !(largest(column, sigma) <= 0.2 * scale)).map(|column| {
+        let is_wrong = |k: &usize| !((column[*k] - sigma[*k]).abs() <= 0.2 * scale);
+        let name = |k: usize| format!("{}{}", ["x", "y", "z"][k / d], ["x", "y", "z"][k % d]);
+        let names: Vec<String> = (0..d * d).filter(is_wrong).map(name).collect();
+        format!("after one step, the column `stress` has other components {}", names.join(", "))
+    });
+    if let Some(wrong) = wrong.or_else(|| forces.wrong_components(scene)) {
+        return Some(SolverFinding::defect(
+            COMPONENTS,
+            format!("{law}: {wrong}"),
+            "some components of the initial stress are not those of the problem, for example \
+             horizontal stresses that the solver computes from the vertical one",
+            "`particles.stress` of the problem, which has all d x d components of each particle",
+        ));
+    }
     if forces.ratio.abs() <= NEAR {
         return Some(SolverFinding::defect(
-            "initial-stress-dropped",
+            DROPPED,
             force,
             "the solver ignores the initial stress, or the initial F from which the law computes \
              the stress",
@@ -291,11 +364,17 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     }
     // A delay of half a step depends on the scheme and is not a defect.
     (!(-0.75..=0.75).contains(&forces.late)).then(|| {
+        let is_dropped = (forces.late - 1.0).abs() <= 0.15;
         SolverFinding::defect(
-            "initial-stress-dropped",
+            if is_dropped { DROPPED } else { "initial-stress-differs" },
             force,
-            "the solver ignores the initial stress: the law computes the stress only at the end of \
-             the first step",
+            if is_dropped {
+                "the solver ignores the initial stress: the law computes the stress only at the end \
+                 of the first step"
+            } else {
+                "the initial stress has another magnitude until the law computes the stress at the \
+                 end of the first step"
+            },
             "`particles.stress` of the problem, which acts in the first step of a scheme that \
              updates the stress last",
         )
