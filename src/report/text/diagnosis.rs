@@ -143,11 +143,23 @@ fn unknown_cause(found: &Diagnosis) -> String {
              too few."
         );
     }
+    let worse = found.runs.iter().find(|run| run.has_more_particles && run.ratio > WORSE);
+    let cause = worse.map_or("The cause is none of those that `diagnose` tests.".to_owned(), |run| {
+        format!(
+            "But {} make the error {:.2} times larger. Particles are quadrature points, so more of \
+             them should not increase the error. Check sums and means over the particles of a cell, \
+             and the volumes and masses of particles.",
+            run.change, run.ratio
+        )
+    });
     format!(
         "No single change restores the order from {range}, or removes a quarter of the error on the \
-         finest level. The cause is none of those that `diagnose` tests."
+         finest level. {cause}"
     )
 }
+
+/// Ratio of errors above which more particles count as a cause.
+const WORSE: f64 = 1.15;
 
 fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
     [

@@ -172,6 +172,7 @@ fn changed_runs(
             ratio: error / before,
             relative_ratio: error / before / size,
             is_finer: plan.refine.axis == Axis::Space && h(&plan) < h(finest),
+            has_more_particles: kind.change == PARTICLES.change,
         });
     }
     runs

@@ -59,6 +59,8 @@ pub struct ChangedRun {
     /// Whether the change refines the levels. Finer levels have a smaller error regardless of the
     /// cause.
     pub is_finer: bool,
+    /// Whether the change increases the number of particles per cell, and nothing else.
+    pub has_more_particles: bool,
 }
 
 /// Kind of a [`KnownCause`], in the order of reports.
@@ -273,6 +275,7 @@ mod tests {
             ratio: run.2,
             relative_ratio: run.2,
             is_finer: false,
+            has_more_particles: false,
         };
         Diagnosis {
             case: String::new(),
