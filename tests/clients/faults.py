@@ -36,6 +36,7 @@ class Fault:
 LINEAR, QUADRATIC, CUBIC = "--basis linear", "--basis quadratic_bspline", "--basis cubic_bspline"
 USL, MUSL, HALF_BACK = "--scheme usl", "--scheme musl", "--start half_step_back"
 MOVE = "self.x += dt * self.gather(velocity)"
+ON_FACES = "(np.abs(self.s - np.rint(self.s)) < 1e-9)"
 FORCE = "self.problem.body_force(time)"
 END = '(-1 if face["high"] else 0,)'
 MASS = "self.m, self.vol = problem.mass, problem.volume.copy()"
@@ -70,6 +71,58 @@ POSITIONS = [
           "positions use the grid velocity before the forces are applied",
           f"{QUADRATIC} {USL}",
           {"self.weigh()": "self.weigh(); old = self.velocity()", MOVE: "self.x += dt * self.gather(old)"}),
+    Fault("position-from-old-grid-velocity-of-leapfrog",
+          "Moves particles with the velocity of the beginning of the step, in a leapfrog scheme.",
+          "positions use the grid velocity before the forces are applied",
+          f"{QUADRATIC} {USL} {HALF_BACK}",
+          {"self.weigh()": "self.weigh(); old = self.velocity()", MOVE: "self.x += dt * self.gather(old)"},
+          source="M6, relative"),
+    Fault("position-with-a-quarter-of-the-acceleration",
+          "Adds a second half of the acceleration to the mean of the old and the new velocity.",
+          "positions contain the acceleration with a wrong factor",
+          f"{QUADRATIC} {USL}",
+          {"self.weigh()": "self.weigh(); old = self.v.copy()",
+           MOVE: "self.x += dt * (1.5 * self.gather(velocity) - 0.5 * old)"},
+          source="M6, relative"),
+    Fault("step-cut-at-the-end",
+          "Cuts the last step of a run to 0.7 dt for positions, because it compares times without a tolerance.",
+          "the last step of positions is shorter than dt",
+          [f"{QUADRATIC} {USL}", f"{LINEAR} {MUSL} {HALF_BACK}"],
+          {MOVE: "self.x += self.share(dt, time) * dt * self.gather(velocity)"},
+          patch="""
+              def share(self, dt, time):
+                  return 0.7 if time + 1.5 * dt > self.problem.message["until"] else 1.0
+          """, source="M3"),
+    Fault("step-cut-at-the-start",
+          "Takes a first step of half the length for positions, as a soft start does.",
+          "the first step of positions is shorter than dt",
+          f"{QUADRATIC} {USL}",
+          {MOVE: "self.x += (0.5 if time < 0.5 * dt else 1.0) * dt * self.gather(velocity)"},
+          source="M3, relative"),
+    Fault("step-cut-now-and-then",
+          "Takes a shorter step every eighth step for positions, to reach the time of an output file.",
+          "some steps of positions are shorter than dt",
+          f"{LINEAR} {USL}",
+          {MOVE: "self.x += (0.4 if round(time / dt) % 8 == 5 else 1.0) * dt * self.gather(velocity)"},
+          source="M3, relative"),
+    Fault("position-nudged-off-faces",
+          "Moves a particle that lies exactly on a cell face by a further v dt/1000.",
+          "positions on cell faces are changed",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {MOVE: f"self.x += {ON_FACES} * 1e-3 * dt * self.v; {MOVE}"},
+          source="M8"),
+    Fault("position-pushed-off-faces",
+          "Keeps particles a distance of 1e-5 h away from the low face of their cell.",
+          "positions on cell faces are changed",
+          f"{QUADRATIC} {USL}",
+          {MOVE: f"self.x += {ON_FACES} * 1e-5 * self.problem.h; {MOVE}"},
+          source="M8, relative"),
+    Fault("position-left-on-faces",
+          "Moves a particle that lies on a cell face by 0.99 v dt only.",
+          "positions on cell faces are changed",
+          f"{LINEAR} {USL}",
+          {MOVE: f"self.x -= {ON_FACES} * 1e-2 * dt * self.v; {MOVE}"},
+          source="M8, relative"),
     Fault("position-25-percent-short",
           "Multiplies the step of the positions by 0.75.",
           "displacements are three quarters of what the velocity gives",
@@ -202,6 +255,19 @@ LOADS = [
           "body forces are those of a time one step later",
           f"{LINEAR} {MUSL} {HALF_BACK}",
           {"time + step * dt": "time + (step + 1) * dt"}),
+    Fault("body-force-of-the-middle-of-the-step",
+          "Asks for body forces at the middle of the step in a leapfrog scheme.",
+          "body forces are those of a time half a step later",
+          [f"{LINEAR} {MUSL} {HALF_BACK}", f"{QUADRATIC} {USL} {HALF_BACK}"],
+          {FORCE: "self.problem.body_force(time + 0.5 * dt)"}, source="M2"),
+    Fault("body-force-of-the-preceding-step",
+          "Asks for body forces at the time of the preceding step.",
+          "body forces are those of a time one step earlier",
+          f"{LINEAR} {MUSL}", {FORCE: "self.problem.body_force(max(time - dt, 0.0))"}, source="M2, relative"),
+    Fault("body-force-extrapolated",
+          "Asks for body forces two steps ahead, as a pipelined coupling does.",
+          "body forces are those of a time two steps later",
+          f"{QUADRATIC} {USL}", {FORCE: "self.problem.body_force(time + 2 * dt)"}, source="M2, relative"),
     Fault("body-force-time-in-steps",
           "Passes the number of the step where a time in seconds is expected.",
           "body forces are evaluated at wrong times",
@@ -535,6 +601,34 @@ MATERIALS = [
                   super().rate(step)
                   self.sigma -= turned
           """),
+    Fault("modulus-of-the-second-law",
+          "Multiplies the stress of one law by 1.5.",
+          "the modulus of the neo-Hookean law is 1.5 times the given one",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          patch="""
+              def neo_hookean(self, step):
+                  super().neo_hookean(step)
+                  self.sigma = 1.5 * self.sigma
+          """, source="M5"),
+    Fault("modulus-of-the-second-law-near-j",
+          "Multiplies the stress of one law by 1.2, which is close to J at the end of the examination.",
+          "the modulus of the Hencky law is 1.2 times the given one",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def hencky(self, step):
+                  super().hencky(step)
+                  self.sigma = 1.2 * self.sigma
+          """, source="M5, relative"),
+    Fault("lame-exchanged-in-the-second-law",
+          "Exchanges the Lame parameters in one law.",
+          "lambda and mu are exchanged in the neo-Hookean law",
+          f"{LINEAR} {USL}",
+          patch="""
+              def neo_hookean(self, step):
+                  self.lam, self.mu = self.mu, self.lam
+                  super().neo_hookean(step)
+                  self.lam, self.mu = self.mu, self.lam
+          """, source="M5, relative"),
     Fault("volume-not-updated",
           "Multiplies the Cauchy stress by the reference volume.",
           "particle volumes do not change with J",
@@ -714,6 +808,51 @@ INITIAL = [
           "Computes the mass from the density and the volume at the start, which is not the reference volume.",
           "masses are wrong where the body starts deformed",
           f"{LINEAR} {MUSL}", {MASS: 'self.m, self.vol = problem.materials[0]["density"] * problem.volume, problem.volume.copy()'}),
+    Fault("mass-from-present-volume",
+          "Computes the mass in each step from the initial density and the present volume.",
+          "masses grow with the volume",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {"self.mass = self.add(": "self.m = self.density * self.vol; self.mass = self.add("},
+          patch="""
+              def setup(self, problem):
+                  self.density = problem.materials[0]["density"]
+                  super().setup(problem)
+          """, source="M1"),
+    Fault("mass-divided-by-j",
+          "Divides the mass by J, as if it were a density.",
+          "masses fall with the volume",
+          f"{QUADRATIC} {USL}",
+          {"self.mass = self.add(": "self.m = self.problem.mass * self.vol0 / self.vol; self.mass = self.add("},
+          source="M1, relative"),
+    Fault("mass-times-j-squared",
+          "Multiplies mass and density by J.",
+          "masses grow with the square of the volume",
+          f"{LINEAR} {MUSL}",
+          {"self.mass = self.add(": "self.m = self.problem.mass * (self.vol / self.vol0)**2; self.mass = self.add("},
+          source="M1, relative"),
+    Fault("initial-lateral-stress-from-poisson",
+          "Sets the lateral initial stress to nu/(1 - nu) times the vertical one.",
+          "the horizontal components of the initial stress are wrong",
+          [f"{LINEAR} {MUSL}", f"{QUADRATIC} {USL}"],
+          {STATE: STATE.replace("problem.stress.copy()", "self.at_rest(problem)")},
+          patch="""
+              def at_rest(self, problem):
+                  stress, poisson = problem.stress.copy(), self.parameters.get("poisson", 0.3)
+                  for a in range(self.d - 1):
+                      stress[:, a, a] = poisson / (1 - poisson) * stress[:, -1, -1]
+                  return stress
+          """, source="M7"),
+    Fault("initial-shear-stress-dropped",
+          "Reads the normal components of the initial stress only.",
+          "the shear components of the initial stress are wrong",
+          f"{LINEAR} {MUSL}",
+          {STATE: STATE.replace("problem.stress.copy()", "problem.stress * np.eye(self.d)")}, source="M7, relative"),
+    Fault("initial-stress-isotropic",
+          "Sets all normal components of the initial stress to their mean, and the others to zero.",
+          "the deviator of the initial stress is wrong",
+          f"{QUADRATIC} {USL}",
+          {STATE: STATE.replace("problem.stress.copy()", "np.trace(problem.stress, axis1=1, axis2=2)[:, None, None]"
+                                " * np.eye(self.d) / self.d")}, source="M7, relative"),
     Fault("volume-of-the-cell",
           "Gives each particle the volume of a whole cell.",
           "particle volumes are too large",
@@ -1064,6 +1203,30 @@ OUTPUT = [
                   return {key: value[::-1] if isinstance(value, np.ndarray) else value
                           for key, value in super().state().items()}
           """, points="particles", source="A3, variant"),
+    Fault("output-weights-of-nodes-not-halved",
+          "Names the nodes of a mesh as points, with the weight of a whole cell at boundary nodes too.",
+          "weights of boundary nodes are not halved",
+          f"{LINEAR} {MUSL}",
+          patch="""
+              def point_weights(self, weight, problem):
+                  return np.full_like(weight, problem.h**problem.dimension)
+          """, points="nodes", source="M4"),
+    Fault("output-weights-one",
+          "Gives all points the weight one.",
+          "weights are not volumes",
+          f"{LINEAR} {MUSL}",
+          patch="""
+              def point_weights(self, weight, problem):
+                  return np.ones_like(weight)
+          """, points="nodes", source="M4, relative"),
+    Fault("output-weights-are-masses",
+          "Sends masses as weights of points.",
+          "weights are masses instead of volumes",
+          f"{QUADRATIC} {USL}",
+          patch="""
+              def point_weights(self, weight, problem):
+                  return problem.materials[0]["density"] * weight
+          """, points="nodes", source="M4, relative"),
     Fault("output-component-wise",
           "Returns all first components followed by all second components.",
           "columns of vectors are written in the wrong layout",
@@ -1290,9 +1453,17 @@ EXPECTED = {
     "contact-rough": "friction-differs",
     "one-point": "hourglass-mode",
     "strain-averaged": "hourglass-mode",
-    "position-from-mean-velocity": "particles-cross-wall positions-before-velocities",
+    "position-from-mean-velocity": "particles-cross-wall positions-from-mean-velocity",
     "position-from-particle-velocity": "particles-cross-wall",
     "position-from-old-grid-velocity": "positions-before-velocities",
+    "position-from-old-grid-velocity-of-leapfrog": "positions-before-velocities",
+    "position-with-a-quarter-of-the-acceleration": "way-not-of-velocities",
+    "step-cut-at-the-end": "steps-of-another-length",
+    "step-cut-at-the-start": "steps-of-another-length",
+    "step-cut-now-and-then": "steps-of-another-length",
+    "position-nudged-off-faces": "positions-changed",
+    "position-pushed-off-faces": "positions-changed",
+    "position-left-on-faces": "positions-changed",
     "position-25-percent-short": "displacement-scaled",
     "position-updated-twice": "displacement-scaled",
     "position-half-a-step-ahead": "start-half-a-step-off",
@@ -1312,6 +1483,9 @@ EXPECTED = {
     "body-force-at-present-positions": "force-at-present-positions",
     "body-force-of-the-first-step": "force-of-one-time",
     "body-force-of-the-step-end": "force-of-the-end-of-the-step",
+    "body-force-of-the-middle-of-the-step": "force-shifted-in-time",
+    "body-force-of-the-preceding-step": "force-shifted-in-time",
+    "body-force-extrapolated": "force-shifted-in-time",
     "body-force-time-in-steps": "force-of-another-time",
     "body-force-of-one-particle": "force-of-other-points",
     "body-force-of-other-points": "force-of-other-points",
@@ -1376,6 +1550,9 @@ EXPECTED = {
     "soil-in-reference-axes": "soil-not-objective",
     "soil-half-return": "soil-depends-on-steps",
     "soil-strength-without-cosine": "soil-yield-surface soil-apex",
+    "modulus-of-the-second-law": "law-scaled",
+    "modulus-of-the-second-law-near-j": "law-scaled",
+    "lame-exchanged-in-the-second-law": "law-differs",
     "volume-not-updated": "volume-at-finite-strain",
     "volume-updated-twice": "volume-at-finite-strain",
     "volume-divided-by-j": "volume-at-finite-strain",
@@ -1392,6 +1569,12 @@ EXPECTED = {
     "mass-without-density": "mass-or-volume-scaled",
     "mass-density-twice": "mass-or-volume-scaled",
     "mass-from-deformed-volume": "initial-stress-differs",
+    "mass-from-present-volume": "mass-at-finite-strain",
+    "mass-divided-by-j": "mass-at-finite-strain",
+    "mass-times-j-squared": "mass-at-finite-strain",
+    "initial-lateral-stress-from-poisson": "initial-stress-components",
+    "initial-shear-stress-dropped": "initial-stress-components",
+    "initial-stress-isotropic": "initial-stress-components",
     "volume-of-the-cell": "mass-or-volume-scaled",
     "volume-of-two-per-axis": "mass-or-volume-scaled",
     "initial-stress-dropped": "initial-stress-dropped",
@@ -1445,6 +1628,9 @@ EXPECTED = {
     "output-other-order": "force-of-other-points",
     "output-stress-other-order": "stress-column",
     "output-points-in-other-order": "force-of-other-points",
+    "output-weights-of-nodes-not-halved": "weights-of-points",
+    "output-weights-one": "weights-of-points",
+    "output-weights-are-masses": "weights-of-points",
     "output-component-wise": "vectors-in-another-layout",
     "output-velocity-of-last-step": "velocity-of-another-time",
     "output-velocity-in-cells": "velocity-scaled",
