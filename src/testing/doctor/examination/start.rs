@@ -134,21 +134,14 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
             shown(forces.error)
         ));
         let finding = cause(course, scene, &forces);
-        // A law whose initial stress has wrong components only loses all of it.
-        match &finding {
-            Some(found) if found.name == COMPONENTS => {
-                all.findings.retain(|earlier| earlier.name != DROPPED);
-            }
-            Some(found) if found.name == DROPPED => {
-                if all.findings.iter().any(|earlier| earlier.name == COMPONENTS) {
-                    continue;
-                }
-            }
-            _ => {}
-        }
         let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
         let new = finding.filter(is_new);
         all.findings.extend(new);
+    }
+    // Wrong components also change the magnitude, or all of the stress of other laws.
+    if all.findings.iter().any(|finding| finding.name == COMPONENTS) {
+        let is_other = |name: &str| name != COMPONENTS && name.starts_with("initial-stress");
+        all.findings.retain(|finding| !is_other(finding.name));
     }
     Ok(all)
 }
