@@ -185,7 +185,7 @@ def parse(words):
     parser.add_argument("--points", choices=POINTS)
     parser.add_argument("--laws", nargs="+", metavar="LAW", help="the only laws that the client declares")
     parser.add_argument("--shift", type=float, help="offset of the positions that the NumPy client holds (m)")
-    parser.add_argument("--substeps", type=shares_of)
+    parser.add_argument("--substeps", type=shares_of, help="steps for each step that is requested")
     return parser.parse_known_args(words)
 
 
