@@ -85,7 +85,7 @@ pub trait Number:
         "Largest whole number not above x." floor Floor;
         "Bessel function of the first kind, of order 0." bessel_j0 BesselJ0;
         "Bessel function of the first kind, of order 1." bessel_j1 BesselJ1;
-        "Principal branch of Lambert's W, for x >= 0." lambert_w LambertW;
+        "Principal branch of Lambert's W, for x >= -1/e." lambert_w LambertW;
     }
 }
 

@@ -73,7 +73,7 @@ functions! { x, f;
     bessel_j0 BesselJ0 = libm::j0(x), -libm::j1(x), 0.5 * (libm::jn(2, x) - f);
     "Bessel function of the first kind, of order 1."
     bessel_j1 BesselJ1 = libm::j1(x), 0.5 * (libm::j0(x) - libm::jn(2, x)), bessel_j1_curvature(x, f);
-    "Principal branch of Lambert's W for x >= 0, the solution of w*exp(w) = x."
+    "Principal branch of Lambert's W for x >= -1/e, the solution w >= -1 of w*exp(w) = x."
     lambert_w LambertW = lambert_w(x), lambert_slope(f), lambert_curvature(f);
 }
 
@@ -135,23 +135,51 @@ fn step(x: f64) -> f64 {
 /// Maximum number of iterations. Halley's method converges cubically, here in at most five steps.
 const MAX_STEPS: usize = 16;
 
-/// Computes the principal branch of W, the solution of w*exp(w) = x, for x >= 0; NaN otherwise.
+/// Difference between Euler's number e and its nearest `f64`.
+const E_REST: f64 = 1.445_646_891_729_250_2e-16;
+
+/// Below this argument, [`lambert_w`] is computed from its distance to the branch point.
+const NEAR_BRANCH: f64 = -0.25;
+
+/// Computes the principal branch of W, the solution `w >= -1` of w*exp(w) = x, for x >= -1/e; NaN
+/// otherwise.
 pub(super) fn lambert_w(x: f64) -> f64 {
-    if x.is_nan() || x < 0.0 {
-        return f64::NAN;
+    if x < NEAR_BRANCH {
+        return above_branch_point(x) - 1.0;
     }
-    if x.is_infinite() {
+    if x.is_nan() || x.is_infinite() {
         return x;
     }
     let mut w = log1p(x);
     for _ in 0..MAX_STEPS {
         let step = halley(w, x);
         w -= step;
-        if fabs(step) <= f64::EPSILON * w {
+        if fabs(step) <= f64::EPSILON * fabs(w) {
             break;
         }
     }
     w
+}
+
+/// Computes d = W + 1 for x from -1/e to -1/4. The equation (d - 1) exp(d) + 1 = e x + 1 determines
+/// d. Its left-hand side is the sum of (n - 1) d^n / n! from n = 2, so no digits cancel near the
+/// branch point. NaN for x < -1/e.
+fn above_branch_point(x: f64) -> f64 {
+    let offset = libm::fma(std::f64::consts::E, x, 1.0) + E_REST * x;
+    // The `f64` next to -1/e is less than -1/e by 1.2e-17.
+    if fabs(offset) <= f64::EPSILON {
+        return sqrt(2.0 * offset.max(0.0));
+    }
+    let mut d = sqrt(2.0 * offset);
+    for _ in 0..MAX_STEPS {
+        let (mut term, mut sum) = (d, 0.0);
+        for n in 2..24 {
+            term *= d / f64::from(n);
+            sum += f64::from(n - 1) * term;
+        }
+        d -= (sum - offset) / (d * exp(d));
+    }
+    d
 }
 
 /// Returns the step of Halley's method for w*exp(w) - x. Dividing the equation by exp(w) avoids
@@ -180,10 +208,36 @@ mod tests {
         approx::assert_relative_eq!(lambert_w(x), w, max_relative = 4.0 * f64::EPSILON);
     }
 
+    /// The values are solutions of w*exp(w) = x, computed with 60 digits for the given `f64`.
     #[rstest]
-    #[case(-0.1)]
+    #[case(-1e-300, -1e-300)]
+    #[case(-1e-09, -1.000_000_001e-09)]
+    #[case(-0.003_9, -0.003_915_299_600_155_102)]
+    #[case(-0.1, -0.111_832_559_158_962_97)]
+    #[case(-0.2, -0.259_171_101_819_073_77)]
+    #[case(-0.25, -0.357_402_956_181_388_9)]
+    #[case(-0.250_000_1, -0.357_403_178_655_526_45)]
+    #[case(-0.3, -0.489_402_227_180_214_9)]
+    #[case(-0.35, -0.716_638_816_456_073_6)]
+    #[case(-0.367, -0.932_399_184_747_928_3)]
+    #[case(-0.367_87, -0.992_852_729_821_527_7)]
+    #[case(-0.367_879_441, -0.999_969_470_698_208_6)]
+    #[case(-0.367_879_441_17, -0.999_997_199_763_411_1)]
+    fn agrees_with_solutions_below_zero(#[case] x: f64, #[case] w: f64) {
+        assert!((lambert_w(x) - w).abs() <= 4.0 * f64::EPSILON * w.abs(), "{}", lambert_w(x));
+    }
+
+    #[test]
+    fn value_at_the_branch_point_is_minus_one() {
+        assert_eq!(lambert_w(-1.0 / std::f64::consts::E), -1.0);
+    }
+
+    #[rstest]
+    #[case(-0.367_879_442)]
+    #[case(-0.5)]
+    #[case(f64::NEG_INFINITY)]
     #[case(f64::NAN)]
-    fn is_not_defined_below_zero(#[case] x: f64) {
+    fn is_not_defined_below_the_branch_point(#[case] x: f64) {
         assert!(lambert_w(x).is_nan());
     }
 }
