@@ -20,6 +20,15 @@ const LOAD: &str = "    - gravity: [\"-g\"]";
 #[case::with_instants(
     &[(RUN, "run: {load_steps: 20, ▸instants: 3}")], &["`instants` is not supported with load steps: errors are computed after the last step only"]
 )]
+#[case::of_a_velocity(
+    &[("judge: {of: displacement, norm: rms}", "judge: {of: ▸velocity, norm: rms}")], &["`velocity` is not supported with load steps: they have no velocity"]
+)]
+#[case::of_a_kinetic_energy(
+    &[("judge: {of: displacement, norm: rms}", "judge: {of: ▸kinetic_energy}")], &["`kinetic_energy` is not supported with load steps"]
+)]
+#[case::of_a_momentum(
+    &[("judge: {of: displacement, norm: rms}", "judge: {of: ▸momentum}")], &["`momentum` is not supported with load steps"]
+)]
 #[case::of_no_step(&[("[1, 20]", "▸0")], &["the number of load steps"])]
 #[case::of_half_a_step(&[("[1, 20]", "[1, ▸2.5]")], &["the number of load steps"])]
 #[case::of_too_many(&[("[1, 20]", "▸1000000")], &["expected a whole number from 1 to 1e5"])]

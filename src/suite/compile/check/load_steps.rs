@@ -8,6 +8,7 @@ use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::{Diagnostic, Path};
+use crate::verify::Quantity;
 
 /// Refuses suites that combine load steps with keys for time or with features that the quasi-static
 /// solver does not support, or a quasi-static method with time steps.
@@ -66,6 +67,14 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
     if let Some((_, path, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         let diagnostic = evaluator.diagnostic_at_key(&path, message);
         return Err(diagnostic.with_help("state the `equilibrium` under the full load"));
+    }
+    if OF_VELOCITIES.contains(&spec.judge.of) {
+        let message = format!(
+            "`{}` is not supported with load steps: they have no velocity",
+            spec.judge.of.name()
+        );
+        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("of"), &message);
+        return Err(diagnostic.with_help("judge the `displacement` or the `stress`"));
     }
     if spec.equilibrium.is_none() && spec.reference.is_none() {
         let message = "load steps need an `equilibrium` or a `reference`: they end in equilibrium";
@@ -156,6 +165,10 @@ fn is_held(scene: &Scene, axis: usize) -> bool {
     };
     scene.faces.iter().any(holds)
 }
+
+/// Quantities that are zero if the body has no velocity.
+const OF_VELOCITIES: [Quantity; 4] =
+    [Quantity::Velocity, Quantity::KineticEnergy, Quantity::Momentum, Quantity::AngularMomentum];
 
 const KNOWN_CONDITIONS: [&str; 4] = ["free", "fixed", "roller", "periodic"];
 
