@@ -15,7 +15,7 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
-use crate::verify::{AMPLITUDE, SpectrumExpectation};
+use crate::verify::{AMPLITUDE, SpectrumExpectation, steps_of_run};
 use std::f64::consts::TAU;
 
 /// Maximum number of cases, and of waves per case.
@@ -24,6 +24,9 @@ const MOST: usize = 500;
 /// Maximum number of particles per cell. The number is limited, because the closed form has one
 /// term per particle.
 const MOST_PPC: u64 = 64;
+
+/// Maximum number of steps of the run of one wave: minutes with a row of a hundred particles.
+const MOST_STEPS: f64 = 1e6;
 
 /// Minimum symbol `s` of the mass matrix (docs/glossary.md) for a wave that the grid can represent.
 const SMALLEST_MASS: f64 = 1e-9;
@@ -141,6 +144,12 @@ fn waves(
         for (k, text) in courants.as_slice().iter().enumerate() {
             let at = path.then("courant").alternative(courants, k);
             let courant = evaluator.positive(&at, text, "the Courant number")?;
+            let steps = steps_of_run(length, courant, None) as f64;
+            if !(steps <= MOST_STEPS) {
+                let message = format!("a wave of {} cells needs {steps:.1e} steps", shown(length));
+                let label = format!("expected a Courant number for at most {MOST_STEPS:.0e} steps");
+                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+            }
             waves.push(Wave { cells: length, courant, velocity: velocity.clone() });
         }
     }
@@ -275,6 +284,15 @@ fn refuse_unfit_waves(
             let property = "a wave that the grid represents";
             let label =
                 format!("the symbol s of the mass of `{}` is 0 at {} cells", case.name, wave.cells);
+            return Err(needs(evaluator, &at, property).with_label(&label));
+        }
+        if !matches!(curve.spline, Spline::Quadratic) && wave.cells < 2.0 + ROUNDING {
+            let at = path.then("cells_per_wavelength").alternative(listed, length);
+            let property = "a wave that is not zero at all nodes";
+            let label = format!(
+                "the nodes of `{}` are on cell faces, where a sine of 2 cells is 0",
+                case.name
+            );
             return Err(needs(evaluator, &at, property).with_label(&label));
         }
         if matches!(curve.transfer, WaveTransfer::Tpic)

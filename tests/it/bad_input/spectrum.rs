@@ -35,6 +35,16 @@ expect:
     &[("ppc: 2}", "ppc: 2, shift: ▸[0.25]}")],
     &["0.5 m apart are shifted by 0.25 m", "less than half of their distance"]
 )]
+#[case::of_two_cells_and_nodes_on_faces(
+    &[("[8, 16]", "[8, ▸2]")], &["the nodes of `mpm-linear-flip-usl` are on cell faces, where a sine of 2 cells is 0"]
+)]
+#[case::of_two_cells_and_cubic_functions(
+    &[("[8, 16]", "[8, ▸2]"), ("basis: linear", "basis: cubic_bspline")], &["where a sine of 2 cells is 0"]
+)]
+#[case::of_endless_runs(
+    &[("[0.4]", "[0.4, ▸1e-9]")], &["a wave of 8 cells needs 1.6e11 steps", "at most 1e6 steps"]
+)]
+#[case::of_runs_just_too_long(&[("[0.4]", "[▸1.5e-4]")], &["a wave of 8 cells needs 1.1e6 steps"])]
 #[case::of_two_bodies(
     &[
         ("  body: {box: {from: [0], to: [16]}}\n", ""),
