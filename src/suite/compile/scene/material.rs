@@ -300,6 +300,10 @@ fn refuse_outside_yield_surface(
     }
     let Some((value, label)) = worst else { return Ok(()) };
     let place: Vec<String> = label.iter().map(|x| shown(*x)).collect();
+    if !value.is_finite() {
+        let message = format!("the initial stress at ({}) m is not finite", place.join(", "));
+        return Err(evaluator.diagnostic_at_key(path, &message));
+    }
     let message = format!(
         "the initial stress violates the yield condition of `{}`: f = {value:.3e} Pa at ({}) m",
         material.name(),
