@@ -292,6 +292,11 @@ class Session:
         if request["type"] == "differentiate":
             value, gradient = cast(Differentiable, solver).differentiate(
                 request["of"], request["with_respect_to"], request["steps"], request["dt"])
+            named = zip(["value", *request["with_respect_to"]], [value, *gradient])
+            for name, number in named:
+                if not np.isfinite(number):
+                    raise ArithmeticError(f"the derivative with respect to {name} is {number}"
+                                          if name != "value" else f"the value is {number}")
             return {"type": "gradient", "value": float(value),
                     "gradient": [float(entry) for entry in gradient]}
         raise ValueError(f"the request {request['type']} is not part of protocol {PROTOCOL}")

@@ -1788,6 +1788,42 @@ GRADIENT_FAULTS = {fault.name: fault for fault in [
               def differentiate(self, of, names, steps, dt):
                   return super().differentiate(of, sorted(names), steps, dt)
           """),
+    Fault("gradient-positions-detached",
+          "Detaches the positions from the derivatives before it computes functions and gradients.",
+          "derivatives do not pass through the positions",
+          "--gradient",
+          patch="""
+              def locate(self):
+                  super().locate()
+                  self.s = part(self.s)
+          """),
+    Fault("gradient-not-cleared",
+          "Adds the derivatives of all earlier parameters, because it does not clear them.",
+          "derivatives are not cleared between parameters",
+          "--gradient",
+          patch="""
+              def differentiate(self, *arguments):
+                  value, slopes = super().differentiate(*arguments)
+                  return value, np.cumsum(slopes).tolist()
+          """),
+    Fault("gradient-in-single-precision",
+          "Stores derivatives in single precision.",
+          "single-precision",
+          "--gradient",
+          patch="""
+              def differentiate(self, *arguments):
+                  value, slopes = super().differentiate(*arguments)
+                  return value, [np.float32(slope) for slope in slopes]
+          """),
+    Fault("gradient-not-a-number",
+          "Divides zero by zero in one derivative.",
+          "the derivative with respect to density is nan",
+          "--gradient",
+          patch="""
+              def differentiate(self, of, names, steps, dt):
+                  value, slopes = super().differentiate(of, names, steps, dt)
+                  return value, [np.nan if name == "density" else x for name, x in zip(names, slopes)]
+          """),
     Fault("gradient-one-step-short",
           "Differentiates the state before the last step.",
           "value and derivatives belong to an earlier time",

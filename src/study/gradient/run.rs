@@ -70,8 +70,9 @@ impl GradientRun<'_> {
             progress();
             done
         };
-        let on_levels =
-            levels.par_iter().map(on_level).collect::<Result<Vec<_>, GradientError>>()?;
+        // With several failed levels, the coarsest one is reported, in any order of the runs.
+        let on_levels = levels.par_iter().map(on_level).collect::<Vec<_>>();
+        let on_levels = on_levels.into_iter().collect::<Result<Vec<_>, GradientError>>()?;
         let examined = self.plan.level;
         let problem = self.problem(levels[examined])?;
         let one = self.parameter();
@@ -89,7 +90,11 @@ impl GradientRun<'_> {
             Some(sweep) => self.sweep(&problem, q, sweep, progress)?,
             None => Vec::new(),
         };
+        let partials = on_levels.iter().map(|(.., partial)| *partial);
+        let derivatives: Vec<f64> = partials.chain(points.iter().map(|p| p.gradient)).collect();
         let mut study = GradientStudy {
+            single_precision: self.solver.precision() == Precision::Double
+                && is_single(plain.value, &derivatives),
             functional: self.plan.of.name(),
             parameter: one.parameter.name(),
             value: ValueCheck {
@@ -128,13 +133,31 @@ impl GradientRun<'_> {
         let young = GradientParameter::Young;
         let soft = problem.parameter(young).map(|young| NO_STRESS * young);
         let soft = soft.map(|soft| problem.clone().with_parameter(young, soft));
+        let moves_more = problem.clone().with_parameter(GradientParameter::InitialVelocity, 2.0);
         // A value is NaN if the solver fails in its run.
         let or_none = |value: Result<f64, GradientError>| value.unwrap_or(f64::NAN);
         Ok(GradientEvidence {
             entries,
             one_step_less: or_none(value(shorter)),
+            errors: [problem, &moves_more].map(|problem| or_none(self.relative_error(problem))),
             without_stress: soft.map_or(f64::NAN, |soft| or_none(value(soft))),
         })
+    }
+
+    /// Computes the relative error of the derivative with respect to the parameter of the case. The
+    /// error of the extrapolated central difference is of fourth order.
+    fn relative_error(&self, problem: &LevelProblem) -> Result<f64, GradientError> {
+        let parameter = self.parameter().parameter;
+        let q = nominal(problem, parameter)?;
+        let index = self.request.iter().position(|known| *known == parameter).unwrap_or(0);
+        let reported = self.gradient(problem)?.gradient[index];
+        let at = |q: f64| self.value(&problem.clone().with_parameter(parameter, q));
+        let difference = |level: u32| -> Result<f64, GradientError> {
+            let by = q * libm::exp2(-f64::from(level));
+            Ok((at(q + by)?.value - at(q - by)?.value) / (2.0 * by))
+        };
+        let exact = (4.0 * difference(EVIDENCE_LEVEL)? - difference(EVIDENCE_LEVEL - 1)?) / 3.0;
+        Ok((reported - exact) / exact)
     }
 
     fn parameter(&self) -> &Differentiated {
@@ -172,7 +195,13 @@ impl GradientRun<'_> {
         let (problem, one) = (self.problem(level)?, self.parameter());
         let exact = exact_derivative(self.plan, one, &problem);
         let dt = problem.dt;
-        let Gradient { value, gradient } = self.gradient(&problem)?;
+        let Gradient { value, gradient } =
+            self.gradient(&problem).map_err(|error| match error {
+                GradientError::Failed(reason) => {
+                    GradientError::Failed(format!("{reason} (on {} cells)", level.cells))
+                }
+                refused => refused,
+            })?;
         let of = |parameter: GradientParameter| {
             let index = self.request.iter().position(|known| *known == parameter);
             index.and_then(|index| gradient.get(index)).copied()
@@ -301,6 +330,14 @@ impl GradientRun<'_> {
         };
         (0..sweep.points).into_par_iter().map(point).collect()
     }
+}
+
+/// Whether all derivatives are numbers of single precision, although the `value` is not. By chance,
+/// one number in 2^29 is.
+fn is_single(value: f64, derivatives: &[f64]) -> bool {
+    let single = |x: f64| x != 0.0 && f64::from(x as f32) == x;
+    let differ = derivatives.iter().any(|x| *x != derivatives[0]);
+    !single(value) && differ && derivatives.len() > 2 && derivatives.iter().all(|x| single(*x))
 }
 
 /// Returns the value of a parameter in the problem. A zero value is an error, because perturbations

@@ -42,6 +42,9 @@ pub struct GradientStudy {
     pub functional: &'static str,
     /// Name of the parameter.
     pub parameter: &'static str,
+    /// Whether all derivatives are numbers of single precision, but the solver states double
+    /// precision.
+    pub single_precision: bool,
     /// Check 1: the value of the functional, on the level where parameters are perturbed.
     pub value: ValueCheck,
     /// Check 2: the remainder of the Taylor series with the derivative.
@@ -84,6 +87,13 @@ impl GradientStudy {
             return (GradientState::Wrong, reason);
         }
         let (state, reason) = self.taylor.judge();
+        if self.single_precision {
+            let reason = format!(
+                "single-precision: every reported derivative is a number of single precision, but \
+                 the solver states double precision; {reason}"
+            );
+            return (GradientState::Wrong, reason);
+        }
         match &self.sweep {
             Some(sweep) if matches!(state, GradientState::Wrong | GradientState::AtRounding) => {
                 (state, format!("{reason}; {}", sweep.summary()))
@@ -197,6 +207,7 @@ mod tests {
         GradientStudy {
             functional: "mean_displacement",
             parameter: "young",
+            single_precision: false,
             value: ValueCheck { reported: 1.0, computed: 1.0, tolerance: 1e-12 },
             taylor,
             levels: [8, 16, 32].map(level).to_vec(),
