@@ -62,7 +62,17 @@ class LinearElastic(Material):
         return volume_ratio(f)[:, None, None] * self.stress @ inverse_transpose(f)
 
 
-LAWS = {"linear_elastic": LinearElastic, "neo_hookean": NeoHookean, "corotated": Corotated}
+class SmallStrain(Material):
+    """P = lambda tr(eps) I + 2 mu eps, where eps = sym(F - I)."""
+
+    def piola(self, f: Array) -> Array:
+        strain = 0.5 * (f + f.transpose(0, 2, 1)) - np.eye(f.shape[-1])
+        trace = np.trace(strain, axis1=1, axis2=2)[:, None, None]
+        return self.lam * trace * np.eye(f.shape[-1]) + 2 * self.mu * strain
+
+
+LAWS = {"linear_elastic": LinearElastic, "small_strain": SmallStrain, "neo_hookean": NeoHookean,
+        "corotated": Corotated}
 
 
 def inverse_transpose(f: Array) -> Array:

@@ -47,6 +47,9 @@ macro_rules! flags {
             pub column: Option<&'static str>,
             /// Parameters for which the study needs derivatives.
             pub gradients: Vec<&'static str>,
+            #[doc = "Whether a solver with the law `small_strain` may replace `linear_elastic`: the \
+                judged state is an exact solution of small-strain elasticity."]
+            pub small_strain: bool,
             $(#[doc = $need] pub $name: bool,)+
             /// Parts of the scene that the protocol does not support.
             pub beyond: Vec<&'static str>,
@@ -128,7 +131,11 @@ impl Capabilities {
         let column: Vec<&str> = needs.column.into_iter().collect();
         let wanted = [&needs.laws, &needs.conditions, &needs.loads, &column, &needs.gradients];
         for ((capability, has), wanted) in self.lists().into_iter().zip(wanted) {
-            let missing = wanted.iter().filter(|name| !has.iter().any(|known| known == *name));
+            let replaces = |known: &str, name: &str| {
+                needs.small_strain && name == "linear_elastic" && known == SMALL_STRAIN
+            };
+            let is_met = |name: &str| has.iter().any(|one| one == name || replaces(one, name));
+            let missing = wanted.iter().filter(|name| !is_met(name));
             lacking.extend(missing.map(|name| match misspelt(capability, name, has) {
                 Some(stated) => format!("{capability}: {name} (stated as `{stated}`)"),
                 None => format!("{capability}: {name}"),
@@ -214,12 +221,17 @@ impl ProblemNeeds {
     }
 }
 
+/// Law of solvers with linear kinematics: `sigma = C : sym(grad u)` in the reference configuration.
+/// The built-in MPM does not have this law, but it is the law of the exact solutions of suites with
+/// `linear_elastic`.
+pub(crate) const SMALL_STRAIN: &str = "small_strain";
+
 /// Declares the names of the materials, from the lines of [`each_material`](crate::members).
 macro_rules! laws {
     ($($name:literal => $file:ident::$law:ident {$($parameters:tt)*}
         $(, truth $truth_file:ident::$truth:ident)?;)+
     ) => {
-        const LAWS: &[&str] = &[$($name),+];
+        const LAWS: &[&str] = &[$($name,)+ SMALL_STRAIN];
     };
 }
 
@@ -312,6 +324,7 @@ mod tests {
             loads: vec!["gravity"],
             column: Some("stress"),
             gradients: vec!["young"],
+            small_strain: true,
             manufactured: true,
             initial_deformation: true,
             several_bodies: true,
@@ -365,6 +378,20 @@ mod tests {
             ..Capabilities::of(&[1, 2], &["neo_hookean"], &conditions, &["gravity"])
         };
         assert_eq!(able.lacking(&needs), all[18..]);
+    }
+
+    #[test]
+    fn small_strain_replaces_linear_elastic_where_the_solution_permits() {
+        let able = Capabilities::of(&[1], &[SMALL_STRAIN], &[], &[]);
+        let of = |law, small_strain| ProblemNeeds {
+            dimension: 1,
+            laws: vec![law],
+            small_strain,
+            ..ProblemNeeds::default()
+        };
+        assert_eq!(able.lacking(&of("linear_elastic", true)), [""; 0]);
+        assert_eq!(able.lacking(&of("linear_elastic", false)), ["laws: linear_elastic"]);
+        assert_eq!(able.lacking(&of("hencky", true)), ["laws: hencky"]);
     }
 
     #[test]

@@ -19,6 +19,7 @@ mod problem;
 mod program;
 
 use crate::subject::{Precision, Subject, SubjectError};
+pub(crate) use capabilities::SMALL_STRAIN;
 #[cfg(test)]
 pub(crate) use capabilities::everything;
 pub use capabilities::{Capabilities, ProblemNeeds};

@@ -1,5 +1,6 @@
 //! The problem of one level, in a form that does not depend on the solver.
 
+use super::capabilities::SMALL_STRAIN;
 use super::fields::{BodyForceField, HandedValues, ProblemFields, as_map};
 use crate::subject::PlaneState;
 use serde::Serialize;
@@ -213,6 +214,35 @@ pub struct ProblemMaterial {
     /// particle is the integral of this formula over the particle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub varying_density: Option<String>,
+}
+
+impl LevelProblem {
+    /// Replaces the law `linear_elastic` by `small_strain`. A body that starts deformed has the
+    /// stress `C : sym(F - I)`.
+    pub(crate) fn replace_by_small_strain(&mut self) {
+        for material in self.materials.iter_mut().filter(|one| one.law == "linear_elastic") {
+            material.law = SMALL_STRAIN;
+        }
+        let (d, particles) = (self.dimension, &mut self.particles);
+        let tensors = particles.stress.chunks_exact_mut(d * d);
+        let tensors = tensors.zip(particles.deformation_gradient.chunks_exact(d * d));
+        for ((stress, f), body) in tensors.zip(&particles.body) {
+            let Some(material) = self.materials.get(*body as usize) else { continue };
+            let excess = |i: usize, j: usize| f[i * d + j] - f64::from(u8::from(i == j));
+            if material.law != SMALL_STRAIN || (0..d * d).all(|k| excess(k / d, k % d) == 0.0) {
+                continue;
+            }
+            let (young, poisson) = (material.parameter("young"), material.parameter("poisson"));
+            let twice_mu = young / (1.0 + poisson);
+            let trace: f64 = (0..d).map(|i| excess(i, i)).sum();
+            let pressure = twice_mu * poisson / (1.0 - 2.0 * poisson) * trace;
+            for k in 0..d * d {
+                let (i, j) = (k / d, k % d);
+                let spherical = if i == j { pressure } else { 0.0 };
+                stress[k] = spherical + 0.5 * twice_mu * (excess(i, j) + excess(j, i));
+            }
+        }
+    }
 }
 
 impl ProblemMaterial {

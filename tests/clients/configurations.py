@@ -120,6 +120,20 @@ def other_configurations():
     yield Configuration("FEM client", "fem", ["{python}", "tests/clients/fem.py"], False)
 
 
+def small_strain_configurations():
+    fem = [*VARIANT, "--client", "small-fem"]
+    sph = [*VARIANT, "--client", "sph", "--laws", "small_strain", "--radius"]
+    for name, command in [("small-fem-points", fem), ("small-fem-nodes", [*fem, "--at", "nodes"]),
+                          ("small-sph-1.6", [*sph, "1.6"]), ("small-sph-1.8", [*sph, "1.8"])]:
+        yield Configuration("Small strains", name, command, True)
+
+
+def sample_configurations():
+    for basis, kind, scheme in itertools.product(BASES, ["every-second", "every-third"], SCHEMES):
+        yield Configuration("Points that are a sample", f"numpy-{basis}-{scheme}-{kind}",
+                            [*VARIANT, "--points", kind, "--basis", basis, "--scheme", scheme], False)
+
+
 CONFIGURATIONS = [
     *other_configurations(),
     *numpy_configurations("", BLENDS),
@@ -133,6 +147,8 @@ CONFIGURATIONS = [
     *total_lagrangian_configurations(),
     *substep_configurations(),
     *cpp_configurations(),
+    *small_strain_configurations(),
+    *sample_configurations(),
     Configuration("Fortran client", "fortran", ["{fortran}"], False),
 ]
 CONFIGURATIONS = {configuration.name: configuration for configuration in CONFIGURATIONS}

@@ -3,7 +3,8 @@
     python3 tests/clients/variant.py [--client NAME] [--fault NAME] [--points KIND] [--substeps K] OPTION ...
 
 The remaining options are those of the client. `--points particles` names the particles' reference positions as
-points, `--points shuffled` the same in a random order, and `--points nodes` the mesh nodes in the body.
+points, `--points shuffled` the same in a random order, `--points every-second` and `every-third` a sample of them with
+weights of 2 or 3 volumes, and `--points nodes` the mesh nodes in the body.
 `--laws` restricts the laws, and `--shift` moves the positions that the NumPy client holds.
 `--substeps 3` takes three steps of dt/3 for each step, `--substeps 2,3,5` these numbers of steps in turn, and
 `--substeps 0.3+0.7` steps of 0.3 dt and 0.7 dt.
@@ -33,6 +34,7 @@ SOURCES = {
     "sph": ([SOLVERS / "mpm_verify.py", SOLVERS / "lagrangian.py", SOLVERS / "sph.py"], "Sph"),
     "several_bodies": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "several_bodies.py"], "Bodies"),
     "fem": ([CLIENTS / "fem.py"], "Fem"),
+    "small-fem": ([SOLVERS / "mpm_verify.py", SOLVERS / "lagrangian.py", CLIENTS / "small_fem.py"], "SmallFem"),
     "total_lagrangian": ([CLIENTS / "total_lagrangian.py"], "TotalLagrangian"),
 }
 MAIN = '\nif __name__ == "__main__":\n'
@@ -92,7 +94,8 @@ class AtParticles:
     def setup(self, problem):
         self.chosen = self.order(len(problem.reference_position))
         volume = problem.volume / np.linalg.det(problem.deformation_gradient)
-        points = {"reference_position": problem.reference_position[self.chosen], "weight": volume[self.chosen]}
+        weight = volume[self.chosen] * (volume.sum() / volume[self.chosen].sum())
+        points = {"reference_position": problem.reference_position[self.chosen], "weight": weight}
         ask_at(problem, problem.reference_position)
         super().setup(problem)
         return points
@@ -107,6 +110,20 @@ class Shuffled(AtParticles):
 
     def order(self, count):
         return np.random.default_rng(39).permutation(count)
+
+
+class EverySecond(AtParticles):
+    """States at every second particle, each with the weight of two."""
+
+    def order(self, count):
+        return np.arange(0, count, 2)
+
+
+class EveryThird(AtParticles):
+    """States at every third particle, each with the weight of three."""
+
+    def order(self, count):
+        return np.arange(0, count, 3)
 
 
 class AtNodes:
@@ -174,7 +191,8 @@ def shares_of(text):
     return [[1 / int(count)] * int(count) for count in text.split(",")]
 
 
-POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes}
+POINTS = {"particles": AtParticles, "shuffled": Shuffled, "nodes": AtNodes,
+          "every-second": EverySecond, "every-third": EveryThird}
 
 
 def parse(words):

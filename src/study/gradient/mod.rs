@@ -85,7 +85,8 @@ fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory)
     if one.velocity_factor != 0.0 && gradients != [velocity] {
         gradients.push(velocity);
     }
-    solver.lacks(&ProblemNeeds { gradients, ..needs(&plan.problem) })
+    // Derivatives are compared with those of the built-in law in rate form.
+    solver.lacks(&ProblemNeeds { gradients, small_strain: false, ..needs(&plan.problem) })
 }
 
 /// Creates the part of an outcome that is known before the case runs.

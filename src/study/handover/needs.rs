@@ -3,7 +3,7 @@
 
 use super::level_problem;
 use super::particles::starts_deformed;
-use crate::external::{ProblemNeeds, SolverFactory};
+use crate::external::{ProblemNeeds, SMALL_STRAIN, SolverFactory};
 use crate::mpm::{MaterialParameter, MaterialPlan, Range};
 use crate::study::kind::study;
 use crate::study::setup::dispatch::subject;
@@ -22,6 +22,10 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
         load_steps: plan.steps == StepKind::Load,
+        small_strain: plan
+            .exact
+            .as_ref()
+            .is_some_and(|exact| exact.equation.name() == SMALL_STRAIN),
         ..of_scene(&plan.scene)
     };
     let energy_or_wall = [SumNeed::StoredEnergy, SumNeed::Wall];
@@ -142,6 +146,14 @@ pub(crate) fn subject_under(
 ) -> Result<Box<dyn Subject>, SubjectError> {
     match solver {
         None => subject(plan, case.method, level),
-        Some(solver) => solver.subject(level_problem(suite, plan, case, level)?),
+        Some(solver) => {
+            let mut problem = level_problem(suite, plan, case, level)?;
+            let needs = needs(plan);
+            let rate_form = ProblemNeeds { small_strain: false, ..needs.clone() };
+            if needs.small_strain && !solver.lacks(&rate_form).is_empty() {
+                problem.replace_by_small_strain();
+            }
+            solver.subject(problem)
+        }
     }
 }

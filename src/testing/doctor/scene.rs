@@ -1,7 +1,7 @@
 //! Small scenes. A scene is converted to the text of a suite, and the suite to a problem.
 
 use super::course::{AffineField, Course};
-use crate::external::{LevelProblem, ProblemNeeds};
+use crate::external::{LevelProblem, ProblemNeeds, SMALL_STRAIN};
 use crate::study::{level_problem, needs, subject};
 use crate::subject::SubjectError;
 use crate::suite::yaml::Source;
@@ -13,12 +13,20 @@ pub(super) type Kind = (usize, &'static str);
 pub(super) const FINITE: [&str; 4] = ["linear_elastic", "neo_hookean", "corotated", "hencky"];
 
 /// Laws that are linear elastic at small strains; `j2` has a yield stress that no scene reaches.
-pub(super) const ELASTIC: [&str; 5] =
-    ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2"];
+pub(super) const ELASTIC: [&str; 6] =
+    ["linear_elastic", "neo_hookean", "corotated", "hencky", SMALL_STRAIN, "j2"];
 
 /// All laws except those of soils, for scenes in which the law has no effect or is not examined.
-pub(super) const ANY: [&str; 7] =
-    ["linear_elastic", "neo_hookean", "corotated", "hencky", "j2", "newtonian", "linear_fluid"];
+pub(super) const ANY: [&str; 8] = [
+    "linear_elastic",
+    "neo_hookean",
+    "corotated",
+    "hencky",
+    SMALL_STRAIN,
+    "j2",
+    "newtonian",
+    "linear_fluid",
+];
 
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
@@ -226,6 +234,8 @@ impl BoxScene {
             ),
             _ => format!("young: {young:e}, poisson: {poisson}"),
         };
+        // Suites have no small-strain law: the law is replaced in the problem.
+        let law = if *law == SMALL_STRAIN { "linear_elastic" } else { *law };
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
@@ -296,7 +306,12 @@ impl BoxScene {
         let case = plan.cases.first().ok_or("no case")?;
         let mut problem = level_problem(&suite.name, plan, case, *level)?;
         problem.instants = (1..=problem.steps).collect();
-        Ok((problem, needs(plan)))
+        let mut needs = needs(plan);
+        if self.law == SMALL_STRAIN {
+            problem.replace_by_small_strain();
+            needs.laws = vec![SMALL_STRAIN];
+        }
+        Ok((problem, needs))
     }
 
     fn suite(&self, method: &str) -> Result<Suite, SubjectError> {

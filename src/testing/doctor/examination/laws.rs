@@ -400,6 +400,18 @@ fn of_stress(
              and this law. Omit the spin terms, or remove the law from `laws`",
         ));
     }
+    let small = of_small_strain(scene, f);
+    if scene.law == "linear_elastic" && error(mean, &small) <= NEAR {
+        return Ok(SolverFinding::defect(
+            "stress-at-finite-strain",
+            seen,
+            "the stress is that of small strains, C : sym(F - I). The law `linear_elastic` \
+             integrates the rate sigma' = C : D, which differs at finite strain. A solver with \
+             linear kinematics has the law `small_strain`",
+            "`laws` of the capabilities: list `small_strain` in place of `linear_elastic`. Suites \
+             with `linear_elastic` and an exact solution of small strains then remain applicable",
+        ));
+    }
     // If F^T F is used in place of F F^T, isotropic laws give the stress for F^T.
     let (of_transpose, _) = law_at(scene, &transposed(f, d))?;
     let factor = mean[0] / stress[0];
@@ -432,6 +444,18 @@ fn of_stress(
          sigma' = C : D); the column, which is the Cauchy stress row after row; left and right \
          Cauchy-Green tensors",
     ))
+}
+
+/// Returns the small-strain stress `C : sym(F - I)` (Pa), row by row.
+fn of_small_strain(scene: &BoxScene, f: &[f64]) -> Vec<f64> {
+    let (d, (lambda, mu)) = (scene.dimension, scene.lame());
+    let excess = |i: usize, j: usize| f[i * d + j] - f64::from(u8::from(i == j));
+    let pressure = lambda * (0..d).map(|i| excess(i, i)).sum::<f64>();
+    let entry = |i: usize, j: usize| {
+        let spherical = if i == j { pressure } else { 0.0 };
+        spherical + mu * (excess(i, j) + excess(j, i))
+    };
+    (0..d * d).map(|k| entry(k / d, k % d)).collect()
 }
 
 /// Integrates the Jaumann rate of linear elasticity, `sigma' = C : D + W sigma - sigma W` with the

@@ -6,6 +6,7 @@
 //! the initial first Piola-Kirchhoff stress.
 
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside};
+use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
     AffineField, Course, displacement, dot, minus, shown, shown_vector, size, times,
@@ -21,6 +22,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
     covers: &[
         "initial_deformation",
+        "laws: small_strain",
         "laws: linear_elastic",
         "laws: neo_hookean",
         "laws: corotated",
@@ -36,6 +38,9 @@ const SHEAR: f64 = 1.0;
 
 /// Initial displacement gradient of a one-dimensional body.
 const STRETCH: f64 = 0.05;
+
+/// Factor for the initial displacement gradient of a solver with the small-strain law.
+const SMALL: f64 = 1e-3;
 
 /// Position of the body. No particle of the deformed lattice is close to a cell face.
 #[derive(Clone, Copy)]
@@ -111,13 +116,15 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 
 fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examined, Hindrance> {
     let sheared = |kind| scene(kind, placement.sheared, placement);
-    let first = patient.able(&[2, 3, 1], &FINITE, &sheared)?;
-    let laws = FINITE.into_iter();
+    let [one, two, three, four] = FINITE;
+    let first = patient.able(&[2, 3, 1], &[one, two, three, four, SMALL_STRAIN], &sheared)?;
+    let laws = FINITE.into_iter().chain([SMALL_STRAIN]);
     let laws = laws.filter_map(|law| patient.able(&[first.dimension], &[law], &sheared).ok());
     let mut scenes: Vec<BoxScene> = laws.collect();
     // A shear preserves volumes, so a stretch is needed to reveal wrong masses and volumes.
-    if first.dimension > 1 {
-        let law = scenes.last().map_or(first.law, |scene| scene.law);
+    if first.dimension > 1 && first.law != SMALL_STRAIN {
+        let is_finite = |scene: &&BoxScene| scene.law != SMALL_STRAIN;
+        let law = scenes.iter().rfind(is_finite).map_or(first.law, |scene| scene.law);
         scenes.push(stretched((first.dimension, law), placement));
     }
     let courses = patient.run_all(&scenes)?;
@@ -155,6 +162,9 @@ fn scene(kind: Kind, offset: [f64; 3], placement: BodyPlacement) -> BoxScene {
         field.gradient[0][0] = STRETCH;
     } else {
         field.gradient[0][1] = SHEAR;
+    }
+    if kind.1 == SMALL_STRAIN {
+        field.gradient = field.gradient.map(|row| row.map(|slope| SMALL * slope));
     }
     scene.displacement = field;
     scene.young = 3.1;

@@ -1,5 +1,6 @@
 //! Examination of one problem in different units of length, time and mass.
 
+use super::faces::position_rounding;
 use super::stress::spreading;
 use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, displacement, shown};
@@ -18,6 +19,10 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 /// Factor for other units. It is a power of two, so scaling does not even change rounding errors.
 const THOUSANDTH: f64 = 1.0 / 1024.0;
+
+/// Maximum ratio of the change of displacements to the rounding errors of positions, if rounding is
+/// the cause.
+const GROWTH: f64 = 100.0;
 const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -36,14 +41,21 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         ("times", 1.0, THOUSANDTH, 1.0),
         ("masses", 1.0, 1.0, TINY),
     ] {
-        let off = match patient.run(&scene.scaled(length, time, mass)) {
+        let other = scene.scaled(length, time, mass);
+        let off = match patient.run(&other) {
             Ok(scaled) if scaled.failure.is_none() => difference(&plain, &scaled, length),
             Ok(_) | Err(Hindrance::Broke(_)) => f64::INFINITY,
             Err(lacks) => return Err(lacks),
         };
         measured.push(format!("{what}: {}", shown(off)));
-        if !(off <= most) {
-            spoiled.push(what);
+        if off <= most {
+            continue;
+        }
+        let moved = length * plain.farthest(displacement, plain.last(), [0.0; 3]);
+        let rounding = position_rounding(patient, &other).unwrap_or(f64::NAN) / moved;
+        if !(off <= GROWTH * rounding) {
+            let (off, rounding) = (shown(off), shown(rounding));
+            spoiled.push(format!("{what} (by {off}; rounding of the positions: {rounding})"));
         }
     }
     let measured =
@@ -52,7 +64,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let names = spoiled.join(" and ");
         SolverFinding::defect(
             "depends-on-units",
-            format!("with small {names}, the same problem gives a different motion"),
+            format!("the same problem gives a different motion with small {names}"),
             "the code contains a constant with a unit, such as a threshold on mass, length or time",
             "comparisons with constants like 1e-12 (nodes with little mass, cells, times), which \
              must be relative to a mass, length or time of the problem; constants such as 9.81; \
