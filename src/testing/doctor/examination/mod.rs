@@ -84,7 +84,7 @@ mod tests {
     #[case(2, "basis: linear, transfer: pic, scheme: musl")]
     #[case(2, "basis: cpdi, transfer: flip, scheme: usf")]
     #[case(2, "basis: quadratic_bspline, transfer: apic, scheme: usl")]
-    #[case(2, "basis: cubic_bspline, transfer: flip, scheme: musl, start: half_step_back")]
+    #[case(2, "basis: cubic_bspline, transfer: flip, scheme: musl")]
     #[case(1, "basis: ugimp, transfer: flip_99, scheme: musl")]
     fn built_in_solver_has_no_defect(#[case] dimension: usize, #[case] method: &str) {
         let patient = Patient { solver: &Able(dimension), built_in: Some(method) };
