@@ -38,9 +38,9 @@ pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateFi
     file.numbers("position", TensorRank::Vector, d, positions);
     file.xml += "</Points>\n<Cells>\n";
     let count = |first: usize| (first..first + n).flat_map(|k| (k as u64).to_le_bytes());
-    file.array("connectivity", "Int64", 1, count(0).collect());
-    file.array("offsets", "Int64", 1, count(1).collect());
-    file.array("types", "UInt8", 1, vec![VERTEX; n]);
+    file.array("connectivity", "Int64", 1, &count(0).collect::<Vec<_>>());
+    file.array("offsets", "Int64", 1, &count(1).collect::<Vec<_>>());
+    file.array("types", "UInt8", 1, &vec![VERTEX; n]);
     file.xml += "</Cells>\n";
     file.point_data(d, fields);
     file.written("UnstructuredGrid", "")
@@ -120,10 +120,10 @@ impl VtkFile {
                 bytes.extend(number.to_le_bytes());
             }
         }
-        self.array(name, "Float64", deep * wide, bytes);
+        self.array(name, "Float64", deep * wide, &bytes);
     }
 
-    fn array(&mut self, name: &str, kind: &str, components: usize, bytes: Vec<u8>) {
+    fn array(&mut self, name: &str, kind: &str, components: usize, bytes: &[u8]) {
         let offset = self.appended.len();
         let _ = writeln!(
             self.xml,
@@ -131,7 +131,7 @@ impl VtkFile {
              format=\"appended\" offset=\"{offset}\"/>"
         );
         let length = (bytes.len() as u64).to_le_bytes();
-        self.appended += &base64(&[&length[..], &bytes].concat());
+        self.appended += &base64(&[&length[..], bytes].concat());
     }
 
     fn written(self, kind: &str, attributes: &str) -> Vec<u8> {

@@ -219,13 +219,13 @@ fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     let bad = text.char_indices().find(|(at, c)| match c {
         '\t' | '\n' => false,
         '\r' => !text[at + 1..].starts_with('\n'),
-        '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => true,
+        '\u{ad}' | '\u{200b}' | '\u{2028}' | '\u{2029}' | '\u{2060}' | '\u{feff}' | '\u{fffe}'
+        | '\u{ffff}' => true,
         // A space that YAML does not recognise joins a key to its value.
         '\u{a0}' | '\u{2007}' | '\u{202f}' | '\u{3000}' => {
             let before = text[..*at].rsplit('\n').next().unwrap_or_default();
             before.trim().is_empty() || before.ends_with([':', '-'])
         }
-        '\u{ad}' | '\u{200b}' | '\u{2060}' => true,
         c => c.is_control(),
     });
     let Some((at, c)) = bad else { return Ok(()) };
