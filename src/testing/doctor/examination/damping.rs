@@ -87,8 +87,8 @@ fn locally_damped(kind: Kind) -> [BoxScene; 2] {
 }
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let (mut values, mut lacks): (Pattern<4>, _) = ([None; 4], Vec::new());
     type Part = (fn(Kind) -> [BoxScene; 2], fn(&[Course]) -> [f64; 2]);
+    let (mut values, mut lacks): (Pattern<4>, _) = ([None; 4], Vec::new());
     let parts: [Part; 2] = [(damped, rates), (locally_damped, shares)];
     for (k, (scenes, measure)) in parts.into_iter().enumerate() {
         match patient.able(&[2, 3, 1], &ANY, &|kind| scenes(kind)[1].clone()) {

@@ -1,7 +1,7 @@
 //! Examinations of Coulomb friction between a body and a wall, and between two bodies.
 //!
-//! While all of a contact slides, the tangential impulse is mu times the normal impulse, whatever
-//! the bodies do. Both impulses follow from the mean velocities of a body.
+//! While all of a contact slides, the tangential impulse is mu times the normal impulse, for any
+//! motion of the bodies. Both impulses follow from the mean velocities of a body.
 
 use crate::testing::doctor::course::{AffineField, Course, line, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
