@@ -4,7 +4,7 @@
 //! velocity of walls at low ends is constant. The velocity of walls at high ends grows as `v t/T`
 //! with the run time T.
 
-use super::stress::constant_and_rate;
+use super::stress::{constant_and_rate, require_whole_body};
 use super::walls::bar;
 use crate::testing::doctor::course::{Course, displacement, line, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -69,6 +69,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let ends = (0..kind.0).flat_map(|axis| [(axis, false), (axis, true)]);
     let scenes: Vec<BoxScene> = ends.clone().map(|(axis, high)| pushed(kind, axis, high)).collect();
     let courses = patient.run_all(&scenes)?;
+    require_whole_body(&courses[0], &scenes[0])?;
     let rows = ends.zip(scenes.iter().zip(&courses));
     let rows = rows.map(|(end, (scene, course))| measure(scene, course, end));
     Ok(RULES.judge(&rows.collect::<Vec<_>>()))

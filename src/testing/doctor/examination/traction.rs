@@ -5,7 +5,7 @@
 //! are constant. Tractions on high faces are `p (1 + t/T)` with the run time T, times
 //! `3 (Y - Y0)^2/w^2` with the mean 1 along the width w of the face.
 
-use super::stress::constant_and_rate;
+use super::stress::{constant_and_rate, require_whole_body};
 use crate::testing::doctor::course::{Course, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
@@ -71,6 +71,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let ends = (0..kind.0).flat_map(|axis| [(axis, false), (axis, true)]);
     let scenes: Vec<BoxScene> = ends.clone().map(|(axis, high)| loaded(kind, axis, high)).collect();
     let courses = patient.run_all(&scenes)?;
+    require_whole_body(&courses[0], &scenes[0])?;
     let rows = ends.zip(scenes.iter().zip(&courses));
     let rows = rows.map(|(end, (scene, course))| measure(scene, course, end));
     Ok(RULES.judge(&rows.collect::<Vec<_>>()))

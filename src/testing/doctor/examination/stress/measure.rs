@@ -37,6 +37,9 @@ pub(in crate::testing::doctor) struct MeasuredModuli {
     /// Ratio of the momentum transferred by viscosity to the momentum transferred by stress; at
     /// most 1.
     pub(super) viscous_share: f64,
+    /// Error of sums over the points relative to the momentum that the free faces gain, if the
+    /// points are a sample; zero for a complete set of points.
+    pub(super) sampling_error: f64,
 }
 
 pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {

@@ -103,7 +103,8 @@ fn measure(
     }
     let mut courses = patient.run_all(&scenes)?.into_iter();
     let course = courses.next().ok_or_else(|| Hindrance::Broke(String::new()))?;
-    let measured = moduli_by_momentum(&course, courses.next().as_ref(), scene);
+    let mut measured = moduli_by_momentum(&course, courses.next().as_ref(), scene);
+    measured.sampling_error = sampling_error(&course, scene);
     Ok((course, measured))
 }
 
@@ -213,7 +214,7 @@ fn lost_momentum(
 /// `k` particles with the spacing `p` along one axis, the points are shifted by up to (k - 1) p/2
 /// from the middle of what they represent, over which velocities differ by twice the gain. Zero if
 /// the centroid of the points is that of the body, as for a complete set of points.
-pub(super) fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
+fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
     let (samples, d) = (&course.states[0], scene.dimension);
     let volume: f64 = samples.weight.iter().sum();
     let centroid = course.mean(|samples| &samples.label, 0);
@@ -228,4 +229,15 @@ pub(super) fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
     } else {
         0.0
     }
+}
+
+/// Returns an error if the points are a sample, whose sums are too inaccurate for the momentum that
+/// waves from a face carry.
+pub(super) fn require_whole_body(course: &Course, scene: &BoxScene) -> Result<(), Hindrance> {
+    if sampling_error(course, scene) > 0.0 {
+        let lacks = "states at the whole body: the points are a sample, too coarse for the force \
+                     on a face";
+        return Err(Hindrance::Lacks(lacks.to_owned()));
+    }
+    Ok(())
 }

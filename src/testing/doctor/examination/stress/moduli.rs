@@ -25,7 +25,7 @@ pub(super) fn cause(
     let shear = 0.5 * (measured.shear[0] + measured.shear[1]);
     let moduli = [measured.along, measured.across, shear];
     let count = if scene.dimension > 1 { 3 } else { 1 };
-    let near = NEAR + AVERAGED * measured.averaged_share;
+    let near = NEAR + AVERAGED * measured.averaged_share + measured.sampling_error;
     let are = |wanted: [f64; 3], scale: f64| {
         (0..count).all(|k| (moduli[k] - wanted[k]).abs() <= near * scale)
     };

@@ -1,7 +1,9 @@
 //! Measures wall forces from the momentum of each half of a bar, and motions near walls.
 
 use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
-use crate::testing::doctor::examination::stress::{constant_and_rate, mean_tensor, sampling_error};
+use crate::testing::doctor::examination::stress::{
+    constant_and_rate, mean_tensor, require_whole_body,
+};
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
@@ -123,12 +125,7 @@ pub(super) fn walls_across(
         scenes.push(falling.clone());
     }
     let courses = patient.run_all(&scenes)?;
-    if sampling_error(&courses[0], &plain) > 0.0 {
-        return Err(Hindrance::Lacks(
-            "states at the whole body: the points are a sample, too coarse for the force of a wall"
-                .to_owned(),
-        ));
-    }
+    require_whole_body(&courses[0], &plain)?;
     let stretch = stretch_errors(patient, kind, axis, condition)?;
     let cell_time = H / c;
     let sinking = |side: BarEnd, course: &Course| {
