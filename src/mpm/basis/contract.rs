@@ -109,6 +109,19 @@ pub trait Basis: Sized + Sync + Send + 'static {
         Self::patches(grid, particles, p, |patch| patch.visit(grid, &mut visit));
     }
 
+    /// Calls `visit` for every node of particle `p` with the average of N_i over the end of the
+    /// particle domain along `axis`, in the direction `outwards` (1 or -1), minus the value
+    /// extrapolated linearly from the particle to this end. This difference is zero, and `visit` is
+    /// not called, unless the domain contains a kink of the functions.
+    fn visit_domain_end<const D: usize>(
+        _grid: &Grid<D>,
+        _particles: &Particles<D>,
+        _p: usize,
+        (_axis, _outwards): (usize, f64),
+        _visit: impl FnMut(NodeWeight<'_, D>),
+    ) {
+    }
+
     /// Runs a loop over this basis. A trait method puts the loops of each basis file in a separate
     /// code-generation unit, so a change of one file does not recompile the loops of other bases.
     fn run<P: SimdPass>(level: Level, pass: P) {

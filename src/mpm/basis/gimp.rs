@@ -11,10 +11,10 @@
 //! axis. Otherwise one particle is processed at a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
-use super::contract::{Basis, Domain, FourLanes};
+use super::contract::{Basis, Domain, FourLanes, NodeWeight, Patch};
 use super::product::{Product, ProductBatch};
 use super::weights_1d::{Weights1d, WeightsSimd};
-use crate::mpm::foundation::algebra::{Matrix, array};
+use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{F64x4, LANES, Plain, Simd};
@@ -123,6 +123,15 @@ fn not_below_zero(four: [f64; LANES]) -> u32 {
     (0..LANES).map(|k| u32::from(four[k] >= 0.0) << k).sum()
 }
 
+/// Whether the domain of a particle at `x` with the half-length `half` (m) is inside the walls along
+/// `axis` and has a node in its interior.
+fn is_bent<const D: usize>(grid: &Grid<D>, x: &Vector<D>, axis: usize, half: f64) -> bool {
+    let (at, half) = (grid.wrapped(x, axis), half.abs() * grid.inverse_h());
+    let (low, high) = (at - half, at + half);
+    let is_inside = grid.periodic[axis] || (low >= 0.0 && high <= grid.cells[axis] as f64);
+    is_inside && half < LONGEST && low.floor() + 1.0 < high
+}
+
 macro_rules! gimp {
     ($name:ident, $domain:ident) => {
         impl Basis for $name {
@@ -162,6 +171,29 @@ macro_rules! gimp {
             ) -> u32 {
                 let follows = Self::DOMAIN == Domain::Follows;
                 patches_x4(simd, grid, locator, particles, lanes, follows, patches)
+            }
+
+            fn visit_domain_end<const D: usize>(
+                grid: &Grid<D>,
+                particles: &Particles<D>,
+                p: usize,
+                (axis, outwards): (usize, f64),
+                mut visit: impl FnMut(NodeWeight<'_, D>),
+            ) {
+                let half = half(particles, p, axis, Self::DOMAIN == Domain::Follows);
+                if !is_bent(grid, &particles.x[p], axis, half) {
+                    return;
+                }
+                let arm = outwards * half;
+                Self::patches(grid, particles, p, |patch| {
+                    let mut end = *patch;
+                    let along = &mut end.0[axis];
+                    for k in 0..AT_ONCE {
+                        let exact = hat((arm - along.offset[k]) * grid.inverse_h());
+                        along.weight[k] = exact - along.weight[k] - arm * along.slope[k];
+                    }
+                    end.visit(grid, &mut visit);
+                });
             }
 
             /// Counts three nodes along each axis, the number for domains of at most one cell.
@@ -321,7 +353,6 @@ impl Domain1d {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::foundation::algebra::Vector;
     use proptest::prelude::*;
 
     proptest! {

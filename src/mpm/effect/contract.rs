@@ -36,6 +36,10 @@ pub trait Effect<const D: usize>: Send {
         0.0
     }
 
+    /// Requests that forces at a surface are integrated over the ends of the particle domains, as
+    /// the balance of a load step requires. Explicit solvers do not call this method.
+    fn integrate_over_domain_ends(&mut self) {}
+
     /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
     /// Returns the number of visited particle-node pairs.
     fn add_force(

@@ -12,6 +12,12 @@
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
 //!   weights of the surface point are not used, because they could load a node without mass.
 //!
+//! In GIMP, a domain with a node in its interior has functions that are not linear up to the surface.
+//! The extrapolated weight of the node beyond is then half the value at the end of the domain, and
+//! the load is not in balance with a uniform stress. In load steps, the difference from the average
+//! over the end of the domain is added; sum and moment of this difference are zero. The
+//! extrapolation is exact in CPDI, whose functions are linear between the corners of the domain.
+//!
 //! On a face of a mapped box, the layer contains the particles whose domains end on the face. The
 //! middles of these domain ends are on the face of the body ([`Particles::fill_mapped`]), even if
 //! the particle rows meet the face at an angle.
@@ -51,6 +57,8 @@ pub(super) struct Surface {
     /// Index of a column of the domain matrix, and a sign. The column times the sign is the vector
     /// from a particle to the face. `None` unless the body is mapped.
     column: Option<(usize, f64)>,
+    /// Whether forces at the surface are integrated over the ends of the particle domains.
+    pub(super) is_integrated: bool,
     /// Index difference between a particle of this layer and its neighbour in the next layer.
     below: usize,
 }
@@ -70,7 +78,18 @@ impl Surface {
             let MappedFace { layer, column, area } = mapped;
             let below = if column.0 == 0 { 1 } else { layer.len() };
             let column = Some(column);
-            return Self { layer, placement, axis, outwards, area, depth: 0.0, column, below };
+            let (depth, is_integrated) = (0.0, false);
+            return Self {
+                layer,
+                placement,
+                axis,
+                outwards,
+                area,
+                depth,
+                column,
+                is_integrated,
+                below,
+            };
         }
         let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
         let height = |p: usize| outwards * x0[p][axis];
@@ -84,7 +103,8 @@ impl Surface {
         };
         let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
         let depth = 0.5 * spacing;
-        Self { layer, placement, axis, outwards, area, depth, column: None, below }
+        let (column, is_integrated) = (None, false);
+        Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below }
     }
 
     /// Returns the outward normal in the reference configuration.
@@ -146,20 +166,26 @@ impl Surface {
         grid: &mut Grid<D>,
         traction: impl Fn(usize) -> Vector<D>,
     ) -> u64 {
+        // The domain of a particle ends on the face if the face is normal to an axis of the domain.
+        let end = match self.column {
+            Some((column, sign)) => (column == self.axis).then_some((column, sign)),
+            None => Some((self.axis, self.outwards)),
+        };
+        let end = end.filter(|_| self.is_integrated);
+        let mut visits = 0;
         for &p in &self.layer {
             let force = traction(p) * self.area(particles, p);
-            match self.placement {
-                Placement::Particles => kernel.p2g_point_force(particles, p, &force, grid),
-                Placement::Surface => {
-                    put_at_surface(particles, kernel, grid, p, &force, self.to_face(particles, p));
-                }
+            if self.placement == Placement::Particles {
+                kernel.p2g_point_force(particles, p, &force, grid);
+                visits += 1;
+                continue;
             }
+            put_at_surface(particles, kernel, grid, p, &force, self.to_face(particles, p));
+            let is_corrected =
+                end.is_some_and(|end| kernel.p2g_domain_end(particles, p, end, &force, grid));
+            visits += if is_corrected { 3 } else { 2 };
         }
-        let passes = match self.placement {
-            Placement::Particles => 1,
-            Placement::Surface => 2,
-        };
-        passes * self.layer.len() as u64 * kernel.support()
+        visits * kernel.support()
     }
 }
 

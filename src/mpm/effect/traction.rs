@@ -60,6 +60,10 @@ impl<const D: usize> Effect<D> for Traction<D> {
         self.surface.placement == Placement::Surface
     }
 
+    fn integrate_over_domain_ends(&mut self) {
+        self.surface.is_integrated = true;
+    }
+
     fn add_force(
         &mut self,
         t: f64,

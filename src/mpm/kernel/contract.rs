@@ -117,6 +117,19 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         grid: &mut Grid<D>,
     );
 
+    /// Corrects a `force` (N) that acts at the end of the domain of particle `p` along the axis
+    /// `end.0`, in the direction `end.1` (1 or -1), and whose point and moment have been added
+    /// ([`Basis::visit_domain_end`](crate::mpm::basis::Basis::visit_domain_end)). Sum and moment of
+    /// the correction are zero. Returns whether there is a correction.
+    fn p2g_domain_end(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        end: (usize, f64),
+        force: &Vector<D>,
+        grid: &mut Grid<D>,
+    ) -> bool;
+
     /// Writes `sum_p m_p grad N_i(x_p)` (kg/m) to `gradient`. At the surface of the body this
     /// vector points outwards.
     fn p2g_mass_gradient(

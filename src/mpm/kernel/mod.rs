@@ -224,6 +224,25 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = column;
     }
 
+    fn p2g_domain_end(
+        &self,
+        particles: &Particles<D>,
+        p: usize,
+        end: (usize, f64),
+        force: &Vector<D>,
+        grid: &mut Grid<D>,
+    ) -> bool {
+        let mut column = std::mem::take(&mut grid.force);
+        let mut is_corrected = false;
+        B::visit_domain_end(grid, particles, p, end, |i| {
+            column[i.node] += force * i.weight;
+            is_corrected = true;
+        });
+        grid.force = column;
+        self.tally.add("p2g point force", usize::from(is_corrected));
+        is_corrected
+    }
+
     fn p2g_mass_gradient(
         &self,
         particles: &Particles<D>,

@@ -61,6 +61,12 @@ impl StressResponse {
         Self { kirchhoff: self.kirchhoff + initial, initial, ..self }
     }
 
+    /// Returns the largest derivative of a principal Kirchhoff stress with respect to a principal
+    /// logarithmic strain (Pa).
+    pub(crate) fn largest_modulus(&self) -> f64 {
+        self.modulus.amax()
+    }
+
     /// Returns the change of the Kirchhoff stress (Pa) due to a change `dF = dh F` of the
     /// deformation gradient.
     pub fn tangent(&self, dh: &Matrix<3>) -> Matrix<3> {

@@ -169,6 +169,25 @@ impl<const D: usize> StepEquations<D> {
         self.of_unknowns(field).iter().fold(0.0, |sum, value| libm::hypot(sum, *value))
     }
 
+    /// Returns the norm over the unknowns of the rounding error of the internal forces (N),
+    /// `sum_p eps M V0 |grad N_i|`: the rounding eps of strains, which are differences of numbers
+    /// of magnitude 1, times the largest modulus M at the start of the step.
+    pub(super) fn rounding(&self, particles: &Particles<D>, material: &dyn Material<D>) -> f64 {
+        let modulus_of = |(p, f): (usize, &Matrix<D>)| {
+            let f = in_space(f, particles.across.get(p).copied().unwrap_or(1.0));
+            material.response(p, &f).map_or(0.0, |response| response.largest_modulus())
+        };
+        let modulus = particles.def_grad.iter().enumerate().map(modulus_of).fold(0.0, f64::max);
+        let mut forces = vec![zeros(); self.unknowns.len()];
+        for (p, vol0) in particles.vol0.iter().enumerate() {
+            for function in self.functions_of(p) {
+                let force = f64::EPSILON * modulus * vol0 * function.gradient.norm();
+                forces[function.node] += Vector::from_element(force);
+            }
+        }
+        self.norm(&forces)
+    }
+
     /// Returns the node of the unknown with the largest magnitude of a field, and this magnitude.
     pub(super) fn largest(&self, field: &[Vector<D>]) -> (usize, f64) {
         let values = self.of_unknowns(field).into_iter().map(f64::abs);

@@ -14,9 +14,14 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::Material;
 use crate::subject::Failure;
 
-/// Residual, divided by the load, below which a step counts as converged. Rounding errors of the
-/// residual are between 2e-14 and 1e-11 of the load.
+/// Residual, divided by the load, below which a step counts as converged. If the residual has
+/// stopped falling, the rounding error of the stress ([`StepEquations::rounding`]) is added, because
+/// it can exceed this fraction of the load if strains are small.
 pub(super) const CONVERGED: f64 = 1e-10;
+
+/// Multiple of the rounding error below which a residual that does not converge is attributed to
+/// rounding.
+const NEAR_ROUNDING: f64 = 100.0;
 
 const MOST_CORRECTIONS: usize = 25;
 
@@ -42,6 +47,10 @@ struct LoadStep<'a, const D: usize> {
     material: &'a dyn Material<D>,
     /// External forces (N).
     load: &'a [Vector<D>],
+    /// Norm of the load over the unknowns (N).
+    scale: f64,
+    /// Rounding error of the residual (N).
+    rounding: f64,
 }
 
 pub(super) fn solve<const D: usize>(
@@ -50,7 +59,8 @@ pub(super) fn solve<const D: usize>(
     material: &dyn Material<D>,
     load: &[Vector<D>],
 ) -> Solution<D> {
-    let step = LoadStep { balance, particles, material, load };
+    let (scale, rounding) = (balance.norm(load), balance.rounding(particles, material));
+    let step = LoadStep { balance, particles, material, load, scale, rounding };
     let mut residuals = Vec::new();
     let last = step.solve(&mut residuals);
     Solution { residuals, last }
@@ -58,7 +68,7 @@ pub(super) fn solve<const D: usize>(
 
 impl<const D: usize> LoadStep<'_, D> {
     fn solve(&self, residuals: &mut Vec<f64>) -> Result<Iterate<D>, Failure> {
-        let scale = self.balance.norm(self.load);
+        let scale = self.scale;
         if !(scale > 0.0 && scale.is_finite()) {
             let message = "no load acts on a node that is free to move".to_owned();
             return Err(Failure::Solve(message));
@@ -66,11 +76,12 @@ impl<const D: usize> LoadStep<'_, D> {
         let mut now = self.iterate(vec![zeros(); self.load.len()])?;
         residuals.push(now.norm / scale);
         let (mut best, mut waited, mut searches) = (now.increment.clone(), 0, false);
-        let mut best_norm = f64::INFINITY;
+        let (mut best_norm, mut before) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..MOST_CORRECTIONS {
-            if now.norm / scale < CONVERGED {
+            if self.is_converged(&now, before) {
                 return Ok(now);
             }
+            before = now.norm;
             if now.norm < best_norm {
                 (best, best_norm, waited) = (now.increment.clone(), now.norm, 0);
             } else if !searches {
@@ -79,21 +90,23 @@ impl<const D: usize> LoadStep<'_, D> {
             if waited >= PATIENCE {
                 (now, searches, waited) = (self.iterate(best.clone())?, true, 0);
             }
-            now = self.corrected(&now, searches, scale)?;
+            now = self.corrected(&now, searches)?;
             residuals.push(now.norm / scale);
         }
-        if now.norm / scale < CONVERGED { Ok(now) } else { Err(self.not_converged(&now, scale)) }
+        if self.is_converged(&now, before) { Ok(now) } else { Err(self.not_converged(&now)) }
+    }
+
+    /// Whether the residual is below [`CONVERGED`], or has stopped falling from the norm `before` of
+    /// the previous iterate and is below this limit plus the rounding error of the stress.
+    fn is_converged(&self, now: &Iterate<D>, before: f64) -> bool {
+        let limit = CONVERGED * self.scale;
+        now.norm < limit || (now.norm > 0.5 * before && now.norm < limit + self.rounding)
     }
 
     /// Returns the iterate after a Newton correction. The correction is shortened if required.
-    fn corrected(
-        &self,
-        now: &Iterate<D>,
-        searches: bool,
-        scale: f64,
-    ) -> Result<Iterate<D>, Failure> {
+    fn corrected(&self, now: &Iterate<D>, searches: bool) -> Result<Iterate<D>, Failure> {
         let correction = self.balance.correction(self.particles, now).map_err(|node| {
-            let reason = self.not_converged(now, scale);
+            let reason = self.not_converged(now);
             Failure::Solve(format!("the tangent is singular at node {node}: {reason}"))
         })?;
         let mut share = 1.0;
@@ -109,15 +122,24 @@ impl<const D: usize> LoadStep<'_, D> {
             }
             share *= 0.5;
         }
-        Err(self.not_converged(now, scale))
+        Err(self.not_converged(now))
     }
 
     fn iterate(&self, increment: Vec<Vector<D>>) -> Result<Iterate<D>, Failure> {
         self.balance.iterate(self.particles, self.material, self.load, increment)
     }
 
-    fn not_converged(&self, now: &Iterate<D>, scale: f64) -> Failure {
+    fn not_converged(&self, now: &Iterate<D>) -> Failure {
         let (node, residual) = self.balance.largest(&now.residual);
-        Failure::NotConverged { residual: residual / scale, node }
+        let residual = residual / self.scale;
+        if now.norm < NEAR_ROUNDING * self.rounding {
+            let (norm, rounding) = (now.norm / self.scale, self.rounding / self.scale);
+            return Failure::Solve(format!(
+                "Newton's method did not converge: the residual stalls at {norm:.1e} of the load, \
+                 close to the rounding error of the stress ({rounding:.1e}), because strains are \
+                 small"
+            ));
+        }
+        Failure::NotConverged { residual, node }
     }
 }

@@ -540,3 +540,62 @@ fn newton_converges_quadratically_at_small_strains(
     let strain = all.map(|f| (f - Matrix::identity()).amax()).fold(0.0, f64::max);
     assert!((1e-5..6e-5).contains(&strain), "{strain}");
 }
+
+/// Pulls a column of a Hencky material with nu = 0 to the logarithmic strain `strain`. Returns the
+/// largest error of a particle position, relative to the elongation. The strain is uniform, and the
+/// traction is `E strain exp(-strain)` per reference area.
+fn pulled_column<const D: usize>(basis: BasisName, strain: f64, cells: usize, steps: u64) -> f64 {
+    let case = ColumnCase::hencky(cells, steps);
+    let mut setup = case.setup::<D>(basis);
+    let traction = 1e6 * strain * libm::exp(-strain);
+    let value = move |_: &Vector<D>, _: f64| {
+        Vector::from_fn(|axis, _| if axis == 0 { traction } else { 0.0 })
+    };
+    let (side, at) = (Side::High, Placement::Surface);
+    setup.effects = vec![Box::new(Traction::at(&setup.particles, 0, side, at, Box::new(value)))];
+    let mut solver = QuasiStatic::new(setup).unwrap();
+    case.run(&mut solver);
+    let Particles { x, x0, .. } = solver.particles();
+    let error = |(x, x0): (&Vector<D>, &Vector<D>)| (x[0] - x0[0] * libm::exp(strain)).abs();
+    let largest = x.iter().zip(x0).map(error).fold(0.0, f64::max);
+    largest / (case.height * libm::expm1(strain))
+}
+
+/// The domains of the last particles cross a node when the loaded face moves outwards. The load
+/// must then be integrated over the end of the domain.
+#[rstest]
+fn uniform_pull_is_exact_with_domains_that_follow(
+    #[values(BasisName::ContiguousGimp, BasisName::Cpdi)] basis: BasisName,
+    #[values(2, 5)] cells: usize,
+    #[values(2, 20)] steps: u64,
+    #[values(0.01, -0.01)] strain: f64,
+) {
+    let error = pulled_column::<1>(basis, strain, cells, steps);
+    assert!(error <= 1e-10, "{error:.1e}");
+    if steps == 2 {
+        let errors = [
+            pulled_column::<2>(basis, strain, cells, steps),
+            pulled_column::<3>(basis, strain, cells, steps),
+        ];
+        assert!(errors.iter().all(|error| *error <= 1e-10), "{errors:?}");
+    }
+}
+
+/// Domains of constant size leave gaps of the relative length `strain`, so the error is of first
+/// order in the strain and in h.
+#[test]
+fn error_of_a_uniform_pull_with_domains_of_constant_size_is_below_the_strain() {
+    for cells in [2, 4, 8] {
+        let error = pulled_column::<1>(BasisName::UniformGimp, 0.01, cells, 20);
+        assert!(error <= 0.01 / cells as f64, "{error:.1e}");
+    }
+}
+
+/// Rounding of the strain, eps E, exceeds 1e-10 of the load at these strains.
+#[rstest]
+fn small_strains_converge_to_rounding(#[values(1e-6, 1e-8)] strain: f64) {
+    for basis in [BasisName::ContiguousGimp, BasisName::Cpdi] {
+        let error = pulled_column::<1>(basis, strain, 64, 10);
+        assert!(error <= 1e-14 / strain, "{error:.1e}");
+    }
+}
