@@ -6,7 +6,8 @@ use super::gauss::points;
 /// Number of quadrature panels along each axis, by dimension.
 const PANELS: [usize; 3] = [16, 8, 3];
 
-/// Maximum derivative `q/v dv/dq` that counts as rounding error, for a velocity v and a parameter q.
+/// Maximum derivative `q/v dv/dq` that counts as rounding error, for a velocity v and a parameter
+/// q.
 const ROUNDING: f64 = 1e-14;
 
 /// A displacement whose formulas contain a parameter as a variable.

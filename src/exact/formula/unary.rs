@@ -165,7 +165,8 @@ pub(super) fn lambert_w(x: f64) -> f64 {
 /// d. Its left-hand side is the sum of (n - 1) d^n / n! from n = 2, so no digits cancel near the
 /// branch point. NaN for x < -1/e.
 fn above_branch_point(x: f64) -> f64 {
-    let offset = libm::fma(std::f64::consts::E, x, 1.0) + E_REST * x;
+    let (product, error) = product_with_error(std::f64::consts::E, x);
+    let offset = (product + 1.0) + (error + E_REST * x);
     // The `f64` next to -1/e is less than -1/e by 1.2e-17.
     if fabs(offset) <= f64::EPSILON {
         return sqrt(2.0 * offset.max(0.0));
@@ -180,6 +181,18 @@ fn above_branch_point(x: f64) -> f64 {
         d -= (sum - offset) / (d * exp(d));
     }
     d
+}
+
+/// Returns the rounded product of two numbers and its rounding error (Dekker 1971, algorithm Mul12).
+fn product_with_error(a: f64, b: f64) -> (f64, f64) {
+    let halves = |x: f64| {
+        let scaled = 134_217_729.0 * x;
+        let high = scaled - (scaled - x);
+        (high, x - high)
+    };
+    let (product, (a_high, a_low), (b_high, b_low)) = (a * b, halves(a), halves(b));
+    let rest = ((a_high * b_high - product) + a_high * b_low) + a_low * b_high;
+    (product, rest + a_low * b_low)
 }
 
 /// Returns the step of Halley's method for w*exp(w) - x. Dividing the equation by exp(w) avoids

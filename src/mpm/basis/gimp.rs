@@ -123,8 +123,8 @@ fn not_below_zero(four: [f64; LANES]) -> u32 {
     (0..LANES).map(|k| u32::from(four[k] >= 0.0) << k).sum()
 }
 
-/// Whether the domain of a particle at `x` with the half-length `half` (m) is inside the walls along
-/// `axis` and has a node in its interior.
+/// Whether the domain of a particle at `x` with the half-length `half` (m) is inside the walls
+/// along `axis` and has a node in its interior.
 fn is_bent<const D: usize>(grid: &Grid<D>, x: &Vector<D>, axis: usize, half: f64) -> bool {
     let (at, half) = (grid.wrapped(x, axis), half.abs() * grid.inverse_h());
     let (low, high) = (at - half, at + half);

@@ -12,10 +12,10 @@
 //!   `sum_i f_i (x) x_i = f (x) (x_p + d)`, if the basis reproduces linear fields. The exact
 //!   weights of the surface point are not used, because they could load a node without mass.
 //!
-//! In GIMP, a domain with a node in its interior has functions that are not linear up to the surface.
-//! The extrapolated weight of the node beyond is then half the value at the end of the domain, and
-//! the load is not in balance with a uniform stress. In load steps, the difference from the average
-//! over the end of the domain is added; sum and moment of this difference are zero. The
+//! In GIMP, a domain with a node in its interior has functions that are not linear up to the
+//! surface. The extrapolated weight of the node beyond is then half the value at the end of the
+//! domain, and the load is not in balance with a uniform stress. In load steps, the difference from
+//! the average over the end of the domain is added; sum and moment of this difference are zero. The
 //! extrapolation is exact in CPDI, whose functions are linear between the corners of the domain.
 //!
 //! On a face of a mapped box, the layer contains the particles whose domains end on the face. The

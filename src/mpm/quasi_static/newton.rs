@@ -15,8 +15,8 @@ use crate::mpm::material::Material;
 use crate::subject::Failure;
 
 /// Residual, divided by the load, below which a step counts as converged. If the residual has
-/// stopped falling, the rounding error of the stress ([`StepEquations::rounding`]) is added, because
-/// it can exceed this fraction of the load if strains are small.
+/// stopped falling, the rounding error of the stress ([`StepEquations::rounding`]) is added,
+/// because it can exceed this fraction of the load if strains are small.
 pub(super) const CONVERGED: f64 = 1e-10;
 
 /// Multiple of the rounding error below which a residual that does not converge is attributed to
@@ -96,8 +96,8 @@ impl<const D: usize> LoadStep<'_, D> {
         if self.is_converged(&now, before) { Ok(now) } else { Err(self.not_converged(&now)) }
     }
 
-    /// Whether the residual is below [`CONVERGED`], or has stopped falling from the norm `before` of
-    /// the previous iterate and is below this limit plus the rounding error of the stress.
+    /// Whether the residual is below [`CONVERGED`], or has stopped falling from the norm `before`
+    /// of the previous iterate and is below this limit plus the rounding error of the stress.
     fn is_converged(&self, now: &Iterate<D>, before: f64) -> bool {
         let limit = CONVERGED * self.scale;
         now.norm < limit || (now.norm > 0.5 * before && now.norm < limit + self.rounding)

@@ -100,6 +100,10 @@ impl SolverFactory for BuiltIn {
         if needs.dimension != self.dimension {
             lacks.push(format!("dimension: {}", needs.dimension));
         }
+        // The laws of the built-in solver are those of finite strains.
+        if needs.laws.contains(&"small_strain") {
+            lacks.push("laws: small_strain".to_owned());
+        }
         lacks
     }
 

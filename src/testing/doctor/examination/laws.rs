@@ -145,8 +145,8 @@ fn stress_errors(course: &Course, scene: &BoxScene, k: usize) -> Result<StressEr
     Ok(stress_error(&column, &law_at(scene, &f)?.0))
 }
 
-/// Returns a finding if the stress is wrong by a constant factor, or already at small strains. Errors
-/// of other stress measures grow with the strain.
+/// Returns a finding if the stress is wrong by a constant factor, or already at small strains.
+/// Errors of other stress measures grow with the strain.
 fn of_parameters(
     name: &str,
     end: StressError,

@@ -246,9 +246,10 @@ impl Forces {
         )
     }
 
-    /// Describes the components of the initial stress that are wrong, if the force in the first step
-    /// has another direction than expected. In a sheared body, the force along axis j is `sigma_jx -
-    /// sigma_jy`. A run that starts half a step back has half this force in the first step.
+    /// Describes the components of the initial stress that are wrong, if the force in the first
+    /// step has another direction than expected. In a sheared body, the force along axis j is
+    /// `sigma_jx - sigma_jy`. A run that starts half a step back has half this force in the first
+    /// step.
     fn wrong_components(&self, scene: &BoxScene) -> Option<String> {
         let across = minus(self.first, times(dot(self.first, self.unit), self.unit));
         if size(across) <= ACROSS {
