@@ -183,7 +183,7 @@ fn above_branch_point(x: f64) -> f64 {
     d
 }
 
-/// Returns the rounded product of two numbers and its rounding error (Dekker 1971, algorithm Mul12).
+/// Returns the rounded product of two numbers and its rounding error (Dekker 1971, Mul12).
 fn product_with_error(a: f64, b: f64) -> (f64, f64) {
     let halves = |x: f64| {
         let scaled = 134_217_729.0 * x;

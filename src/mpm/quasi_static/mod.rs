@@ -86,7 +86,9 @@ impl<const D: usize> QuasiStatic<D> {
     pub fn new(mut setup: QuasiStaticSetup<D>) -> Result<Self, Failure> {
         let QuasiStaticSetup { grid, particles, kernel, material, effects, .. } = &mut setup;
         particles.track_deformation();
-        effects.iter_mut().for_each(|effect| effect.integrate_over_domain_ends());
+        for effect in effects.iter_mut() {
+            effect.integrate_over_domain_ends();
+        }
         let min_j = initial::complete(particles, kernel.domain(), material.as_mut())?;
         if material.response(0, &identity()).is_none() {
             return Err(Failure::Solve(NO_TANGENT.to_owned()));

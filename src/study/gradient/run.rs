@@ -200,7 +200,7 @@ impl GradientRun<'_> {
                 GradientError::Failed(reason) => {
                     GradientError::Failed(format!("{reason} (on {} cells)", level.cells))
                 }
-                refused => refused,
+                refused @ GradientError::Cannot(_) => refused,
             })?;
         let of = |parameter: GradientParameter| {
             let index = self.request.iter().position(|known| *known == parameter);

@@ -110,9 +110,10 @@ proptest! {
     fn errors_that_fall_to_rounding_pass(seed in 1_u64..u64::MAX, order in 1.0..4.0_f64, coarse in 0_i32..9) {
         let mut random = Random(seed);
         let errors: Vec<f64> = (0..coarse + 2)
-            .map(|k| match k < coarse {
-                true => libm::exp2(-order * f64::from(k)),
-                false => ROUNDING * random.uniform(),
+            .map(|k| if k < coarse {
+                libm::exp2(-order * f64::from(k))
+            } else {
+                ROUNDING * random.uniform()
             })
             .collect();
         let result = check(&requirement(order), &errors, |_| ());

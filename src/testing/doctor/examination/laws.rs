@@ -120,6 +120,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 }
 
 /// The stress in the middle of a body, compared with the law.
+#[derive(Debug, Clone, Copy)]
 struct StressError {
     /// Least-squares ratio of the stress to that of the law.
     factor: f64,

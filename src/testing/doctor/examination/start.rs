@@ -273,6 +273,28 @@ impl Forces {
     }
 }
 
+/// Returns the maximum difference between the entries of two lists.
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Describes the components of the column `stress` that differ from the initial stress after one
+/// step. Laws in rate form keep a wrong initial stress.
+fn wrong_components_of_column(course: &Course, scene: &BoxScene) -> Option<String> {
+    let d = scene.dimension;
+    let sigma = &course.problem.particles.stress[..d * d];
+    let scale = sigma.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    let column = inside(course, scene, &course.states[1].stress)?;
+    let is_wrong = |k: &usize| !((column[*k] - sigma[*k]).abs() <= 0.2 * scale);
+    let has_stress = column.iter().any(|x| x.abs() > 0.2 * scale);
+    let axis = ["x", "y", "z"];
+    let names: Vec<String> =
+        (0..d * d).filter(is_wrong).map(|k| format!("{}{}", axis[k / d], axis[k % d])).collect();
+    (has_stress && !names.is_empty()).then(|| {
+        format!("after one step, the column `stress` has other components {}", names.join(", "))
+    })
+}
+
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
     // A wrong start is detected after the first step, because the motion in this step is much
@@ -297,8 +319,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     }
     let f = &course.problem.particles.deformation_gradient[..d * d];
     let identity: Vec<f64> = (0..d * d).map(|k| f64::from(u8::from(k / d == k % d))).collect();
-    let largest =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let largest = largest_difference;
     let size_of_f = largest(f, &identity);
     let mean = inside(course, scene, &course.states[1].deformation_gradient);
     let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
@@ -322,17 +343,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
             "`particles.deformation_gradient` of the problem; the initialisation of F",
         ));
     }
-    // Laws in rate form keep a wrong initial stress, which the column shows.
-    let sigma = &course.problem.particles.stress[..d * d];
-    let scale = largest(sigma, &vec![0.0; d * d]);
-    let column = inside(course, scene, &course.states[1].stress);
-    let column = column.filter(|column| largest(column, &vec![0.0; d * d]) > 0.2 * scale);
-    let wrong = column.filter(|column| !(largest(column, sigma) <= 0.2 * scale)).map(|column| {
-        let is_wrong = |k: &usize| !((column[*k] - sigma[*k]).abs() <= 0.2 * scale);
-        let name = |k: usize| format!("{}{}", ["x", "y", "z"][k / d], ["x", "y", "z"][k % d]);
-        let names: Vec<String> = (0..d * d).filter(is_wrong).map(name).collect();
-        format!("after one step, the column `stress` has other components {}", names.join(", "))
-    });
+    let wrong = wrong_components_of_column(course, scene);
     if let Some(wrong) = wrong.or_else(|| forces.wrong_components(scene)) {
         return Some(SolverFinding::defect(
             COMPONENTS,
