@@ -12,7 +12,6 @@ use crate::study::setup::dispatch::subject;
 use crate::subject::{Subject, SubjectError};
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::suite::scene::nodes;
 use crate::verify::{
     LevelOutcome, Machine, Ranked, SuiteOutcome, TimedSuite, Timing, Workload, by_transfers,
 };
@@ -135,7 +134,7 @@ pub fn price(
     for job in &jobs {
         let (case, level) = job.at;
         if let Some(outcome) = cases[case].convergence().and_then(|study| study.levels.get(level)) {
-            levels[case].push((load(job.plan, outcome), Timing::of(&job.seconds)));
+            levels[case].push((load(outcome), Timing::of(&job.seconds)));
         }
     }
     Some(TimedSuite { outcome, levels, machine: observed.seen() })
@@ -163,12 +162,11 @@ fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn(
     }
 }
 
-pub(crate) fn load(plan: &ConvergencePlan, level: &LevelOutcome) -> Workload {
+fn load(level: &LevelOutcome) -> Workload {
     let (counters, steps) = (&level.run.counters, level.run.steps as f64);
     Workload {
         transfers: counters.transfers as f64,
         updates: counters.particles.unwrap_or(0) as f64 * steps,
-        node_steps: nodes(&plan.scene, level.h) * steps,
         steps,
     }
 }

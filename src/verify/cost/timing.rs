@@ -10,8 +10,6 @@ pub struct Workload {
     pub transfers: f64,
     /// Number of particles times number of steps.
     pub updates: f64,
-    /// Number of nodes times number of steps.
-    pub node_steps: f64,
     /// Number of steps.
     pub steps: f64,
 }
