@@ -16,7 +16,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "hourglass",
     expected: "a velocity that alternates from node to node is resisted: its displacement stays \
                far below velocity times time",
-    after: &["conversation", "rest", "translation", "transfer", "stress"],
+    after: &["conversation", "rest", "translation", "fall", "transfer", "stress", "walls"],
     covers: &[],
     examine,
 };
@@ -29,11 +29,13 @@ const RULES: Rules<1> = Rules {
     findings: &[(
         "hourglass-mode",
         [None],
-        "the alternating mode causes no strain at the quadrature points: square or hexahedral \
-         elements with one quadrature point and without hourglass control",
+        "no stress resists the alternating mode: square or hexahedral elements with one quadrature \
+         point and without hourglass control, or particles that move with a share of their own \
+         velocity, from which the grid never receives this mode",
     )],
     look_at: "the quadrature of elements: full integration, or a force that resists hourglass \
-              modes; stresses or strains that are averaged over the points of a cell",
+              modes; stresses or strains that are averaged over the points of a cell; the velocity in \
+              the update of positions",
 };
 
 fn scene(kind: Kind) -> BoxScene {

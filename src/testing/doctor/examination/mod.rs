@@ -41,7 +41,6 @@ pub(super) const ALL: &[Examination] = &[
     start::EXAMINATION,
     vibration::EXAMINATION,
     walls::EXAMINATION,
-    periodic::ENDS,
     hourglass::EXAMINATION,
     traction::EXAMINATION,
     damping::EXAMINATION,
@@ -49,6 +48,7 @@ pub(super) const ALL: &[Examination] = &[
     friction::EXAMINATION,
     bodies::EXAMINATION,
     friction::CONTACT,
+    periodic::ENDS,
     units::EXAMINATION,
 ];
 

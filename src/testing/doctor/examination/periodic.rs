@@ -29,6 +29,7 @@ pub(super) const ENDS: Examination = Examination {
         "periodic",
         "stress",
         "walls",
+        "hourglass",
     ],
     covers: &["conditions: periodic"],
     examine: examine_ends,

@@ -54,7 +54,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         SolverFinding::defect(
             "vibration-grows",
             measured.clone(),
-            "vibrations gain energy in each step, as in forward Euler: strains are updated with \
+            "vibrations gain energy. One possible cause is forward Euler: strains are updated with \
              the velocity before the forces act, and forces are computed from the stress before \
              this update",
             "the velocity in the strain update: USL and MUSL use the velocity after the forces \

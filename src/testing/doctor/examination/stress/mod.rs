@@ -129,7 +129,7 @@ fn examine_scene(
     let finding = finding.or_else(|| moduli::cause(&course, &scene, &measured));
     let is_scaled = finding.as_ref().is_some_and(|found| UNNAMED.contains(&found.name));
     if is_scaled && measured.viscous_share > 0.1 {
-        examined.findings.push(viscosity(&measured));
+        examined.findings.push(viscosity(&measured, &scene));
         return Ok((examined, measured.averaged_share));
     }
     examined.findings.extend(finding);
@@ -137,7 +137,7 @@ fn examine_scene(
         examined.findings = measure::findings(&course, &scene);
     }
     if examined.findings.is_empty() && measured.viscous_share > 0.05 {
-        examined.findings.push(viscosity(&measured));
+        examined.findings.push(viscosity(&measured, &scene));
     }
     Ok((examined, measured.averaged_share))
 }
@@ -145,13 +145,29 @@ fn examine_scene(
 /// Names of findings whose measured values viscosity can also cause.
 const UNNAMED: [&str; 3] = ["stress-scaled", "velocity-gradient-scaled", "moduli-differ"];
 
-fn viscosity(measured: &MeasuredModuli) -> SolverFinding {
+/// Returns the finding on the part of the stress that is proportional to the strain rate. Such a
+/// part is negative if forces follow the strain with a delay.
+fn viscosity(measured: &MeasuredModuli, scene: &BoxScene) -> SolverFinding {
+    let seen = format!(
+        "the stress contains a viscous part with the kinematic viscosity {} m2/s",
+        shown(measured.viscosity)
+    );
+    let delay = -measured.viscosity / (scene.wave_speed() * scene.wave_speed());
+    if delay > 0.0 {
+        return SolverFinding::defect(
+            "force-of-an-earlier-state",
+            format!("{seen}: the force follows the strain with a delay of {} s", shown(delay)),
+            &format!(
+                "internal forces are computed from an earlier state, or applied later: {} steps",
+                shown(delay / scene.dt)
+            ),
+            "the order of the update of positions, strains and stresses and the computation of \
+             forces; accelerations that are kept from the previous step",
+        );
+    }
     SolverFinding::defect(
         "viscosity",
-        format!(
-            "the stress contains a viscous part with the kinematic viscosity {} m2/s",
-            shown(measured.viscosity)
-        ),
+        seen,
         "the solver applies a viscosity that is not in the problem. The viscosity is zero for a \
          body without stiffness",
         "artificial viscosity; stiffness-proportional damping (Rayleigh's beta)",
@@ -212,23 +228,45 @@ fn lost_momentum(
 /// Returns the error of the mean velocity if the points are a sample of the body, relative to the
 /// speed that the free faces gain. A sum over a sample is a quadrature. If each point represents
 /// `k` particles with the spacing `p` along one axis, the points are shifted by up to (k - 1) p/2
-/// from the middle of what they represent, over which velocities differ by twice the gain. Zero if
-/// the centroid of the points is that of the body, as for a complete set of points.
+/// from the middle of what they represent, over which velocities differ by twice the gain. Zero for
+/// a complete set of points.
 fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
+    if is_complete(course, scene) {
+        return 0.0;
+    }
+    let spacing = scene.h / scene.ppc as f64;
+    let particle = (0..scene.dimension).fold(1.0, |product, _| product * spacing);
+    let largest = course.states[0].weight.iter().copied().fold(0.0, f64::max);
+    let length = scene.body.1.iter().zip(&scene.body.0).map(|(high, low)| high - low);
+    let shortest = length.fold(f64::INFINITY, f64::min);
+    largest / particle * spacing / shortest
+}
+
+/// Returns whether the points have the moments of a complete set: the centroid is that of the body,
+/// no mixed second moments, and the variance along an axis of length L between that of particles
+/// in the middle of cells of size p, (L^2 - p^2)/12, and that of nodes at the ends of cells of size
+/// h, L^2/12 + h^2/6.
+fn is_complete(course: &Course, scene: &BoxScene) -> bool {
     let (samples, d) = (&course.states[0], scene.dimension);
     let volume: f64 = samples.weight.iter().sum();
     let centroid = course.mean(|samples| &samples.label, 0);
-    let shift = size(minus(centroid, scene.centre()));
     let spacing = scene.h / scene.ppc as f64;
-    let particle = (0..d).fold(1.0, |product, _| product * spacing);
-    let largest = samples.weight.iter().copied().fold(0.0, f64::max);
-    let length = scene.body.1.iter().zip(&scene.body.0).map(|(high, low)| high - low);
-    let shortest = length.fold(f64::INFINITY, f64::min);
-    if volume > 0.0 && shift > 1e-6 * spacing {
-        largest / particle * spacing / shortest
-    } else {
-        0.0
-    }
+    let least = 1e-6 * spacing;
+    let moment = |i: usize, j: usize| {
+        let places = samples.label.chunks_exact(d).zip(&samples.weight);
+        let product =
+            |(x, weight): (&[f64], &f64)| weight * (x[i] - centroid[i]) * (x[j] - centroid[j]);
+        places.map(product).sum::<f64>() / volume
+    };
+    let is_variance = |i: usize| {
+        let length = scene.body.1[i] - scene.body.0[i];
+        let [low, high] = [-spacing * spacing / 12.0, scene.h * scene.h / 6.0];
+        let excess = moment(i, i) - length * length / 12.0;
+        excess >= low - least * spacing && excess <= high + least * spacing
+    };
+    size(minus(centroid, scene.centre())) <= least
+        && (0..d).all(is_variance)
+        && (0..d).all(|i| (0..i).all(|j| moment(i, j).abs() <= least * spacing))
 }
 
 /// Returns an error if the points are a sample, whose sums are too inaccurate for the momentum that
