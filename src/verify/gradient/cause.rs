@@ -104,7 +104,7 @@ impl GradientEvidence {
         }
         let rest_is_right =
             self.entries.iter().all(|entry| entry.parameter == parameter || entry.is_right());
-        if parameter == "density" && self.entries.len() > 1 && rest_is_right {
+        if is_distinct && parameter == "density" && self.entries.len() > 1 && rest_is_right {
             return Some(format!(
                 "the derivative is {times}, and those of all other parameters are right: \
                  derivatives do not pass through all masses"
@@ -199,6 +199,10 @@ mod tests {
         assert!(cause("density", [0.0, 1.0, 5.0]).contains("do not pass through the stress"));
         assert!(cause("young", [0.0, 0.0, 3.0]).contains("except that of the initial velocity"));
         assert!(cause("density", [-3.6, 4.1, 3.0]).contains("do not pass through all masses"));
+        assert_eq!(
+            cause("density", [-3.6, 3.7 * 0.99999, 3.0]),
+            "the derivative is 0.999990000 times the central difference"
+        );
         assert!(cause("young", [0.0, 3.7, 3.0]).contains("misses the dependence"));
         assert_eq!(
             cause("young", [-1.8, 3.7, 3.0]),
