@@ -236,20 +236,28 @@ impl Truth for Problem {
     }
 
     fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
-        let body = self.body_at(label);
-        let grad = body.derivatives(label, t).grad;
-        let sigma = match self.swelling(label, t) {
-            None => body.cauchy(label, &grad),
-            Some(Swelling { theta, .. }) => {
-                swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
-            }
-        };
-        write(&sigma, self.dimension(), into);
+        write(&self.cauchy_at(label, t), self.dimension(), into);
         true
+    }
+
+    fn stress_across(&self, label: &[f64], t: f64) -> Option<f64> {
+        Some(self.cauchy_at(label, t)[2][2])
     }
 }
 
 impl Problem {
+    /// Computes the Cauchy stress (Pa) at one point and time.
+    fn cauchy_at(&self, label: &[f64], t: f64) -> Tensor<f64> {
+        let body = self.body_at(label);
+        let grad = body.derivatives(label, t).grad;
+        match self.swelling(label, t) {
+            None => body.cauchy(label, &grad),
+            Some(Swelling { theta, .. }) => {
+                swollen_cauchy(&self.equation, self.dimension(), &grad, theta)
+            }
+        }
+    }
+
     /// Returns the thermal stretch at one point and time; `None` without thermal expansion.
     pub(super) fn swelling(&self, label: &[f64], t: f64) -> Option<Swelling> {
         let heat = self.heat.as_ref()?;
@@ -323,11 +331,12 @@ impl Problem {
         !self.initial_stress.is_none() && self.equation.piola_from(&zero, &zero).is_some()
     }
 
-    /// Computes P (Pa) of a body that [starts strained](Self::starts_strained). In more than one
-    /// dimension, such a body must be at rest, where P is the initial stress.
+    /// Computes P (Pa) of a body that [starts strained](Self::starts_strained). P is the initial
+    /// stress if the body is undeformed.
     fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
         let uniaxial = self.equation.piola_from(grad, initial);
-        uniaxial.filter(|_| self.dimension() == 1).unwrap_or(*initial)
+        let is_deformed = grad.iter().flatten().any(|component| *component != T::from(0.0));
+        uniaxial.filter(|_| is_deformed).unwrap_or(*initial)
     }
 
     /// Computes the contribution of the law to Div P (N/m3), `f Div P1 + P1 grad f`, where P1 is

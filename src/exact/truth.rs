@@ -24,6 +24,13 @@ pub trait Truth: Send + Sync {
         false
     }
 
+    /// Returns the out-of-plane normal component of the Cauchy stress (Pa) of a two-dimensional
+    /// body; `None` if the solution does not define it.
+    fn stress_across(&self, label: &[f64], t: f64) -> Option<f64> {
+        let _ = (label, t);
+        None
+    }
+
     /// Returns the temperature (K); `None` if the solution does not define it.
     fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
         let _ = (label, t);

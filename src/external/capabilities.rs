@@ -43,8 +43,8 @@ macro_rules! flags {
             pub conditions: Vec<&'static str>,
             /// Names of the loads and effects.
             pub loads: Vec<&'static str>,
-            /// Optional column with the quantity whose error is measured, if the study needs one.
-            pub column: Option<&'static str>,
+            /// Optional columns from which the judged quantity is computed.
+            pub columns: Vec<&'static str>,
             /// Parameters for which the study needs derivatives.
             pub gradients: Vec<&'static str>,
             #[doc = "Whether a solver with the law `small_strain` may replace `linear_elastic`: the \
@@ -128,8 +128,8 @@ impl Capabilities {
         if !self.dimensions.contains(&needs.dimension) {
             lacking.push(format!("dimensions: {}", needs.dimension));
         }
-        let column: Vec<&str> = needs.column.into_iter().collect();
-        let wanted = [&needs.laws, &needs.conditions, &needs.loads, &column, &needs.gradients];
+        let wanted =
+            [&needs.laws, &needs.conditions, &needs.loads, &needs.columns, &needs.gradients];
         for ((capability, has), wanted) in self.lists().into_iter().zip(wanted) {
             let replaces = |known: &str, name: &str| {
                 needs.small_strain && name == "linear_elastic" && known == SMALL_STRAIN
@@ -251,7 +251,7 @@ each_effect!(loads);
 const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction", "velocity"];
 
 /// Names of the optional columns of a state.
-const COLUMNS: &[&str] = &["stress", "deformation_gradient", "temperature"];
+const COLUMNS: &[&str] = &["stress", "stress_across", "deformation_gradient", "temperature"];
 
 const GRADIENTS: &[&str] =
     &["young", "poisson", "density", "yield", "hardening", "friction", "initial_velocity"];
@@ -322,7 +322,7 @@ mod tests {
             laws: vec!["neo_hookean"],
             conditions: vec!["free", "roller"],
             loads: vec!["gravity"],
-            column: Some("stress"),
+            columns: vec!["stress"],
             gradients: vec!["young"],
             small_strain: true,
             manufactured: true,

@@ -113,7 +113,7 @@ impl WaveRun<'_> {
             initial: Initial::stated(own),
             manufactured: None,
             heat: None,
-            keeps_deformation: false,
+            judged: None,
             lattice: self.plan.lattice(),
         };
         let Some(solver) = self.context.solver else {

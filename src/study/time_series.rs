@@ -142,12 +142,21 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
-    let fields = Quantity::ALL.iter().filter(|quantity| !quantity.is_sum());
+    // The components of the stress have no arrays of their own, because the stress has one.
+    let is_own = |of: &Quantity| !of.is_sum() && (!of.is_stress() || *of == Quantity::Stress);
+    let fields = Quantity::ALL.iter().filter(|of| is_own(of));
     let error = |quantity: &Quantity| {
         let (components, numbers) = quantity.differences(samples, truth?, t)?;
         Some(StateField { name: format!("error of {}", quantity.words()), components, numbers })
     };
-    [u].into_iter().chain(fields.filter_map(error)).collect()
+    let invariant = |(name, of): (&str, Quantity)| {
+        let numbers = of.computed(samples).into_owned();
+        let is_known = !numbers.is_empty() && numbers.iter().all(|value| !value.is_nan());
+        is_known.then(|| StateField { name: name.to_owned(), components: 1, numbers })
+    };
+    let invariants = [("p", Quantity::MeanStress), ("q", Quantity::DeviatoricStress)];
+    let invariants = invariants.into_iter().filter_map(invariant);
+    [u].into_iter().chain(invariants).chain(fields.filter_map(error)).collect()
 }
 
 /// Returns the fields of a solver that reports only samples. The names are those of the built-in
@@ -158,6 +167,7 @@ fn sampled_fields(samples: &Samples) -> Vec<StateField> {
         ("v", &samples.velocity),
         ("V0", &samples.weight),
         ("sigma", &samples.stress),
+        ("sigma33", &samples.stress_across),
         ("F", &samples.deformation_gradient),
         ("T", &samples.temperature),
     ];

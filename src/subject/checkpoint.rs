@@ -238,6 +238,7 @@ impl Memory for Samples {
             weight,
             mass,
             stress,
+            stress_across,
             deformation_gradient,
             temperature,
         } = self;
@@ -245,7 +246,7 @@ impl Memory for Samples {
         for column in [label, displacement, velocity, weight, mass] {
             checkpoint.visit(column);
         }
-        for column in [stress, deformation_gradient, temperature] {
+        for column in [stress, stress_across, deformation_gradient, temperature] {
             checkpoint.visit(column);
         }
     }

@@ -132,6 +132,9 @@ pub struct Samples {
     pub mass: Vec<f64>,
     /// Cauchy stresses, `n * D * D` numbers, row by row (Pa); may be empty.
     pub stress: Vec<f64>,
+    /// Out-of-plane normal Cauchy stresses of a two-dimensional body, `n` numbers (Pa); may be
+    /// empty.
+    pub stress_across: Vec<f64>,
     /// Deformation gradients F, `n * D * D` numbers, row by row; may be empty.
     pub deformation_gradient: Vec<f64>,
     /// Temperatures, `n` numbers (K); may be empty.
@@ -173,6 +176,7 @@ impl Samples {
         self.weight.clear();
         self.mass.clear();
         self.stress.clear();
+        self.stress_across.clear();
         self.deformation_gradient.clear();
         self.temperature.clear();
     }

@@ -32,12 +32,12 @@ impl Problem {
     /// The first [`Violation`].
     pub fn check_with(&self, survey: &Survey) -> Result<(), Violation> {
         pointwise::presence(self, survey)?;
+        pointwise::uniaxial_strain(self, survey)?;
         pointwise::initial(self, survey)?;
         boundary::boundary(self, survey)?;
         boundary::driven(self, survey)?;
         pointwise::tractions_on_rims(self, survey)?;
         pointwise::monotone_loading(self, survey)?;
-        pointwise::start_of_yielding(self, survey)?;
         differences::differentiation(self, survey)?;
         pointwise::equation(self, survey)?;
         weak::momentum(self, survey)

@@ -5,13 +5,15 @@
 //!
 //! For laws with history, exact solutions are valid only under monotonic loading.
 
-use super::event::{AXES, Event, share};
+use super::event::{AXES, Event, greatest, share};
 use super::survey;
 use super::survey::{Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
+use crate::exact::law::strained_axis;
 use crate::exact::motion::variables;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
+use crate::exact::tensor::tensor;
 use crate::exact::violation::{LargestViolation, Violation};
 use crate::subject::PlaneState;
 
@@ -168,40 +170,62 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
         return Ok(());
     }
     for SurveyPoint { event, now, .. } in &survey.points {
-        let initial = problem.initial_stress.at(&event.label);
-        if !problem.equation.flows(now.grad[0][0], &initial) {
+        let (initial, axis) = (problem.initial_stress.at(&event.label), strained_axis(&now.grad));
+        let k = axis.unwrap_or(0);
+        let (grad, rate) = (now.grad[k][k], now.grad_rate[k][k]);
+        let along_first = tensor(|i, j| initial[(i + k) % 3][(j + k) % 3]);
+        if !problem.equation.flows(grad, &along_first) {
             continue;
         }
-        let outwards = if now.grad[0][0] < 0.0 { -1.0 } else { 1.0 };
-        let back = (outwards * now.grad_rate[0][0]).min(0.0);
-        let allowed = problem.tolerance * now.grad[0][0].abs() / problem.until;
-        let name = "loading reverses where the body flows plastically: the rate of du_X/dX changes its sign"
-            .to_owned();
+        let outwards = if grad < 0.0 { -1.0 } else { 1.0 };
+        let back = (outwards * rate).min(0.0);
+        let allowed = problem.tolerance * grad.abs() / problem.until;
+        let name = format!(
+            "loading reverses where the body flows plastically: the rate of du_{0}/d{0} changes its sign",
+            AXES[k]
+        );
         event.judge(allowed, name, (0.0, back), "1/s")?;
     }
     Ok(())
 }
 
-/// Checks the motions for which the stress of a law with a yield surface is known if the body has
-/// an initial stress: in one dimension uniaxial strain with equal lateral stresses, and in more
-/// dimensions a body at rest.
-pub(crate) fn start_of_yielding(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
-    if !problem.starts_strained() {
+/// Checks for a law with history that its stress is known: the motion is uniaxial strain, and a
+/// body that deforms has equal initial stresses across this axis, without shear.
+pub(crate) fn uniaxial_strain(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    if !problem.equation.has_history() {
         return Ok(());
     }
     for SurveyPoint { event, now, .. } in &survey.points {
-        if problem.dimension() == 1 {
-            let stress = problem.initial_stress.at(&event.label);
-            let allowed = problem.tolerance * survey.largest.stress;
-            let name = "the lateral initial stresses yy and zz differ".to_owned();
-            event.judge(allowed, name, (stress[1][1], stress[2][2]), "Pa")?;
-        } else if let Some(u) = now.u.iter().find(|u| **u != 0.0) {
-            let name = "a body that yields has an initial stress, and is not at rest".to_owned();
-            return Err(event.violation(name, None, *u, None, "m"));
+        let Some(axis) = strained_axis(&now.grad) else {
+            let is_axial = |i: usize| now.grad[i][i] != 0.0;
+            let axial = (0..3).find(|i| is_axial(*i)).unwrap_or(0);
+            let mut others = (0..9).map(|k| (k / 3, k % 3)).filter(|at| *at != (axial, axial));
+            let (i, j) = others.find(|(i, j)| now.grad[*i][*j] != 0.0).unwrap_or((axial, axial));
+            let name = format!(
+                "the stress of `{}` is known in uniaxial strain only, but du_{}/d{} is not zero",
+                problem.equation.name(),
+                AXES[i],
+                AXES[j]
+            );
+            return Err(event.violation(name, None, now.grad[i][j], None, ""));
+        };
+        if !problem.starts_strained() || now.grad == [[0.0; 3]; 3] {
+            continue;
         }
+        let (stress, [a, b]) = (problem.initial_stress.at(&event.label), ACROSS[axis]);
+        let allowed = problem.tolerance * survey.largest.stress;
+        let name = format!("the lateral initial stresses {0}{0} and {1}{1} differ", XYZ[a], XYZ[b]);
+        event.judge(allowed, name, (stress[a][a], stress[b][b]), "Pa")?;
+        let shear = greatest([stress[0][1], stress[0][2], stress[1][2]].map(f64::abs).into_iter());
+        let name = "a body in uniaxial strain has an initial shear stress".to_owned();
+        event.judge(allowed, name, (0.0, shear), "Pa")?;
     }
     Ok(())
 }
+
+/// Names of the axes in stress components, and the other two axes for each axis.
+const XYZ: [&str; 3] = ["x", "y", "z"];
+const ACROSS: [[usize; 2]; 3] = [[1, 2], [0, 2], [0, 1]];
 
 #[cfg(test)]
 mod tests {

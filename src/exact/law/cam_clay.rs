@@ -16,8 +16,9 @@
 //! line. The path approaches this line. Partial fractions give `ln p`.
 
 use super::contract::ConstitutiveLaw;
+use super::uniaxial_flow::uniaxial_piola;
 use crate::exact::formula::Number;
-use crate::exact::tensor::{Tensor, tensor};
+use crate::exact::tensor::Tensor;
 
 /// Modified Cam-clay in uniaxial compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,16 +178,21 @@ impl CamClayLaw {
         }
     }
 
-    /// Computes `tau11` (Pa) at the logarithmic strain `strain`; NaN if the clay softens.
-    fn kirchhoff<T: Number>(&self, strain: T) -> T {
+    /// Computes `tau11` and `tau22` (Pa) at the logarithmic strain `strain`; NaN if the clay
+    /// softens.
+    fn kirchhoff<T: Number>(&self, strain: T) -> [T; 2] {
+        // Multiples of q in `-tau11` and `-tau22`.
+        let shares = [2.0 / 3.0, -1.0 / 3.0];
         let elastic = Number::exp(T::from(-1.0 / self.swelling) * strain);
         let pressure = self.initial_pressure * elastic.value();
         if self.yields[1] <= pressure && pressure <= self.yields[0] {
-            let growth = T::from(1.0 + 4.0 / 3.0 * self.ratio) * (elastic - T::from(1.0));
-            return T::from(-self.initial_pressure) * (growth + T::from(1.0));
+            return shares.map(|share| {
+                let growth = T::from(1.0 + 2.0 * share * self.ratio) * (elastic - T::from(1.0));
+                T::from(-self.initial_pressure) * (growth + T::from(1.0))
+            });
         }
         if !(pressure > self.yields[0]) {
-            return T::from(f64::NAN);
+            return [T::from(f64::NAN); 2];
         }
         let at_yield = self.swelling * libm::log(self.yields[0] / self.initial_pressure);
         let [growth, eta] = self.flowed(-strain.value() - at_yield);
@@ -195,9 +201,11 @@ impl CamClayLaw {
         // d ln p and d eta, multiplied by a common factor.
         let [log, ratio] = [-self.numerator(eta) / m2, self.cubic(eta)];
         let compaction = self.compression * log + 2.0 * hardening * eta / m2 * ratio;
-        let slope = pressure * ((1.0 + 2.0 / 3.0 * eta) * log + 2.0 / 3.0 * ratio) / compaction;
-        let value = -pressure * (1.0 + 2.0 / 3.0 * eta);
-        T::from(value) + T::from(slope) * (strain - T::from(strain.value()))
+        shares.map(|share| {
+            let slope = pressure * ((1.0 + share * eta) * log + share * ratio) / compaction;
+            let value = -pressure * (1.0 + share * eta);
+            T::from(value) + T::from(slope) * (strain - T::from(strain.value()))
+        })
     }
 }
 
@@ -217,9 +225,7 @@ impl ConstitutiveLaw for CamClayLaw {
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let stretch = T::from(1.0) + grad[0][0];
-        let along = self.kirchhoff(Number::ln(stretch)) / stretch;
-        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
+        uniaxial_piola(grad, |strain, _| self.kirchhoff(strain))
     }
 
     fn modulus(&self) -> f64 {
@@ -230,16 +236,6 @@ impl ConstitutiveLaw for CamClayLaw {
         let growth = -libm::log1p(grad) / self.swelling;
         let [far, near] = self.yields.map(|pressure| libm::log(pressure / self.initial_pressure));
         !(near <= growth && growth <= far)
-    }
-
-    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
-        if dimension == 1 {
-            return Ok(());
-        }
-        Err([
-            "the stress is a function of the deformation in uniaxial strain only",
-            "use a scene of dimension 1",
-        ])
     }
 }
 

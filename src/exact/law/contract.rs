@@ -59,8 +59,8 @@ pub(super) trait ConstitutiveLaw {
         None
     }
 
-    /// Whether a body in uniaxial strain with the initial stress `initial` (Pa) yields at the
-    /// displacement gradient `grad`.
+    /// Whether a body in uniaxial strain along the first axis, with the initial stress `initial`
+    /// (Pa), yields at the displacement gradient `grad`.
     fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         let _ = (grad, initial);
         false

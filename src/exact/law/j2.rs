@@ -67,16 +67,6 @@ impl ConstitutiveLaw for J2Law {
     fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         self.uniaxial().flows(grad, initial)
     }
-
-    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
-        if dimension == 1 {
-            return Ok(());
-        }
-        Err([
-            "the plastic strain is a function of the deformation in uniaxial strain only",
-            "use a scene of dimension 1",
-        ])
-    }
 }
 
 /// Computes the Kirchhoff stress (Pa) for the logarithmic strain `strain`, whose trace is `trace`.

@@ -18,5 +18,6 @@ use super::tensor::Tensor;
 use crate::members::each_material;
 use contract::ConstitutiveLaw;
 use registry::laws;
+pub(super) use uniaxial_flow::strained_axis;
 
 each_material!(laws);

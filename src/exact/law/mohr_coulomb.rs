@@ -97,11 +97,4 @@ mod tests {
         let flows = |grad| law.flows(grad, &[[0.0; 3]; 3]);
         assert!(!flows(-0.5) && flows(0.5));
     }
-
-    #[test]
-    fn only_bodies_of_one_dimension_are_admitted() {
-        let law = MohrCoulombLaw::new(18e3, 0.2, 30.0, 10.0, 10.0);
-        let admits = |dimension| law.admits(dimension, false).is_ok();
-        assert_eq!([1, 2, 3].map(admits), [true, false, false]);
-    }
 }

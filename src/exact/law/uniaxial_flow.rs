@@ -8,6 +8,9 @@
 //! principal stresses are equal.
 //!
 //! A body with an initial stress starts at this stress instead of zero.
+//!
+//! In two and three dimensions, the driven axis is that of the only non-zero component of the
+//! displacement gradient.
 
 use super::contract::{ConstitutiveLaw, Lame};
 use crate::exact::formula::Number;
@@ -31,8 +34,7 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     const HAS_HISTORY: bool = true;
 
     fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
-        let along = self.response().piola(grad[0][0], [T::from(0.0); 2]);
-        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
+        uniaxial_piola(grad, |strain, _| self.response().kirchhoff(strain, [T::from(0.0); 2]))
     }
 
     fn modulus(&self) -> f64 {
@@ -46,16 +48,33 @@ impl<L: UniaxialPlasticity> ConstitutiveLaw for L {
     fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
         self.response().flows(grad, initial)
     }
+}
 
-    fn admits(&self, dimension: usize, _: bool) -> Result<(), [&'static str; 2]> {
-        if dimension == 1 {
-            return Ok(());
-        }
-        Err([
-            "the stress is a function of the deformation in uniaxial strain only",
-            "use a scene of dimension 1",
-        ])
-    }
+/// Returns the axis of uniaxial strain: that of the only non-zero component of `grad`, or 0 if all
+/// are zero. `None` for any other deformation.
+pub(in crate::exact) fn strained_axis<T: Number, const D: usize>(
+    grad: &Tensor<T, D>,
+) -> Option<usize> {
+    let is_zero = |i: usize, j: usize| grad[i][j] == T::from(0.0);
+    let axis = (0..D).find(|i| !is_zero(*i, *i)).unwrap_or(0);
+    let mut others = (0..D * D).map(|k| (k / D, k % D)).filter(|at| *at != (axis, axis));
+    others.all(|(i, j)| is_zero(i, j)).then_some(axis)
+}
+
+/// Computes P (Pa) in uniaxial strain, where `kirchhoff` returns the axial and the lateral
+/// Kirchhoff stress (Pa) at a logarithmic strain along an axis. NaN for any other deformation.
+pub(super) fn uniaxial_piola<T: Number, const D: usize>(
+    grad: &Tensor<T, D>,
+    kirchhoff: impl FnOnce(T, usize) -> [T; 2],
+) -> Tensor<T, D> {
+    let Some(axis) = strained_axis(grad) else { return tensor(|_, _| T::from(f64::NAN)) };
+    let stretch = T::from(1.0) + grad[axis][axis];
+    let [axial, lateral] = kirchhoff(Number::ln(stretch), axis);
+    tensor(|i, j| match (i == j, i == axis) {
+        (true, true) => axial / stretch,
+        (true, false) => lateral,
+        (false, _) => T::from(0.0),
+    })
 }
 
 /// A yield condition `weights . (axial, lateral) <= strength` on the Kirchhoff stresses.
@@ -101,41 +120,39 @@ impl UniaxialLaw {
         reached.min_by(|(_, a), (_, b)| a.value().total_cmp(&b.value()))
     }
 
-    /// Computes the axial Kirchhoff stress (Pa) at the `strain`, from the stresses `start` (Pa).
-    fn kirchhoff<T: Number>(&self, strain: T, start: [T; 2]) -> T {
+    /// Computes the axial and the lateral Kirchhoff stress (Pa) at the `strain`, from the stresses
+    /// `start` (Pa).
+    fn kirchhoff<T: Number>(&self, strain: T, start: [T; 2]) -> [T; 2] {
         let sign = if strain.value() < 0.0 { -1.0 } else { 1.0 };
         let (size, rates) = (T::from(sign) * strain, self.rates(sign));
-        let elastic = start[0] + T::from(self.lame.modulus()) * strain;
+        let moduli = [self.lame.modulus(), self.lame.lambda];
+        let elastic = std::array::from_fn(|i| start[i] + T::from(moduli[i]) * strain);
         let Some((limit, at_yield)) = self.first_yield(sign, start) else { return elastic };
         let beyond = size - at_yield;
         if !(beyond.value() > 0.0) {
             return elastic;
         }
         let flow = limit.dot(rates) / (limit.dot(limit.relief) + limit.hardening);
-        let [axial, lateral]: [f64; 2] = std::array::from_fn(|i| rates[i] - flow * limit.relief[i]);
+        let slopes: [f64; 2] = std::array::from_fn(|i| rates[i] - flow * limit.relief[i]);
         let stress: [T; 2] = std::array::from_fn(|i| start[i] + T::from(rates[i]) * at_yield);
-        let (gap, closing) = (stress[0] - stress[1], lateral - axial);
+        let (gap, closing) = (stress[0] - stress[1], slopes[1] - slopes[0]);
         let to_apex = gap / T::from(closing);
         let closes = limit.hardening == 0.0 && to_apex.value() > 0.0;
+        let after = |flow: T| std::array::from_fn(|i| stress[i] + T::from(slopes[i]) * flow);
         if !(closes && beyond.value() > to_apex.value()) {
-            return stress[0] + T::from(axial) * beyond;
+            return after(beyond);
         }
         // A path that reaches the apex with the axial stress on the other side could leave it
         // again. This is not implemented, and NaN makes the check of the solution fail.
         let stays = sign * gap.value() > 0.0;
-        if stays { stress[0] + T::from(axial) * to_apex } else { T::from(f64::NAN) }
-    }
-
-    /// Computes the axial component of P (Pa) for uniaxial strain along the first axis.
-    fn piola<T: Number>(&self, grad: T, start: [T; 2]) -> T {
-        let stretch = T::from(1.0) + grad;
-        self.kirchhoff(Number::ln(stretch), start) / stretch
+        if stays { after(to_apex) } else { [T::from(f64::NAN); 2] }
     }
 
     /// See [`ConstitutiveLaw::piola_from`].
     pub(super) fn piola_from<T: Number>(&self, grad: &Tensor<T>, initial: &Tensor<T>) -> Tensor<T> {
-        let along = self.piola(grad[0][0], [initial[0][0], initial[1][1]]);
-        tensor(|i, j| if i + j == 0 { along } else { T::from(0.0) })
+        uniaxial_piola(grad, |strain, axis| {
+            self.kirchhoff(strain, [initial[axis][axis], initial[(axis + 1) % 3][(axis + 1) % 3]])
+        })
     }
 
     /// See [`ConstitutiveLaw::flows`].
@@ -169,6 +186,28 @@ mod tests {
         (initial[0][0], initial[1][1], initial[2][2]) = (axial, lateral, lateral);
         let piola = law.piola_from(&grad, &initial).expect("a law with a yield surface");
         (piola[0][0] * libm::exp(strain), law.flows(grad[0][0], &initial))
+    }
+
+    /// The axial stress is the same along every axis, and the lateral stresses are on the yield
+    /// surface or are those of Hooke's law. The stress is undefined for other deformations.
+    #[rstest]
+    fn uniaxial_strain_has_the_same_stress_along_every_axis(
+        #[values(-0.03, -1e-4, 0.0012, 0.003)] grad: f64,
+        #[values(0, 1, 2)] axis: usize,
+    ) {
+        let law = mohr_coulomb();
+        let [[along]] = law.piola(&[[grad]]);
+        let mut tensor = [[0.0; 3]; 3];
+        tensor[axis][axis] = grad;
+        let piola = law.piola(&tensor);
+        let (tau, lateral) = (along * (1.0 + grad), piola[(axis + 1) % 3][(axis + 1) % 3]);
+        assert_eq!((piola[axis][axis], lateral), (along, piola[(axis + 2) % 3][(axis + 2) % 3]));
+        let limit = if grad < 0.0 { 0 } else { 1 };
+        let excess = law.response().limits[limit].dot([tau, lateral]) - 20.0 * libm::sqrt(0.75);
+        let elastic = 5e3 * libm::log1p(grad);
+        assert!(excess.abs() < 1e-9 || (excess < 0.0 && (lateral - elastic).abs() < 1e-12));
+        tensor[(axis + 1) % 3][axis] = 1e-12;
+        assert!(law.piola(&tensor)[axis][axis].is_nan());
     }
 
     /// A start at the stress of an elastic strain continues the path from zero stress.

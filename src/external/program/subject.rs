@@ -158,6 +158,8 @@ impl ProgramSubject {
             column("displacement", n * d)?.ok_or(ProgramError::NoColumn("displacement"))?;
         samples.velocity = column("velocity", n * d)?.ok_or(ProgramError::NoColumn("velocity"))?;
         samples.stress = column("stress", n * d * d)?.unwrap_or_default();
+        let across = if d == 2 { column("stress_across", n)? } else { None };
+        samples.stress_across = across.unwrap_or_default();
         samples.deformation_gradient =
             column("deformation_gradient", n * d * d)?.unwrap_or_default();
         samples.temperature = column("temperature", n)?.unwrap_or_default();

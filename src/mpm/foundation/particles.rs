@@ -35,6 +35,8 @@ pub struct Particles<const D: usize> {
     pub rate_across: Vec<f64>,
     /// Out-of-plane stresses sigma_33 (Pa); empty except in a body of revolution.
     pub stress_across: Vec<f64>,
+    /// Whether samples contain the out-of-plane stress in plane strain and in plane stress.
+    pub samples_stress_across: bool,
     /// Domains of the particles at the start of the step; empty unless a basis reads them. The
     /// columns of each matrix, F diag(spacing)/2, are the vectors from the particle to the middles
     /// of the faces of its domain (m). Domains are updated from F only when the particles move.
@@ -117,6 +119,7 @@ impl<const D: usize> Particles<D> {
             across: Vec::new(),
             rate_across: Vec::new(),
             stress_across: Vec::new(),
+            samples_stress_across: false,
             domain: Vec::new(),
             domain0: Vec::new(),
             temperature: Vec::new(),

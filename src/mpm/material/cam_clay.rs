@@ -318,6 +318,10 @@ impl MaterialProperties for CamClay {
         Err("plastic flow depends on the whole history of the motion")
     }
 
+    fn has_stress_across(&self) -> bool {
+        true
+    }
+
     fn starts_stressed(&self) -> Result<(), &'static str> {
         Err("the clay starts under its `initial_pressure`")
     }
@@ -355,6 +359,11 @@ impl<const D: usize> Material<D> for CamClay {
         }
         particles.sigma.fill(Matrix::from_diagonal_element(-self.initial_pressure()));
         Ok(())
+    }
+
+    fn stress_across(&self, p: usize, particles: &Particles<D>) -> Option<f64> {
+        let tau = self.states.get(p).unwrap_or(&self.start).tau;
+        Some(tau[(2, 2)] * particles.vol0[p] / particles.vol[p])
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

@@ -2,7 +2,7 @@
 
 use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
-use crate::mpm::foundation::algebra::Matrix;
+use crate::mpm::foundation::algebra::{Matrix, det, in_space};
 use crate::mpm::foundation::particles::Particles;
 use crate::subject::{Checkpoint, Column, Failure};
 
@@ -72,6 +72,12 @@ pub trait MaterialProperties {
     /// The reason why the law has no tangent.
     fn has_tangent(&self) -> Result<(), &'static str> {
         Err("the derivative of its stress by the deformation is not implemented")
+    }
+
+    /// Whether [`Material::stress_across`] is implemented in plane strain, by default for
+    /// laws with a tangent.
+    fn has_stress_across(&self) -> bool {
+        self.has_tangent().is_ok()
     }
 
     /// Whether the law is elastic. Thermal expansion is defined only for elastic laws.
@@ -228,6 +234,13 @@ pub trait Material<const D: usize>: Send {
     /// `None` if the law has no tangent.
     fn response(&self, _p: usize, _f: &Matrix<3>) -> Option<StressResponse> {
         None
+    }
+
+    /// Returns the out-of-plane normal component of the Cauchy stress (Pa) of particle `p` of a
+    /// two-dimensional body; `None` if the law does not define it.
+    fn stress_across(&self, p: usize, particles: &Particles<D>) -> Option<f64> {
+        let f = in_space(particles.def_grad.get(p)?, 1.0);
+        Some(self.response(p, &f)?.kirchhoff[(2, 2)] / det(&f))
     }
 
     /// Updates stresses and volumes of all particles from F, if available, and from the velocity

@@ -33,6 +33,10 @@ impl<const D: usize, L: FreeAcross> Material<D> for PlaneStress<L> {
         true
     }
 
+    fn stress_across(&self, _: usize, _: &Particles<D>) -> Option<f64> {
+        Some(0.0)
+    }
+
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {
         let all = particles.def_grad.iter().zip(&particles.across).zip(&particles.vol0);
         Some(all.map(|((f, across), vol0)| vol0 * self.0.density(f, *across)).sum())
@@ -90,6 +94,10 @@ impl<const D: usize, L: Material<D>> Material<D> for RatePlaneStress<L> {
 
     fn keeps_stretch_across(&self) -> bool {
         true
+    }
+
+    fn stress_across(&self, _: usize, _: &Particles<D>) -> Option<f64> {
+        Some(0.0)
     }
 
     fn start_deformed(&mut self, particles: &mut Particles<D>) -> Result<(), Failure> {

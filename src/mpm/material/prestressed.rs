@@ -98,6 +98,12 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         })
     }
 
+    /// Returns the out-of-plane stress of the law: without a yield surface, S0 has no component out
+    /// of the plane.
+    fn stress_across(&self, p: usize, particles: &Particles<D>) -> Option<f64> {
+        self.law.stress_across(p, particles)
+    }
+
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {
         self.law.update(body);
         self.add(body.particles());

@@ -133,7 +133,7 @@ impl<const D: usize> Subject for Bodies<D> {
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
         for solver in &self.solvers {
-            solver.particles().sample(samples);
+            solver.particles().sample_with(solver.setup.material.as_ref(), samples);
         }
         // The column must be empty if a body has no deformation gradients.
         if samples.deformation_gradient.len() != samples.len() * D * D {

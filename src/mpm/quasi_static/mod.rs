@@ -208,7 +208,7 @@ impl<const D: usize> Subject for QuasiStatic<D> {
     #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
-        self.setup.particles.sample(samples);
+        self.setup.particles.sample_with(self.setup.material.as_ref(), samples);
     }
 
     fn counters(&self) -> RunCounters {

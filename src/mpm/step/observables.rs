@@ -9,6 +9,7 @@ use super::solver::Solver;
 use crate::mpm::boundary::{Boundary, Side};
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad, zeros};
 use crate::mpm::foundation::particles::Particles;
+use crate::mpm::material::Material;
 use crate::subject::{Reaction, Samples, Totals};
 
 impl<const D: usize> Particles<D> {
@@ -66,6 +67,19 @@ impl<const D: usize> Particles<D> {
                     }
                 }
             }
+        }
+    }
+}
+
+impl<const D: usize> Particles<D> {
+    /// Appends the state of the particles to `samples`, with the out-of-plane stresses of a body of
+    /// revolution and, if requested, of any two-dimensional body.
+    pub(in crate::mpm) fn sample_with(&self, material: &dyn Material<D>, samples: &mut Samples) {
+        self.sample(samples);
+        samples.stress_across.extend(&self.stress_across);
+        if self.samples_stress_across && self.stress_across.is_empty() {
+            let across = (0..self.len()).map(|p| material.stress_across(p, self));
+            samples.stress_across.extend(across.map(|across| across.unwrap_or(f64::NAN)));
         }
     }
 }

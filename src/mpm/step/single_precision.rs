@@ -129,6 +129,7 @@ fn round_particles<const D: usize>(particles: &mut Particles<D>) {
         across,
         rate_across,
         stress_across,
+        samples_stress_across: _,
         domain,
         domain0,
         grad_v,

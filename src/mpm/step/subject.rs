@@ -126,7 +126,7 @@ impl<const D: usize> Subject for Solver<D> {
     #[inline(never)]
     fn sample(&self, samples: &mut Samples) {
         samples.clear();
-        self.setup.particles.sample(samples);
+        self.setup.particles.sample_with(self.setup.material.as_ref(), samples);
     }
 
     #[inline(never)]
@@ -191,6 +191,7 @@ impl<const D: usize> Memory for Particles<D> {
             across,
             rate_across,
             stress_across,
+            samples_stress_across: _,
             domain,
             domain0: _,
             grad_v,

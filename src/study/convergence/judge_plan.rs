@@ -76,7 +76,7 @@ pub(super) fn rounding_sizes(
         // A displacement is the difference between two positions.
         Quantity::Displacement => positions + value,
         Quantity::DeformationGradient => 1.0,
-        Quantity::Stress => value.max(scene.wave_modulus()),
+        of if of.is_stress() => value.max(scene.wave_modulus()),
         _ => value,
     };
     Some(RoundingSizes { value, number, unit })

@@ -12,13 +12,13 @@ use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
-use crate::verify::{Quantity, StepKind, SumNeed};
+use crate::verify::{StepKind, SumNeed};
 use std::sync::Arc;
 
 /// Returns the capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
-        column: column(plan.of),
+        columns: plan.of.columns(plan.scene.dimension()),
         manufactured: plan.manufactured().is_some(),
         initial_deformation: starts_deformed(plan),
         load_steps: plan.steps == StepKind::Load,
@@ -70,12 +70,6 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
 /// solvers cannot run.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
-}
-
-/// Returns the name of the sample column that contains the judged quantity; `None` for a sum over
-/// the body, or if every solver reports the quantity.
-fn column(of: Quantity) -> Option<&'static str> {
-    (of.is_optional() && !of.is_sum()).then(|| of.name())
 }
 
 /// Replaces the methods of the suite by `solver`. If `gate` is true, the cases get the requirements

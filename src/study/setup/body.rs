@@ -17,6 +17,7 @@ use crate::suite::scene::lattice::{LatticeOffsets, block};
 use crate::suite::scene::load;
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
+use crate::verify::Quantity;
 
 /// Model of a body at the start of a run.
 pub(crate) struct Body<'a> {
@@ -29,8 +30,8 @@ pub(crate) struct Body<'a> {
     pub(crate) manufactured: Option<&'a Problem>,
     /// Heat-conduction problem of the body, if any.
     pub(crate) heat: Option<&'a Conduction>,
-    /// Whether the particles store F even if neither law nor basis uses it.
-    pub(crate) keeps_deformation: bool,
+    /// Judged quantity, for which particles may store F and sample the out-of-plane stress.
+    pub(crate) judged: Option<Quantity>,
     /// Changes to the lattice of particles: displacements and additional particles.
     pub(crate) lattice: LatticeEdits,
 }
@@ -43,7 +44,7 @@ impl<'a> Body<'a> {
             initial: Initial::of_body(plan, own),
             manufactured: plan.manufactured(),
             heat: plan.heat_problem(),
-            keeps_deformation: plan.of.needs_deformation_gradient(),
+            judged: Some(plan.of),
             lattice: LatticeEdits { scatter: plan.scatter.clone(), ..LatticeEdits::default() },
         }
     }
@@ -70,7 +71,7 @@ pub(crate) fn setup<const D: usize>(
     };
     let scene = body.scene;
     let (kernel, grid, mut particles) = discretisation::<D>(body, basis, level)?;
-    if body.keeps_deformation {
+    if body.judged.is_some_and(Quantity::needs_deformation_gradient) {
         particles.track_deformation();
     }
     body.initial.put(&mut particles);
@@ -106,6 +107,8 @@ fn discretisation<const D: usize>(
     let grid = grid(body.scene, h, kernel.as_ref());
     let mut particles = seeded_particles(body.own, &grid.origin, h, per_axis);
     body.lattice.apply(&mut particles);
+    particles.samples_stress_across =
+        D == 2 && body.judged.is_some_and(Quantity::needs_stress_across);
     if body.scene.plane == PlaneState::Axisymmetric {
         particles.revolve();
     }

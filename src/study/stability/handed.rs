@@ -15,7 +15,7 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     let start = handed("", setup).map(|problem| problem.particles);
     let mut needs = ProblemNeeds {
         // A trial observes the stored energy, which requires stresses.
-        column: Some("stress"),
+        columns: vec!["stress"],
         // If the problem cannot be created, the run reports the reason later.
         initial_deformation: start.is_ok_and(|start| is_deformed(&start, setup.scene.dimension())),
         ..of_scene(&setup.scene)
@@ -83,7 +83,7 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
         initial: Initial::stated(own),
         manufactured: None,
         heat: None,
-        keeps_deformation: false,
+        judged: None,
         lattice: setup.lattice.clone(),
     };
     each.iter().map(body).collect()

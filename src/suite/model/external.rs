@@ -119,7 +119,7 @@ impl ConvergencePlan {
     /// Returns the theoretical order on this problem for a solver with this formal order, and the
     /// reason. `None` if an axis other than space is refined, unless the suite states the order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
-        let is_gradient = matches!(self.of, Quantity::Stress | Quantity::DeformationGradient);
+        let is_gradient = self.of.is_stress() || self.of == Quantity::DeformationGradient;
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
             let of = format_number(formal_order);
             let reason = format!("displacements have the order {of}, and their gradients one less");

@@ -166,6 +166,79 @@ pub(super) const TEMPERATURE: Declaration = Declaration {
     ..STRESS
 };
 
+/// Stress tensor (Pa) in space, NaN where a component is unknown.
+type SpaceStress = [[f64; 3]; 3];
+
+/// Completes the stress of a body in `d` dimensions (Pa, row by row). In a plane, the shear stress
+/// out of the plane is zero, and the normal stress out of the plane is `across`.
+fn in_space(d: usize, stress: &[f64], across: Option<f64>) -> SpaceStress {
+    let of_plane = across.filter(|_| d == 2).unwrap_or(f64::NAN);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match i.max(j) < d {
+            true => stress[i * d + j],
+            false => {
+                if i == j {
+                    of_plane
+                } else {
+                    0.0
+                }
+            }
+        })
+    })
+}
+
+/// Returns the mean stress `p = -tr(sigma)/3` (Pa), positive in compression (Muir Wood 1990, Soil
+/// Behaviour and Critical State Soil Mechanics, section 1.4).
+fn mean_stress(s: &SpaceStress) -> f64 {
+    -(s[0][0] + s[1][1] + s[2][2]) / 3.0
+}
+
+/// Returns the deviatoric stress `q = sqrt(3/2 s:s)` (Pa) with `s = sigma + p I` (Muir Wood 1990,
+/// section 1.4). It is the axial stress in uniaxial stress.
+fn deviatoric_stress(s: &SpaceStress) -> f64 {
+    let p = mean_stress(s);
+    let square = |k: usize| s[k / 3][k % 3] + if k % 4 == 0 { p } else { 0.0 };
+    libm::sqrt(1.5 * (0..9).map(|k| square(k) * square(k)).sum::<f64>())
+}
+
+/// Computes a function of the stress at each label; empty if the samples have no stress.
+fn of_stresses(samples: &Samples, value: fn(&SpaceStress) -> f64) -> Vec<f64> {
+    let d = samples.dimension;
+    let stresses = samples.stress.chunks_exact((d * d).max(1)).enumerate();
+    stresses
+        .map(|(p, stress)| value(&in_space(d, stress, samples.stress_across.get(p).copied())))
+        .collect()
+}
+
+/// Declares scalars that are functions of the stress.
+macro_rules! of_stress {
+    ($($name:ident = $value:expr;)+) => {$(
+        pub(super) const $name: Declaration = Declaration {
+            shape: TensorShape::Scalar,
+            computed: |samples| Cow::from(of_stresses(samples, $value)),
+            exact: |truth, label, t, into| {
+                let mut stress = vec![0.0; label.len() * label.len()];
+                let is_known = truth.stress(label, t, &mut stress);
+                let across = truth.stress_across(label, t);
+                into[0] = ($value as fn(&SpaceStress) -> f64)(&in_space(label.len(), &stress, across));
+                is_known
+            },
+            ..STRESS
+        };
+    )+};
+}
+
+of_stress! {
+    STRESS_XX = |s| s[0][0];
+    STRESS_YY = |s| s[1][1];
+    STRESS_ZZ = |s| s[2][2];
+    STRESS_XY = |s| s[0][1];
+    STRESS_XZ = |s| s[0][2];
+    STRESS_YZ = |s| s[1][2];
+    MEAN_STRESS = mean_stress;
+    DEVIATORIC_STRESS = deviatoric_stress;
+}
+
 /// Default values for the declarations of sums. Sums have no values at labels.
 const SUM: Declaration = Declaration {
     unit: "J",

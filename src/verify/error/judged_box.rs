@@ -44,6 +44,7 @@ impl JudgedBox {
             weight: rows(&samples.weight, 1),
             mass: rows(&samples.mass, 1),
             stress: rows(&samples.stress, d * d),
+            stress_across: rows(&samples.stress_across, 1),
             deformation_gradient: rows(&samples.deformation_gradient, d * d),
             temperature: rows(&samples.temperature, 1),
         }

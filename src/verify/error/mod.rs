@@ -5,12 +5,12 @@ pub(crate) mod declaration;
 pub(crate) mod error_field;
 pub(crate) mod judged_box;
 pub(crate) mod judged_sum;
-/// The quantity that readers of `docs/exercises/quantity.md` add.
-#[cfg(test)]
-#[path = "../../../tests/exercises/mean_stress.rs"]
-mod mean_stress;
 pub(crate) mod norm;
 pub(crate) mod observer;
 pub(crate) mod quantity;
 pub(crate) mod run;
 pub(crate) mod spread;
+/// The quantity that readers of `docs/exercises/quantity.md` add.
+#[cfg(test)]
+#[path = "../../../tests/exercises/volume_ratio.rs"]
+mod volume_ratio;

@@ -7,8 +7,9 @@
 //! of a vector, the Frobenius norm of a tensor.
 
 use super::declaration::{
-    ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DISPLACEMENT, Declaration, ENERGY, KINETIC_ENERGY,
-    MOMENTUM, RADIUS_OF_GYRATION, REACTION, SEMI_AXIS, STRAIN_ENERGY, STRESS, SolutionSize,
+    ANGULAR_MOMENTUM, DEFORMATION_GRADIENT, DEVIATORIC_STRESS, DISPLACEMENT, Declaration, ENERGY,
+    KINETIC_ENERGY, MEAN_STRESS, MOMENTUM, RADIUS_OF_GYRATION, REACTION, SEMI_AXIS, STRAIN_ENERGY,
+    STRESS, STRESS_XX, STRESS_XY, STRESS_XZ, STRESS_YY, STRESS_YZ, STRESS_ZZ, SolutionSize,
     SumDeclaration, SumNeed, TEMPERATURE, VELOCITY,
 };
 use super::norm::Norms;
@@ -16,6 +17,7 @@ use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;
 use crate::verify::order::format_number::format_number;
+use std::borrow::Cow;
 
 named! {
     /// A field of a state, or a sum over the body.
@@ -28,6 +30,22 @@ named! {
         Velocity = "velocity",
         /// Cauchy stress (Pa).
         Stress = "stress",
+        /// Component xx of the Cauchy stress (Pa), positive in tension.
+        StressXx = "stress_xx",
+        /// Component yy of the Cauchy stress (Pa), positive in tension.
+        StressYy = "stress_yy",
+        /// Component zz of the Cauchy stress (Pa), positive in tension.
+        StressZz = "stress_zz",
+        /// Component xy of the Cauchy stress (Pa), positive in tension.
+        StressXy = "stress_xy",
+        /// Component xz of the Cauchy stress (Pa), positive in tension.
+        StressXz = "stress_xz",
+        /// Component yz of the Cauchy stress (Pa), positive in tension.
+        StressYz = "stress_yz",
+        /// Mean stress -tr(sigma)/3 (Pa), positive in compression.
+        MeanStress = "mean_stress",
+        /// Deviatoric stress sqrt(3/2 s:s) (Pa) of the stress deviator s.
+        DeviatoricStress = "deviatoric_stress",
         /// F = dx/dX.
         DeformationGradient = "deformation_gradient",
         /// Temperature (K).
@@ -57,6 +75,14 @@ impl Quantity {
             Self::Displacement => &DISPLACEMENT,
             Self::Velocity => &VELOCITY,
             Self::Stress => &STRESS,
+            Self::StressXx => &STRESS_XX,
+            Self::StressYy => &STRESS_YY,
+            Self::StressZz => &STRESS_ZZ,
+            Self::StressXy => &STRESS_XY,
+            Self::StressXz => &STRESS_XZ,
+            Self::StressYz => &STRESS_YZ,
+            Self::MeanStress => &MEAN_STRESS,
+            Self::DeviatoricStress => &DEVIATORIC_STRESS,
             Self::DeformationGradient => &DEFORMATION_GRADIENT,
             Self::Temperature => &TEMPERATURE,
             Self::KineticEnergy => &KINETIC_ENERGY,
@@ -106,6 +132,27 @@ impl Quantity {
         self.declaration().needs_deformation_gradient
     }
 
+    /// Whether the quantity is the stress, or is computed from the stress.
+    pub fn is_stress(self) -> bool {
+        self.unit() == "Pa"
+    }
+
+    /// Whether the quantity depends on the out-of-plane stress of a two-dimensional body.
+    pub fn needs_stress_across(self) -> bool {
+        matches!(self, Self::StressZz | Self::MeanStress | Self::DeviatoricStress)
+    }
+
+    /// Returns the names of the sample columns that the quantity is computed from in `dimension`
+    /// dimensions; empty for a sum over the body, or if every solver reports the quantity.
+    pub fn columns(self, dimension: usize) -> Vec<&'static str> {
+        if !self.is_optional() || self.is_sum() {
+            return Vec::new();
+        }
+        let across = (dimension == 2 && self.needs_stress_across()).then_some("stress_across");
+        let own = if self.is_stress() { "stress" } else { self.name() };
+        [own].into_iter().chain(across).collect()
+    }
+
     /// Whether the quantity is a sum over the body. Norms of its errors are taken over the
     /// instants.
     pub fn is_sum(self) -> bool {
@@ -142,6 +189,11 @@ impl Quantity {
 
     fn components(self, d: usize) -> usize {
         self.declaration().shape.components(d)
+    }
+
+    /// Returns the values in `samples`, label by label; empty if the solver reports none.
+    pub(crate) fn computed(self, samples: &Samples) -> Cow<'_, [f64]> {
+        (self.declaration().computed)(samples)
     }
 
     /// Writes the exact values at all labels. Returns false if the exact solution does not define
@@ -224,7 +276,7 @@ impl Quantity {
         t: f64,
     ) -> Option<(usize, Vec<f64>)> {
         let components = self.components(samples.dimension);
-        let computed = (self.declaration().computed)(samples);
+        let computed = self.computed(samples);
         if components == 0 || computed.len() != components * samples.len() {
             return None;
         }
@@ -276,6 +328,7 @@ mod tests {
             weight: vec![1.0, 3.0],
             mass: Vec::new(),
             stress: vec![3.0, 7.0, 7.0, 4.0, 0.0, 10.0, 11.0, 0.0],
+            stress_across: Vec::new(),
             deformation_gradient: vec![1.0; 8],
             temperature: vec![305.0, 295.0],
         }
@@ -309,6 +362,32 @@ mod tests {
     fn incomparable_quantities_are_nan(#[case] samples: Samples, #[case] quantity: Quantity) {
         let norms = quantity.errors(&samples, &Sheared, 1.0);
         assert!(norms.rms.is_nan() && norms.linf.is_nan(), "{norms:?}");
+    }
+
+    /// Values by hand: p = -(sxx + syy + szz)/3, and q is the axial stress of uniaxial stress.
+    #[rstest]
+    #[case(2, &[-1.0, 7.0, 7.0, -2.0], &[-6.0], Quantity::MeanStress, 3.0)]
+    #[case(2, &[-1.0, 0.0, 0.0, -1.0], &[-6.0], Quantity::DeviatoricStress, 5.0)]
+    #[case(2, &[-1.0, 2.0, 2.0, -1.0], &[-1.0], Quantity::DeviatoricStress, libm::sqrt(12.0))]
+    #[case(2, &[1.0, 2.0, 2.0, 3.0], &[4.0], Quantity::StressZz, 4.0)]
+    #[case(2, &[1.0, 2.0, 2.0, 3.0], &[], Quantity::StressXy, 2.0)]
+    #[case(2, &[1.0, 2.0, 2.0, 3.0], &[], Quantity::MeanStress, f64::NAN)]
+    #[case(3, &[1.0, 4.0, 5.0, 4.0, 2.0, 6.0, 5.0, 6.0, 3.0], &[], Quantity::MeanStress, -2.0)]
+    #[case(3, &[1.0, 4.0, 5.0, 4.0, 2.0, 6.0, 5.0, 6.0, 3.0], &[], Quantity::StressYz, 6.0)]
+    #[case(3, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -7.0], &[], Quantity::DeviatoricStress, 7.0)]
+    #[case(1, &[-7.0], &[], Quantity::StressXx, -7.0)]
+    #[case(1, &[-7.0], &[], Quantity::DeviatoricStress, f64::NAN)]
+    fn functions_of_the_stress_are_those_in_space(
+        #[case] dimension: usize,
+        #[case] stress: &[f64],
+        #[case] across: &[f64],
+        #[case] of: Quantity,
+        #[case] expected: f64,
+    ) {
+        let (stress, stress_across) = (stress.to_vec(), across.to_vec());
+        let samples = Samples { dimension, stress, stress_across, ..Samples::default() };
+        let [value] = of.computed(&samples)[..] else { panic!("one label") };
+        assert!((value - expected).abs() < 1e-14 || (value.is_nan() && expected.is_nan()));
     }
 
     /// F is compared with the exact F, not with another quantity.

@@ -38,6 +38,18 @@ const FEM_EXPECTED: &str = "  - case: \"fem-*\"\n    verdict: too_few_levels\n";
     ],
     &["a reference does not provide the stress that this suite judges"]
 )]
+#[case::a_mean_stress_of_a_bar(
+    &[("{norm: rms}", "{of: ▸mean_stress}"), (FEM, "")],
+    &["there is no mean stress in 1-D", "use a scene with more dimensions"]
+)]
+#[case::a_component_across_a_bar(
+    &[("{norm: rms}", "{of: ▸stress_xy}"), (FEM, "")],
+    &["there is no stress xy in 1-D"]
+)]
+#[case::a_component_that_finite_elements_lack(
+    &[("{norm: rms}", "{of: stress_xx}"), ("- fem:", "- ▸fem:")],
+    &["the built-in FEM does not provide the stress xx that this suite judges"]
+)]
 fn a_comparison_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
 }
@@ -92,6 +104,49 @@ fn a_comparison_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
 )]
 fn a_sum_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(BAR, edits, words);
+}
+
+const OEDOMETER: &str =
+    include_str!("../../../verification/soils/oedometer-mohr-coulomb-mean-stress.yaml");
+
+/// Stresses that a body in plane strain does not have, and motions whose stress is unknown.
+#[rstest]
+#[case::a_shear_out_of_the_plane(
+    &[("{of: mean_stress", "{of: ▸stress_yz")],
+    &["there is no stress yz in 2-D"]
+)]
+#[case::a_law_without_stress_out_of_the_plane(
+    &[
+        ("{of: mean_stress", "{of: ▸mean_stress"),
+        ("{mohr_coulomb: {young: E, poisson: nu, friction_angle: 30, dilation_angle: 10, cohesion: c", "{linear_elastic: {young: E, poisson: nu"),
+        ("equation: mohr_coulomb", "equation: small_strain"),
+        ("  initial_stress: {xx: \"-k0*s0\", yy: \"-s0\", zz: \"-k0*s0\"}\n", ""),
+        ("  s0: 40        # initial vertical stress, positive in compression (Pa)\n", ""),
+        ("  k0: 0.5       # initial ratio of horizontal and vertical stress\n", ""),
+        ("frame: total_lagrangian", "frame: updated_lagrangian"),
+        ("rate: -0.02 ", "rate: -1e-9"),
+        ("  c: 10         # cohesion (Pa)\n", ""),
+    ],
+    &["the out-of-plane stress of `linear_elastic` in plane strain is not computed"]
+)]
+#[case::averaged_volumes(
+    &[("{of: mean_stress", "{of: ▸mean_stress"), ("frame: total_lagrangian", "volume: averaged")],
+    &["the out-of-plane stress of averaged volume ratios is not computed"]
+)]
+#[case::strain_on_two_axes(
+    &[("[0, \"rate*t*Y\"]", "[▸\"1e-9*t*X\", \"rate*t*Y\"]")],
+    &["the stress of `mohr_coulomb` is known in uniaxial strain only, but du_Y/dY is not zero"]
+)]
+#[case::unequal_lateral_stresses(
+    &[("zz: \"-k0*s0\"", "zz: \"-0.9*k0*s0\""), ("[0, \"rate*t*Y\"]", "[▸0, \"rate*t*Y\"]")],
+    &["the lateral initial stresses xx and zz differ"]
+)]
+#[case::an_initial_shear_stress(
+    &[("yy: \"-s0\"", "yy: \"-s0\", xy: 1"), ("[0, \"rate*t*Y\"]", "[▸0, \"rate*t*Y\"]")],
+    &["a body in uniaxial strain has an initial shear stress"]
+)]
+fn a_stress_in_plane_strain_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
+    refused(OEDOMETER, edits, words);
 }
 
 /// In a plane: the energy of a law in rate form, and a corner between two fixed walls.

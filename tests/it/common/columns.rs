@@ -23,6 +23,7 @@ pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<
         grad_v,
         temperature,
         spacing,
+        samples_stress_across: _,
     } = particles;
     let vectors = [x0, x, current_position, v].into_iter().flatten().flatten();
     let matrices = [sigma, def_grad, domain, domain0, grad_v].into_iter().flatten().flatten();

@@ -41,6 +41,7 @@ fn cloud<const D: usize>(rows: &[Row]) -> Particles<D> {
         across: Vec::new(),
         rate_across: Vec::new(),
         stress_across: Vec::new(),
+        samples_stress_across: false,
         current_position: Vec::new(),
         domain: vec![Matrix::identity() * (0.5 * H); rows.len()],
         domain0: Vec::new(),

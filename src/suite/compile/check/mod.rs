@@ -7,12 +7,13 @@ pub(crate) mod sums;
 
 use crate::exact::Survey;
 use crate::fem::BarLaw;
+use crate::subject::PlaneState;
 use crate::suite::compile::run::methods::law_of_bar;
 use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::compile::truth;
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
-use crate::suite::model::ConvergencePlan;
+use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::{Diagnostic, Path};
 
@@ -31,11 +32,12 @@ type CrossCheck = fn(&CompiledStudy<'_>) -> Result<(), Diagnostic>;
 
 /// Checks that run before the expectations are compiled. If several checks fail, the first one is
 /// reported.
-const CROSS_CHECKS: [CrossCheck; 6] = [
+const CROSS_CHECKS: [CrossCheck; 7] = [
     refuse_conditions_unknown_to_fem,
     refuse_law_unknown_to_fem,
     refuse_foreign,
     refuse_quantity_unknown_to_fem,
+    refuse_unknown_stress,
     |study| truth::refuse_unfit(study.evaluator, study.spec, study.plan, study.survey.as_ref()),
     |study| levels::refuse_unfit(study.evaluator, study.spec, study.plan, &study.levels),
 ];
@@ -169,6 +171,32 @@ fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagn
         }
         None => Ok(()),
     }
+}
+
+/// Refuses a stress component that a body of this dimension does not have, and an out-of-plane
+/// stress that the solver does not compute.
+fn refuse_unknown_stress(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, plan, .. } = study;
+    let (of, d, scene) = (plan.of, plan.scene.dimension(), &plan.scene);
+    let needs_across = of.needs_stress_across();
+    let axis = of.name().strip_prefix("stress_").and_then(|axes| axes.bytes().last());
+    let is_beyond = axis.is_some_and(|axis| usize::from(axis - b'x') >= d) && !needs_across;
+    let is_plane = d == 2 && needs_across && scene.plane == PlaneState::Strain;
+    let computes = |own: &Scene| own.material.properties().has_stress_across();
+    let lacking = scene.each().iter().find(|own| !computes(own));
+    let is_averaged = plan.cases.iter().any(|case| case.method.averages_volume());
+    let law = lacking.map_or("", |own| own.material.name());
+    let absent = format!("there is no {} in {d}-D", of.words());
+    let of_law = format!("the out-of-plane stress of `{law}` in plane strain is not computed");
+    let of_average = "the out-of-plane stress of averaged volume ratios is not computed";
+    let path = Path::top("judge").then("of");
+    let entries = [
+        (is_beyond || (d == 1 && needs_across), path.clone(), absent.as_str()),
+        (is_plane && lacking.is_some(), path.clone(), &of_law),
+        (is_plane && is_averaged, path, of_average),
+    ];
+    let help = "judge the `stress`, or use a scene with more dimensions";
+    refuse_first(&entries, |path, text| evaluator.diagnostic(path, text).with_help(help))
 }
 
 /// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is true

@@ -10,7 +10,7 @@ pub(crate) mod tolerance;
 
 use crate::exact::heat::Conduction;
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
-use crate::mpm::{MaterialPlan, Matrix};
+use crate::mpm::MaterialPlan;
 use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
@@ -169,14 +169,8 @@ fn equation(
     at_rest: bool,
 ) -> Result<Equation, Diagnostic> {
     if let Some(equation) = equation_of(&scene.material).filter(|law| law.name() == name.name()) {
-        // A law that is known in uniaxial strain only is also known for a body at rest under an
-        // initial stress.
-        let zero = Matrix::zeros();
-        let rests = !scene.initial_stress.is_none()
-            && scene.material.properties().yield_function(&zero).is_some();
-        let dimension = if rests { 1 } else { scene.dimension() };
-        let admitted = equation.admits(dimension, at_rest);
-        return admitted
+        return equation
+            .admits(scene.dimension(), at_rest)
             .map(|()| equation)
             .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
     }

@@ -49,7 +49,7 @@ const EARLY: usize = 4;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let first = patient.able_with(&[2, 3, 1], &FINITE, &scene, &|needs| {
-        needs.column = Some("stress");
+        needs.columns = vec!["stress"];
     })?;
     let is_able = |kind: Kind| patient.able(&[kind.0], &[kind.1], &scene).is_ok();
     // All laws run in the first supported number of dimensions, and the first law in all of them.

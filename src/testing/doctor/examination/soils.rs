@@ -129,7 +129,7 @@ struct Legs {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = |kind: Kind| path(kind, &COMPRESSION, STEPS);
     let able = |laws: &[&'static str]| {
-        patient.able_with(&[2, 3, 1], laws, &scene, &|needs| needs.column = Some("stress"))
+        patient.able_with(&[2, 3, 1], laws, &scene, &|needs| needs.columns = vec!["stress"])
     };
     able(&LAWS)?;
     let (mut measured, mut findings) = (Vec::new(), Vec::<SolverFinding>::new());

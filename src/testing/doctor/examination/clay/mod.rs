@@ -42,7 +42,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = |kind: Kind| path(kind, &PATHS[0].1);
     // In one dimension the lateral stress is unknown, and so are p and q.
     let first = patient.able_with(&[2, 3], &["cam_clay"], &scene, &|needs| {
-        needs.column = Some("stress");
+        needs.columns = vec!["stress"];
     })?;
     let scenes = PATHS.map(|(_, gradient)| path((first.dimension, first.law), &gradient));
     let end = |k: usize| {
