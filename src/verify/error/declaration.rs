@@ -174,15 +174,11 @@ type SpaceStress = [[f64; 3]; 3];
 fn in_space(d: usize, stress: &[f64], across: Option<f64>) -> SpaceStress {
     let of_plane = across.filter(|_| d == 2).unwrap_or(f64::NAN);
     std::array::from_fn(|i| {
-        std::array::from_fn(|j| match i.max(j) < d {
-            true => stress[i * d + j],
-            false => {
-                if i == j {
-                    of_plane
-                } else {
-                    0.0
-                }
+        std::array::from_fn(|j| {
+            if i.max(j) < d {
+                return stress[i * d + j];
             }
+            if i == j { of_plane } else { 0.0 }
         })
     })
 }
@@ -197,8 +193,8 @@ fn mean_stress(s: &SpaceStress) -> f64 {
 /// section 1.4). It is the axial stress in uniaxial stress.
 fn deviatoric_stress(s: &SpaceStress) -> f64 {
     let p = mean_stress(s);
-    let square = |k: usize| s[k / 3][k % 3] + if k % 4 == 0 { p } else { 0.0 };
-    libm::sqrt(1.5 * (0..9).map(|k| square(k) * square(k)).sum::<f64>())
+    let deviator = |k: usize| s[k / 3][k % 3] + if k.is_multiple_of(4) { p } else { 0.0 };
+    libm::sqrt(1.5 * (0..9).map(|k| deviator(k) * deviator(k)).sum::<f64>())
 }
 
 /// Computes a function of the stress at each label; empty if the samples have no stress.

@@ -128,10 +128,10 @@ fn refusal(#[case] suite: &str, #[case] edits: Edits<'_>, #[case] words: &[&str]
     &[("zz: \"-l0\"", "zz: \"-0.9*l0\""), ("[\"rate*t*X", "[▸\"rate*t*X")],
     &["the lateral initial stresses yy and zz differ"]
 )]
-#[case::soil_that_moves_in_two_dimensions(
+#[case::soil_strained_on_two_axes(
     SOIL,
-    &[("displacement: [0, 0]", "displacement: [▸0, \"1e-3*Y*t^2\"]")],
-    &["a body that yields has an initial stress, and is not at rest"]
+    &[("displacement: [0, 0]", "displacement: [▸\"1e-3*X*t^2\", \"1e-3*Y*t^2\"]")],
+    &["is known in uniaxial strain only, but du_Y/dY is not zero"]
 )]
 #[case::the_speed_of_the_law_alone(
     BAR,

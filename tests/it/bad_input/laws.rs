@@ -46,10 +46,6 @@ fn a_front_of_another_speed(#[case] edits: Edits<'_>) {
 }
 
 #[rstest]
-#[case::in_the_plane(
-    &[("  Y: 1e-3", "  S: 1e-3"), ("Y/(2*mu)", "S/(2*mu)"), ("yield: Y", "yield: S"), ("dimension: 1", "dimension: 2"), ("from: [0], to: [L]}", "from: [0, 0], to: [L, L]}"), ("grid: {from: [0], to: [\"1.25*L\"]}", "grid: {from: [0, 0], to: [\"1.25*L\", L]}"), ("value: [p0]", "value: [p0, 0]"), ("equation: j2", "equation: ▸j2")],
-    &["in uniaxial strain only", "use a scene of dimension 1"]
-)]
 #[case::of_finite_elements(
     &[("methods:\n", "methods:\n  - ▸fem: {element: linear, mass: lumped, law: j2}\n"), ("of: stress, ", "")],
     &["the built-in FEM does not support the law `j2`"]
