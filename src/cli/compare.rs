@@ -3,8 +3,8 @@
 use super::arguments::share;
 use super::output;
 use super::output::{CommandError, Status};
-use clap::{Args, ValueEnum};
-use mpm_verify::report::compare::{self, ReportComparison, ReportDocument, Unreadable};
+use clap::Args;
+use mpm_verify::report::compare::{self, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;
 use std::ops::Range;
 use std::path::Path;
@@ -23,22 +23,9 @@ pub(super) struct CompareArgs {
     /// Folder of a commit that contains the snapshots
     #[arg(long, default_value = "verification")]
     folder: String,
-    /// Format of the output
-    #[arg(long, value_enum, default_value_t = Page::Text)]
-    format: Page,
     /// Maximum relative change of a value that counts as no change
     #[arg(long, value_name = "SHARE", default_value_t = compare::TOLERANCE, value_parser = share, allow_negative_numbers = true)]
     tolerance: f64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Page {
-    /// Aligned tables
-    Text,
-    /// Markdown, for a comment on a pull request
-    Markdown,
-    /// One JSON document
-    Json,
 }
 
 const OVERVIEW: &str = "OVERVIEW.snap";
@@ -78,16 +65,9 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
             return Ok(Status::BadInput);
         }
     };
-    Ok(print(&compare::compare(&old, &new, tolerance), args.format))
-}
-
-fn print(found: &ReportComparison, format: Page) -> Status {
-    output::print(&match format {
-        Page::Text => compare::text(found),
-        Page::Markdown => compare::markdown(found),
-        Page::Json => compare::json(found),
-    });
-    if found.is_worse() { Status::Failed } else { Status::Passed }
+    let changes = compare::compare(&old, &new, tolerance);
+    output::print(&compare::text(&changes));
+    Ok(if changes.is_worse() { Status::Failed } else { Status::Passed })
 }
 
 /// Loads the results at `place`: a file, a folder, or a commit whose snapshots are in `folder`.

@@ -1,6 +1,6 @@
 //! Columns of tables. Each column is declared once, with its heading, JSON key, meaning and value.
 //!
-//! Text, JSON, Markdown and `docs/columns.md` use the same lists. To add a column, add an entry to
+//! Text, JSON and `docs/columns.md` use the same lists. To add a column, add an entry to
 //! a list.
 
 use crate::verify::Interval;
@@ -99,7 +99,7 @@ fn two_digit_exponent(text: &str) -> String {
 }
 
 pub(crate) struct TableColumn<'a, R: ?Sized> {
-    /// Heading in text and Markdown.
+    /// Heading in text.
     pub(crate) heading: Cow<'a, str>,
     /// Key in the JSON object of a row; empty for a column in text only. `errors.rms` is the key
     /// `rms` of the object `errors`.

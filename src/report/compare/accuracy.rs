@@ -3,7 +3,6 @@
 use super::changes::{ErrorMove, ratio_moved};
 use super::document::JsonNumber;
 use super::document::{CaseDocument, JudgeDocument, LevelDocument};
-use super::equal_error::ErrorAndWork;
 use super::snapshots::FINEST;
 use crate::verify::Quantity;
 
@@ -111,11 +110,6 @@ pub(super) fn work(pairs: &[LevelPair<'_>], tolerance: f64) -> Option<f64> {
     }
     let size = |ratio: &f64| libm::log(*ratio).abs();
     pairs.iter().map(ratio).max_by(|a, b| size(a).total_cmp(&size(b)))
-}
-
-pub(super) fn points(case: &CaseDocument) -> Vec<ErrorAndWork> {
-    let point = |level: &LevelDocument| (level.error().unwrap_or(f64::NAN), level.transfers as f64);
-    case.levels.iter().map(point).collect()
 }
 
 fn name(level: &LevelDocument, axis: Option<&str>) -> String {

@@ -1,8 +1,5 @@
 //! Changes between two runs.
 
-use super::equal_error::EqualError;
-use super::shared_words::SharedWord;
-
 /// Kinds of changes of a case, the most important first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rank {
@@ -18,8 +15,7 @@ pub enum Rank {
     LessAccurate,
     /// A stability limit is lower.
     LessStable,
-    /// More transfers are required for the same error or, without a common error, on the same
-    /// level.
+    /// More transfers are required on the same level.
     MoreExpensive,
     /// The case is more accurate, more stable or cheaper.
     Better,
@@ -87,8 +83,6 @@ pub struct ReportComparison {
     pub(super) problems: Vec<ProblemMove>,
     /// Cases that changed, the most important first.
     pub(super) moved: Vec<Moved>,
-    /// Words in the names of several worse cases, as a hint to the cause.
-    pub(super) shared_words: Vec<SharedWord>,
     /// Target errors whose minimum work has changed, the more expensive ones first.
     pub(super) cheapest: Vec<CheapestMove>,
     pub(super) unchanged: usize,
@@ -116,8 +110,6 @@ pub(super) struct Moved {
     pub(super) error: Option<ErrorMove>,
     /// Ratio of the new to the old transfers on one level.
     pub(super) work: Option<f64>,
-    /// Change of the transfers for a common error.
-    pub(super) equal: Option<EqualError>,
     /// Remarks that the columns do not contain.
     pub(super) notes: Vec<String>,
     /// Sort key within a rank, in decreasing order.
@@ -188,16 +180,6 @@ impl ReportComparison {
 
     pub(super) fn of(&self, rank: Rank) -> impl Iterator<Item = &Moved> {
         self.moved.iter().filter(move |moved| moved.rank == rank)
-    }
-
-    /// Lists words in the names of worse cases, each with the number of worse cases and of all
-    /// cases with this word.
-    pub(super) fn in_common(&self) -> Option<String> {
-        let part = |SharedWord { word, worse, all }: &SharedWord| {
-            format!("{worse} of all {all} cases with `{word}` in their names")
-        };
-        let parts: Vec<String> = self.shared_words.iter().map(part).collect();
-        (!parts.is_empty()).then(|| format!("{} are worse", parts.join(", ")))
     }
 
     /// Summarises the changes in one line: `2 less accurate, 1 new, 816 unchanged`.

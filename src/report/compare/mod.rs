@@ -3,8 +3,7 @@
 //! The comparison shows whether a pull request makes a method less accurate, less stable or more
 //! expensive. Cases are paired by suite and name, and levels by cells, spacing and particles per
 //! cell. Cases and levels without a counterpart are listed but not judged. Work is the number of
-//! particle-node transfers, which is the same on all machines. Work is compared at equal error
-//! (`equal_error`) if the errors of both runs have a common range.
+//! particle-node transfers, which is the same on all machines.
 //!
 //! For a case that only bounds the drift of conserved sums there is no error to compare, so only
 //! the verdict is compared.
@@ -12,10 +11,8 @@
 mod accuracy;
 mod changes;
 mod document;
-mod equal_error;
 mod output;
 mod pairs;
-mod shared_words;
 mod snapshots;
 mod stability;
 
@@ -24,7 +21,7 @@ mod tests;
 
 pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
-pub use output::{json, markdown, text};
+pub use output::text;
 
 /// Default tolerance: values whose relative change is at most this number count as unchanged, as in
 /// the [drift gate](super::text::drift).

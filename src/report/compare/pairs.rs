@@ -4,12 +4,11 @@ use super::changes::{CheapestMove, Moved, ProblemMove, Rank, ReportComparison, r
 use super::document::{
     CaseDocument, JsonNumber, RankingDocument, ReportDocument, SuiteDocument, name,
 };
-use super::shared_words::shared_words;
 use super::stability::StabilityMove;
-use super::{accuracy, equal_error, stability};
+use super::{accuracy, stability};
 use crate::report::columns::distinct;
 use crate::verify::JudgedBox;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 pub(super) fn compare(
     old: &ReportDocument,
@@ -38,16 +37,7 @@ pub(super) fn compare(
     moved.extend(before.into_iter().map(|(name, case)| lone(name, Rank::Gone, case)));
     moved.sort_by(|a, b| a.rank.cmp(&b.rank).then(b.weight.total_cmp(&a.weight)));
     let cheapest = cheapest_moves(old, new, tolerance, is_of_another);
-    let worse: BTreeSet<&str> = moved
-        .iter()
-        .filter(|moved| moved.rank.is_worse())
-        .map(|moved| moved.name.as_str())
-        .collect();
-    let names: Vec<String> = new.cases().map(|(suite, case)| name(suite, case)).collect();
-    let cases: Vec<(&str, bool)> =
-        names.iter().map(|name| (name.as_str(), worse.contains(name.as_str()))).collect();
-    let shared_words = shared_words(&cases);
-    ReportComparison { problems, moved, shared_words, cheapest, unchanged, tolerance }
+    ReportComparison { problems, moved, cheapest, unchanged, tolerance }
 }
 
 /// Returns the change of a case whose problem has changed. Only whether the case meets its
@@ -70,17 +60,7 @@ fn lone(name: String, rank: Rank, case: &CaseDocument) -> Moved {
         Rank::New => ([None, word], [None, order]),
         _ => ([word, None], [order, None]),
     };
-    Moved {
-        name,
-        rank,
-        verdict,
-        order,
-        error: None,
-        work: None,
-        equal: None,
-        notes: Vec::new(),
-        weight: 0.0,
-    }
+    Moved { name, rank, verdict, order, error: None, work: None, notes: Vec::new(), weight: 0.0 }
 }
 
 /// Returns the verdict, with a mark if the case does not meet its expectations.
@@ -96,12 +76,8 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     let axis = new.axis.as_deref();
     let error =
         accuracy::error(pairs, axis, tolerance).filter(|_| !accuracy::is_rounding(old, new));
-    let work = accuracy::work(pairs, tolerance);
+    let work = accuracy::work(pairs, tolerance).filter(|work| ratio_moved(*work, tolerance));
     let refined = common.len() < old.levels.len().max(new.levels.len());
-    let work = work.filter(|work| ratio_moved(*work, tolerance));
-    let equal = (comparable && (error.is_some() || work.is_some() || refined))
-        .then(|| equal_error::compare(&accuracy::points(old), &accuracy::points(new)))
-        .flatten();
     let studies = old.stability.as_ref().zip(new.stability.as_ref());
     let rows = studies.map(|(old, new)| stability::compare(old, new, tolerance));
     let rows = rows.unwrap_or_default();
@@ -112,13 +88,12 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
         order: [old, new].map(|case| case.observed_order.map(|order| order.value.0)),
         error,
         work,
-        equal,
         notes: Vec::new(),
         weight: 0.0,
     };
     let otherwise = otherwise(old, new, comparable, refined, &rows);
     (found.rank, found.weight) = verdict_rank(old, new, &rows)
-        .or_else(|| figure_rank(&found, &rows, tolerance))
+        .or_else(|| figure_rank(&found, &rows))
         .or_else(|| (!otherwise.is_empty()).then_some((Rank::Otherwise, 0.0)))?;
     if found.rank == Rank::Broken {
         found.notes.extend(new.unmet.iter().cloned());
@@ -199,10 +174,8 @@ fn severity(verdict: &str) -> u8 {
 }
 
 /// Returns the kind and size of a change of errors, work or stability limits.
-fn figure_rank(found: &Moved, rows: &StabilityMove, tolerance: f64) -> Option<(Rank, f64)> {
-    let error = found.error.as_ref();
-    let work = found.equal.map(|equal| equal.ratio).or(found.work);
-    let work = work.filter(|work| ratio_moved(*work, tolerance));
+fn figure_rank(found: &Moved, rows: &StabilityMove) -> Option<(Rank, f64)> {
+    let (error, work) = (found.error.as_ref(), found.work);
     let size = work.map_or(0.0, |work| libm::log(work).abs());
     match (error, work) {
         (Some(error), _) if error.worse => Some((Rank::LessAccurate, error.weight())),

@@ -46,7 +46,6 @@ fn figures_of_another_problem_are_not_compared() {
     let found = compare(&stating("E = 100", &before), &stating("E = 101", &after), TOLERANCE);
     assert_eq!((rank(&found), found.is_worse()), (Some(Rank::OtherProblem), false));
     assert!(text(&found).contains("  bar: parameters E = 100 -> E = 101\n"), "{}", text(&found));
-    assert!(markdown(&found).contains("E = 100 → E = 101"), "{}", markdown(&found));
     let same = compare(&stating("E = 100", &before), &stating("E = 100", &after), TOLERANCE);
     assert_eq!(rank(&same), Some(Rank::LessAccurate));
     after["passed"] = json!(false);
@@ -66,20 +65,6 @@ fn a_change_of_the_problem_shows_what_differs(
     let case = case("a", 1.0, 1.0);
     let found = compare(&stating(old, &case), &stating(new, &case), TOLERANCE);
     assert!(text(&found).contains(&format!("  bar: parameters {words}\n")), "{}", text(&found));
-}
-
-#[test]
-fn common_words_of_worse_cases_are_reported() {
-    let names = ["linear-apic", "cubic-apic", "cpdi-apic", "cpdi-flip"];
-    let with = |c: f64| {
-        let worse = |name: &&str| if name.ends_with("apic") { c } else { 1.0 };
-        document(&names.map(|name| case(name, worse(&name), 1.0)))
-    };
-    let found = compare(&with(1.0), &with(2.0), TOLERANCE);
-    let line = "worse: 3 less accurate, 1 unchanged\n\
-                3 of all 3 cases with `apic` in their names are worse\n";
-    assert!(text(&found).starts_with(line), "{}", text(&found));
-    assert!(markdown(&found).contains("with &#96;apic&#96; in"), "{}", markdown(&found));
 }
 
 #[test]
@@ -143,9 +128,7 @@ fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option
 #[test]
 fn a_small_change_is_detected() {
     let found = after(&case("a", 1.0, 1.0), set("/levels/3/transfers", json!(6426)));
-    // Only a part of the work at this error, which is interpolated between the two finest levels,
-    // has changed: 1.004^0.82.
-    assert!(text(&found).contains("  1.004 x     1.003 x at 2e-4"), "{}", text(&found));
+    assert!(text(&found).contains("  1.004 x\n"), "{}", text(&found));
 }
 
 /// NaN before and after is the same failure. A number in place of NaN is an improvement.
@@ -169,46 +152,6 @@ fn a_new_failure_outweighs_a_better_finest_level() {
     });
     assert_eq!(rank(&found), Some(Rank::LessAccurate));
     assert!(text(&found).contains("2.500e-3 -> failed"), "{}", text(&found));
-}
-
-#[rstest]
-#[case::twice_as_expensive(1.0, 1.8, Rank::MoreExpensive, "1.80 x at 2e-4")]
-#[case::worse_and_as_dear(2.0, 1.0, Rank::LessAccurate, "2.00 x at 5e-4")]
-#[case::better_at_the_same_price(0.5, 2.0, Rank::Better, "1.000 x at 2e-4")]
-#[case::better_and_more_expensive_still(0.5, 4.0, Rank::Better, "2.00 x at 2e-4")]
-fn work_is_compared_at_equal_error(
-    #[case] c: f64,
-    #[case] w: f64,
-    #[case] expected: Rank,
-    #[case] shown: &str,
-) {
-    let found =
-        compare(&document(&[case("a", 1.0, 1.0)]), &document(&[case("a", c, w)]), TOLERANCE);
-    let page = text(&found);
-    assert!(page.contains(shown), "{page}");
-    // The method is more accurate on the same grid, but more expensive for the same error.
-    let expected = if shown.starts_with("2.00 x at 2e-4") { Rank::MoreExpensive } else { expected };
-    assert_eq!(rank(&found), Some(expected), "{page}");
-}
-
-#[test]
-fn different_grids_are_compared_at_equal_error() {
-    let found = after(&case("a", 1.0, 1.0), |case| {
-        for (k, cells) in [15, 30, 60, 120].into_iter().enumerate() {
-            let h = 1.0 / f64::from(cells);
-            for (key, value) in [
-                ("cells", json!(cells)),
-                ("spacing", json!(h)),
-                ("judged", json!(h * h)),
-                ("transfers", json!(3 * cells * cells)),
-            ] {
-                set(&format!("/levels/{k}/{key}"), value)(case);
-            }
-        }
-    });
-    assert_eq!(rank(&found), Some(Rank::MoreExpensive), "{}", text(&found));
-    assert!(text(&found).contains("levels: 4 -> 4, 0 in common"), "{}", text(&found));
-    assert!(text(&found).contains("3.00 x at 2e-4"), "{}", text(&found));
 }
 
 /// A rigid translation is exact up to rounding. A change of rounding errors is not a change of
@@ -338,7 +281,6 @@ fn cheapest_for_a_target(
         Some((_, row)) => assert!(page.contains(&words(row)), "{page}"),
         None => assert!(found.cheapest.is_empty(), "{page}"),
     }
-    assert_eq!(markdown(&found).contains("| `bar, exact` |"), expected.is_some());
 }
 
 #[rstest]
@@ -365,55 +307,6 @@ fn duplicate_cases_are_refused() {
         json!({"suites": [{"suite": "bar", "cases": [case("a", 1.0, 1.0), case("a", 2.0, 1.0)]}]});
     let error = ReportDocument::read(&twice.to_string()).expect_err("no document");
     assert_eq!(error.message, "the case `bar::a` is there twice");
-}
-
-/// Names and verdicts are text from a file, and must not add markup, end a table or mention a user.
-#[test]
-fn markdown_is_escaped() {
-    let hostile = "a|b`c`\n<img src=x onerror=alert(1)> @someone ![x](http://y) **bold**";
-    let mut before = case(hostile, 1.0, 1.0);
-    let found = after(&before, set("/verdict", json!(hostile)));
-    let page = markdown(&found);
-    let row = page.lines().find(|line| line.starts_with("| `")).expect("a row");
-    // Within the code span only the bar and the backtick are unsafe.
-    let (name, rest) = row[3..].split_once('`').expect("the end of the span");
-    assert_eq!(
-        name,
-        hostile
-            .replace('|', "\\|")
-            .replace('`', "'")
-            .replace('\n', "\u{fffd}")
-            .replace("a\\|", "bar::a\\|")
-    );
-    assert!(!rest.contains(['<', '@', '`', '*', '!', '[']), "{rest}");
-    assert_eq!(rest.matches(" | ").count(), 2, "{rest}");
-    set("/case", json!("\u{1b}[2J"))(&mut before);
-    assert!(!text(&after(&before, set("/passed", json!(false)))).contains('\u{1b}'));
-}
-
-/// Comments are limited to 65536 characters, so long lists are shortened.
-#[test]
-fn a_long_list_is_cut() {
-    let cases = |c: f64| -> Vec<Value> {
-        (0..400).map(|k| case(&format!("a-case-with-a-rather-long-name-{k}"), c, 1.0)).collect()
-    };
-    let found = compare(&document(&cases(1.0)), &document(&cases(2.0)), TOLERANCE);
-    let page = markdown(&found);
-    assert!(page.contains("\nand 360 more\n"), "{page}");
-    assert!(page.len() < 10_000, "{}", page.len());
-    assert_eq!(text(&found).matches("bar::a-case").count(), 400);
-}
-
-#[test]
-fn better_cases_are_folded_and_worse_ones_are_not() {
-    let pair = |c: f64, d: f64| document(&[case("a", c, 1.0), case("b", d, 1.0)]);
-    let page = markdown(&compare(&pair(1.0, 1.0), &pair(2.0, 0.5), TOLERANCE));
-    let folded = page.find("<details><summary>1 better</summary>\n\n|").expect("a fold");
-    assert!(page.starts_with("**mpm-verify: Worse**: 1 less accurate, 1 better\n"), "{page}");
-    assert!(page.find("`bar::a`").expect("a") < folded, "{page}");
-    assert!(page.find("`bar::b`").expect("b") > folded, "{page}");
-    let nothing = markdown(&compare(&pair(1.0, 1.0), &pair(1.0, 1.0), TOLERANCE));
-    assert!(nothing.starts_with("**mpm-verify: Nothing worse**: 2 unchanged\n"), "{nothing}");
 }
 
 prop_compose! {
@@ -472,6 +365,6 @@ proptest! {
         prop_assert!(there.count(Rank::Broken) <= back.count(Rank::BetterVerdict));
         prop_assert!(there.count(Rank::WorseVerdict) <= back.count(Rank::BetterVerdict) + 1);
         prop_assert_eq!(there.unchanged(), back.unchanged());
-        prop_assert!(!markdown(&there).is_empty() && !text(&back).is_empty());
+        prop_assert!(!text(&there).is_empty() && !text(&back).is_empty());
     }
 }

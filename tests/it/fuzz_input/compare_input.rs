@@ -1,6 +1,6 @@
 //! Interprets bytes as two documents to be compared: snapshots, or the JSON of runs.
 
-use mpm_verify::report::compare::{ReportDocument, compare, json, markdown, text};
+use mpm_verify::report::compare::{ReportDocument, compare, text};
 
 /// Reads the two parts before and after the first zero byte. Compares them with each other, and
 /// each with itself. Panics if this fails, or if a document differs from itself.
@@ -17,10 +17,5 @@ pub(crate) fn differences(bytes: &[u8]) {
 }
 
 fn shown(old: &ReportDocument, new: &ReportDocument) {
-    let found = compare(old, new, 0.01);
-    for written in [text(&found), markdown(&found)] {
-        assert!(!written.is_empty());
-    }
-    let document: serde_json::Value = serde_json::from_str(&json(&found)).expect("JSON");
-    assert!(document.is_object());
+    assert!(!text(&compare(old, new, 0.01)).is_empty());
 }
