@@ -116,9 +116,7 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
-    use crate::verify::{
-        ConservationError, ErrorField, History, Interval, Norms, RunErrors, RunResult,
-    };
+    use crate::verify::{ConservationError, History, Interval, Norms, RunErrors, RunResult};
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {
@@ -140,7 +138,6 @@ mod tests {
             },
             steps: 3,
             failure,
-            field: Some(ErrorField { is_plane: true, size: x, parts: vec![[0.0, x, f64::NAN]] }),
             history: Some(History { label: vec![x], velocity: vec![[x, -0.0, 1e-320]] }),
             displacement: Some(vec![x, 0.1 + 0.2]),
             observed_error: None,

@@ -261,7 +261,6 @@ pub(in crate::verify) mod tests {
             steps: 1,
             failure: None,
             history: None,
-            field: None,
             displacement: None,
             observed_error: None,
             observed_exact: None,

@@ -54,7 +54,6 @@ pub use cost::{
 pub(crate) use error::clock::is_instant;
 pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE, StepKind};
 pub(crate) use error::declaration::SumNeed;
-pub use error::error_field::ErrorField;
 pub use error::judged_box::JudgedBox;
 pub use error::judged_sum::JudgedSum;
 pub use error::norm::ErrorScale;

@@ -3,15 +3,13 @@
 use super::plot::frame::{KEY, Legend, LegendEntry};
 use super::plot::frame::{Plot, Titles};
 use super::plot::scale::{Pad, Scale};
-use super::plot::style::{CONTEXT, FRONT};
+use super::plot::style::{CONTEXT, FRONT, NEUTRAL};
 use super::plot::svg::{Pt, SvgElement};
-use super::plot::triangle;
-use super::plot::triangle::TriangleRow;
 use super::series;
-use super::series::{PlotSeries, SeriesLine};
+use super::series::{Mark, PlotPoint, PlotSeries, SeriesLine};
 
-/// A log-log plot of errors. The legend is below the frame; slope triangles are in the lower right
-/// corner of the frame.
+/// A log-log plot of errors with its legend below the frame. A dotted line has the slope of each
+/// reference order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogLogPlot {
     /// Title above the frame.
@@ -27,7 +25,7 @@ pub struct LogLogPlot {
     /// Pareto front (work, error) in ascending order of work, drawn as a broad band behind the
     /// lines.
     pub front: Vec<(f64, f64)>,
-    /// Orders of the slope triangles. Orders that are not positive are ignored.
+    /// Orders of the reference lines. Orders that are not positive are ignored.
     pub reference_orders: Vec<f64>,
 }
 
@@ -48,19 +46,15 @@ impl LogLogPlot {
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();
-        let triangles = self.triangles(&lines, &plot);
-        let mut layers = vec![self.band(&plot), triangles.draw(&plot)];
+        let mut layers = vec![self.band(&plot)];
+        layers
+            .extend(self.reference_lines().map(|(_, ends)| dotted(&ends.map(|at| plot.place(at)))));
         layers.extend(lines.iter().map(|line| line.draw(&plot)));
         layers.extend(series::failures(&lines).iter().map(|failure| failure.draw(&plot)));
         if lines.iter().all(|line| line.count() == 0) {
             layers.push(plot.placeholder("no data"));
         }
-        let mut notes = self.omissions(&lines);
-        let without_place = triangles.left_out().map(triangle::name);
-        notes.extend(
-            without_place.map(|slope| format!("No place for the slope triangle of order {slope}.")),
-        );
-        plot.document(&layers, &Legend::new(self.entries(&lines)), &notes)
+        plot.document(&layers, &Legend::new(self.entries(&lines)), &self.omissions(&lines))
     }
 
     fn lines(&self) -> Vec<SeriesLine<'_>> {
@@ -68,34 +62,45 @@ impl LogLogPlot {
         self.others.iter().map(SeriesLine::in_grey).chain(named).collect()
     }
 
-    /// Creates the frame with axes that contain all data of `figures`. A strip below the data
-    /// remains empty if slope triangles need it.
+    /// Creates the frame with axes that contain all data and reference lines of `figures`.
     fn plot(&self, figures: &[Self]) -> Plot<'_> {
         let all: Vec<Vec<SeriesLine>> = figures.iter().map(Self::lines).collect();
         let lines = || all.iter().flatten();
         let heads = all.iter().map(|lines| series::headroom(&series::failures(lines)));
         let head = MARGIN + heads.fold(0.0, f64::max);
+        let references = figures.iter().flat_map(Self::reference_lines);
+        let references = references.flat_map(|(_, ends)| ends.map(|end| end.1));
+        let x = Scale::log(lines().flat_map(SeriesLine::xs), Pad { lo: MARGIN, hi: MARGIN });
+        let errors = lines().flat_map(SeriesLine::errors).chain(references);
+        let y = Scale::log(errors, Pad { lo: MARGIN, hi: head });
         let titles = Titles { title: &self.title, x_label: &self.x_label, y_label: &self.y_label };
-        let frame = |foot: f64| {
-            let x = Scale::log(lines().flat_map(SeriesLine::xs), Pad { lo: MARGIN, hi: MARGIN });
-            let y = Scale::log(lines().flat_map(SeriesLine::errors), Pad { lo: foot, hi: head });
-            Plot::new(titles, x, y)
-        };
-        let draft = frame(MARGIN);
-        let strip = |(figure, lines): (&Self, &Vec<SeriesLine>)| {
-            let paths: Vec<Vec<Pt>> = lines.iter().map(|line| line.path(&draft)).collect();
-            figure.triangles(lines, &draft).strip(&draft, &paths, Pad { lo: MARGIN, hi: head })
-        };
-        let foot = figures.iter().zip(&all).map(strip).fold(MARGIN, f64::max);
-        if foot > MARGIN { frame(foot) } else { draft }
+        Plot::new(titles, x, y)
     }
 
-    fn triangles(&self, lines: &[SeriesLine], plot: &Plot) -> TriangleRow {
-        let positive = |order: &f64| order.is_finite() && *order > 0.0;
-        let has_data = lines.iter().any(|line| line.count() > 0);
-        let orders =
-            self.reference_orders.iter().copied().filter(|order| has_data && positive(order));
-        TriangleRow::new(&orders.collect::<Vec<_>>(), plot)
+    /// Returns each positive reference order with the ends of a line of this slope, from fine to
+    /// coarse. The line begins at half of the smallest error on the coarsest level, and ends at the
+    /// finest level or at half of the smallest error.
+    pub(super) fn reference_lines(&self) -> impl Iterator<Item = (f64, [Pt; 2])> {
+        let is_drawn = |point: &&PlotPoint| {
+            let positive = |value: f64| value.is_finite() && value > 0.0;
+            positive(point.x) && positive(point.error) && point.mark != Mark::Failed
+        };
+        let points = || self.series.iter().flat_map(|series| &series.points).filter(is_drawn);
+        let least =
+            |errors: &mut dyn Iterator<Item = f64>| 0.5 * errors.fold(f64::INFINITY, f64::min);
+        let low = points().map(|point| point.x).fold(f64::INFINITY, f64::min);
+        let high = points().map(|point| point.x).fold(0.0, f64::max);
+        let top = least(&mut points().filter(|point| point.x == high).map(|point| point.error));
+        let bottom = least(&mut points().map(|point| point.error));
+        let line = move |order: f64| {
+            let end = f64::max(bottom, top * libm::pow(low / high, order));
+            let x = f64::max(low, high * libm::pow(end / top, 1.0 / order));
+            (order, [(x, end), (high, top)])
+        };
+        let is_line = move |(order, [(x, end), _]): &(f64, [Pt; 2])| {
+            *order > 0.0 && low < high && *end > 0.0 && *x < high && top.is_finite()
+        };
+        self.reference_orders.iter().copied().map(line).filter(is_line)
     }
 
     fn band(&self, plot: &Plot) -> SvgElement {
@@ -112,6 +117,10 @@ impl LogLogPlot {
 
     fn entries(&self, lines: &[SeriesLine]) -> Vec<LegendEntry> {
         let mut entries = series::names(lines);
+        entries.extend(self.reference_lines().map(|(order, _)| {
+            let key = dotted(&[(0.0, 0.0), (KEY, 0.0)]);
+            LegendEntry::new(key, &format!("order {}", order_name(order)))
+        }));
         if !self.front.is_empty() {
             entries.push(LegendEntry::new(band(&[(3.0, 0.0), (KEY - 3.0, 0.0)]), "Pareto front"));
         }
@@ -144,4 +153,37 @@ fn band(points: &[Pt]) -> SvgElement {
         .at("stroke-width", BAND)
         .set("stroke-linecap", "round")
         .set("stroke-linejoin", "round")
+}
+
+fn dotted(ends: &[Pt; 2]) -> SvgElement {
+    let line = SvgElement::line(ends[0], ends[1]).set("stroke", NEUTRAL);
+    line.at("stroke-width", 1.4).set("stroke-dasharray", "1.4 3")
+}
+
+/// Formats an order in the usual notation: thirds as fractions, other values as short decimals.
+pub(super) fn order_name(order: f64) -> String {
+    const TOLERANCE: f64 = 0.005;
+    let thirds = libm::round(3.0 * order);
+    let whole = libm::round(order);
+    if (order - whole).abs() >= TOLERANCE && (order - thirds / 3.0).abs() < TOLERANCE {
+        return format!("{thirds}/3");
+    }
+    let decimals = format!("{order:.2}");
+    decimals.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rstest::rstest;
+
+    #[rstest]
+    #[case(2.0, "2")]
+    #[case(5.0 / 3.0, "5/3")]
+    #[case(1.67, "5/3")]
+    #[case(0.75, "0.75")]
+    #[case(10.0, "10")]
+    fn order_names(#[case] order: f64, #[case] expected: &str) {
+        assert_eq!(order_name(order), expected);
+    }
 }

@@ -4,8 +4,8 @@
 //! light in steps of equal lightness and remain distinguishable in grey print. A gap separates rows
 //! whose names begin with different words.
 
-use super::colour_scale::{BAR_WIDTH, ColourScale, colour};
 use super::plot::canvas::{Heading, canvas, text_width};
+use super::plot::scale::{Pad, Scale};
 use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
 use super::plot::svg::SvgElement;
 use crate::verify::rounded;
@@ -17,7 +17,7 @@ pub struct Map {
     pub title: String,
     /// Label of the horizontal axis, which lists the columns.
     pub x_label: String,
-    /// Label of the colour bar: the quantity that the fields show.
+    /// Name of the quantity that the fields show.
     pub z_label: String,
     /// Heading of each column.
     pub columns: Vec<String>,
@@ -50,16 +50,16 @@ impl Map {
     /// Creates the figure as a standalone SVG document.
     pub fn to_svg(&self) -> String {
         let names = self.rows.iter().map(|(name, _)| name.as_str());
-        let names = names.chain([self.z_label.as_str()]).map(|name| text_width(name, TEXT));
-        let left = LEFT + names.fold(0.0, f64::max) + 10.0;
+        let left = LEFT + names.map(|name| text_width(name, TEXT)).fold(0.0, f64::max) + 10.0;
         let field =
             self.columns.iter().map(|name| text_width(name, TEXT) + 8.0).fold(FIELD, f64::max);
         let across = field * self.columns.len() as f64;
-        let width = (left + across).max(left + BAR_WIDTH) + LEFT;
+        let note = format!("{}: dark is low, light is high", self.z_label);
+        let width = (left + across).max(LEFT + text_width(&note, TEXT)) + LEFT;
         let heading = Heading::new(&self.title, width);
         let head = heading.bottom() + 34.0;
         let (places, bottom) = self.places(head);
-        let height = bottom + 62.0;
+        let height = bottom + 30.0;
         let mut svg = canvas(width, height, &self.title);
         heading.draw(&mut svg);
         let middle = left + across / 2.0;
@@ -69,11 +69,11 @@ impl Map {
             svg.add(&SvgElement::text(at, "middle", column));
         }
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
-        let scale = ColourScale::of(fields.filter_map(|field| field.value));
+        let scale = colour_scale(fields.filter_map(|field| field.value));
         for ((name, fields), y) in self.rows.iter().zip(places) {
             svg.add(&row(name, fields, RowPlace { left, top: y, field }, scale));
         }
-        svg.add(&scale.bar((left, bottom + 16.0), &self.z_label));
+        svg.add(&SvgElement::text((LEFT, bottom + 18.0), "start", &note));
         svg.render() + "\n"
     }
 
@@ -103,14 +103,14 @@ struct RowPlace {
     field: f64,
 }
 
-fn row(name: &str, fields: &[MapField], place: RowPlace, scale: ColourScale) -> SvgElement {
+fn row(name: &str, fields: &[MapField], place: RowPlace, scale: Scale) -> SvgElement {
     let RowPlace { left: x, top: y, field: width } = place;
     let mut group = SvgElement::new("g");
     group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {
         let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
-        let known = value.map(|value| colour(scale.share(value)));
+        let known = value.map(|value| colour(scale.fraction(value)));
         let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
         let square =
             SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
@@ -119,6 +119,50 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, scale: ColourScale) -> 
         group.add(&SvgElement::text(middle, "middle", &field.text).set("fill", ink));
     }
     group
+}
+
+/// Minimum ratio of the largest to the smallest value for which the colour scale is logarithmic.
+const SPAN: f64 = 1e3;
+
+/// Creates the colour scale, from the smallest to the largest finite value.
+fn colour_scale(values: impl Iterator<Item = f64>) -> Scale {
+    let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    let low = finite.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = finite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let none = Pad { lo: 0.0, hi: 0.0 };
+    if low > 0.0 && high / low > SPAN {
+        Scale::log(finite.into_iter(), none)
+    } else {
+        Scale::linear(finite.into_iter(), none)
+    }
+}
+
+/// Text colours on dark and light fields. The palette does not contain these colours because they
+/// are the same in both themes.
+const OVER_DARK: &str = "#fff";
+const OVER_LIGHT: &str = "#222";
+
+/// Red, green and blue of the shades, from dark to light (cividis, after Nunez, Anderton & Renslow
+/// 2018).
+const COLOURS: [[f64; 3]; 6] = [
+    [0.0, 32.0, 81.0],
+    [60.0, 77.0, 110.0],
+    [107.0, 110.0, 119.0],
+    [148.0, 143.0, 120.0],
+    [202.0, 186.0, 106.0],
+    [253.0, 234.0, 69.0],
+];
+
+/// Returns the colour at `share` (0 dark, 1 light), and the colour of text on it.
+fn colour(share: f64) -> (String, &'static str) {
+    let last = COLOURS.len() - 1;
+    let place = share.clamp(0.0, 1.0) * last as f64;
+    let low = (place as usize).min(last - 1);
+    let rest = place - low as f64;
+    let mixed: [f64; 3] =
+        std::array::from_fn(|k| COLOURS[low][k] * (1.0 - rest) + COLOURS[low + 1][k] * rest);
+    let [r, g, b] = mixed.map(|channel| libm::round(channel) as u8);
+    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.5 { OVER_DARK } else { OVER_LIGHT })
 }
 
 /// Removes the first word of the names if all rows have it in common. Merges neighbouring rows with

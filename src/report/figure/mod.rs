@@ -1,10 +1,9 @@
 //! Figures as standalone SVG documents.
 //!
-//! There are four kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
-//! [`HistoryPlot`] (curves with linear axes), the [`Map`] (a table of numbers on coloured fields)
-//! and the [`ErrorMap`] (the error in each part of a body). All are pure functions of their input
-//! and can be compared byte by byte: coordinates have two decimals, and transcendental functions
-//! come from `libm`.
+//! There are three kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
+//! [`HistoryPlot`] (curves with linear axes) and the [`Map`] (a table of numbers on coloured
+//! fields). All are pure functions of their input and can be compared byte by byte: coordinates
+//! have two decimals, and transcendental functions come from `libm`.
 //!
 //! Figures accept any input. A value that cannot be placed on its axis is drawn as failed,
 //! interrupts its curve, or is counted in a note below the figure.
@@ -34,14 +33,11 @@ pub(crate) mod plot;
 pub(crate) mod study;
 pub(crate) mod sweep;
 
-mod colour_scale;
-mod error_map;
 mod history;
 mod log_log;
 mod pgfplots;
 mod series;
 
-pub use error_map::ErrorMap;
 pub use history::{Curve, HistoryPlot};
 pub use log_log::LogLogPlot;
 pub use map::{Map, MapField};

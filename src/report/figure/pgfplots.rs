@@ -3,8 +3,9 @@
 //! Each document compiles on its own (class `standalone`). For a paper, copy its `tikzpicture`, or
 //! include the file with the package `standalone`.
 
+use super::log_log::order_name;
 use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
-use super::{ErrorMap, HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
+use super::{HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
 
 /// Maximum number of points of a curve, because TeX is slow and more points are not visible in
@@ -17,9 +18,6 @@ const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 /// Shorter axes also have labels at 2 and 5 times powers of ten.
 const SHORT: f64 = 2.0;
 
-/// Number of panels per row of an error map.
-const PANELS: usize = 4;
-
 /// LaTeX source of a document under construction.
 struct PgfDocument {
     text: String,
@@ -31,7 +29,6 @@ impl PgfDocument {
         document.line(&format!("% Written by mpm-verify {}.", env!("CARGO_PKG_VERSION")));
         document.line("\\documentclass{standalone}");
         document.line("\\usepackage{pgfplots}");
-        document.line("\\usepgfplotslibrary{groupplots}");
         document.line("\\pgfplotsset{compat=1.15}");
         document.line("\\begin{document}");
         document.line("\\begin{tikzpicture}");
@@ -165,36 +162,13 @@ impl LogLogPlot {
             document.plot(&format!("{style}, forget plot"), self.front.iter().copied());
             document.legend(style, "Pareto front");
         }
-        self.reference_lines(&mut document);
+        for (order, ends) in self.reference_lines() {
+            let style = "neutral, dotted, thick";
+            document.plot(&format!("{style}, forget plot"), ends.into_iter());
+            document.legend(style, &format!("order ${}$", order_name(order)));
+        }
         document.finished("loglogaxis")
     }
-
-    /// Draws the reference orders as lines through half of the smallest error on the coarsest
-    /// level.
-    fn reference_lines(&self, document: &mut PgfDocument) {
-        let all: Vec<(f64, f64)> =
-            self.series.iter().flat_map(|series| sorted(series, |_| true)).collect();
-        let xs = || all.iter().map(|point| point.0);
-        let (low, high) = (xs().fold(f64::INFINITY, f64::min), xs().fold(0.0, f64::max));
-        let at_high = all.iter().filter(|point| point.0 == high).map(|point| point.1);
-        let top = 0.5 * at_high.fold(f64::INFINITY, f64::min);
-        if !(low < high && top.is_finite()) {
-            return;
-        }
-        for order in self.reference_orders.iter().filter(|order| **order > 0.0) {
-            let bottom = top * libm::pow(low / high, *order);
-            let style = "neutral, dotted, thick";
-            let ends = [(low, bottom), (high, top)];
-            document.plot(&format!("{style}, forget plot"), ends.into_iter());
-            document.legend(style, &format!("order ${}$", rounded(*order)));
-        }
-    }
-}
-
-/// Formats an order with at most two decimals, without trailing zeros.
-fn rounded(order: f64) -> String {
-    let text = format!("{order:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Returns the points whose mark `is_chosen` accepts, sorted by their horizontal coordinate.
@@ -285,86 +259,6 @@ impl Map {
     }
 }
 
-impl ErrorMap {
-    /// Creates the figure as a LaTeX document. Plane bodies have a panel for each case. Each part
-    /// of a body is a square, coloured by the decimal logarithm of the error. Bars have one plot of
-    /// the errors over the position, with a curve for each case.
-    pub fn to_pgfplots(&self) -> String {
-        if self.panels.iter().any(|(_, field)| field.is_plane) {
-            self.panels_to_pgfplots()
-        } else {
-            self.curves_to_pgfplots()
-        }
-    }
-
-    fn curves_to_pgfplots(&self) -> String {
-        let mut document = PgfDocument::new();
-        let titles = titles(&self.title, "position (m)", &self.label);
-        document.line(&format!(
-            "\\begin{{semilogyaxis}}[{titles}, grid=major, unbounded coords=jump, {LEGEND}]"
-        ));
-        for (number, (name, field)) in self.panels.iter().enumerate() {
-            let look = look(number);
-            let colour = format!("series{number}");
-            document.colour(&colour, look.colour);
-            let mut points: Vec<(f64, f64)> =
-                field.parts.iter().map(|part| (part[0], part[2])).collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let positive = |error: f64| if error > 0.0 { error } else { f64::NAN };
-            let points = points.into_iter().map(|(x, error)| (x, positive(error)));
-            let style = format!("{colour}, thick, no marks");
-            document.plot(&format!("{style}, forget plot"), points);
-            document.legend(&style, &escaped(name));
-        }
-        document.finished("semilogyaxis")
-    }
-
-    fn panels_to_pgfplots(&self) -> String {
-        let mut document = PgfDocument::new();
-        let errors = || self.panels.iter().flat_map(|(_, field)| &field.parts).map(|part| part[2]);
-        let logs = || errors().filter(|e| e.is_finite() && *e > 0.0).map(libm::log10);
-        let (low, high) =
-            (logs().fold(f64::INFINITY, f64::min), logs().fold(f64::NEG_INFINITY, f64::max));
-        let range = if low < high {
-            format!(", point meta min={low:.4}, point meta max={high:.4}")
-        } else {
-            String::new()
-        };
-        let columns = self.panels.len().clamp(1, PANELS);
-        let rows = self.panels.len().div_ceil(columns);
-        document.line(&format!(
-            "\\begin{{groupplot}}[group style={{group size={columns} by {rows}, \
-             horizontal sep=2cm, vertical sep=1.6cm}}, axis equal image, \
-             max space between ticks=60, try min ticks=2, colormap/viridis{range}, \
-             title style={{font=\\small, align=center, text width=3cm}}]"
-        ));
-        let with_bar = columns - 1;
-        for (index, (name, field)) in self.panels.iter().enumerate() {
-            let bar = if index == with_bar {
-                let label = escaped(&self.label);
-                format!(
-                    ", colorbar, colorbar style={{height=4cm, \
-                     ylabel={{$\\log_{{10}}$ of {label}}}, ylabel style={{font=\\small}}}}"
-                )
-            } else {
-                String::new()
-            };
-            document.line(&format!("\\nextgroupplot[title={{{}}}{bar}]", escaped(name)));
-            document.line(
-                "\\addplot[scatter, only marks, mark=square*, mark size=1.2pt, \
-                 scatter src=explicit] table[meta=z] {",
-            );
-            document.line("x y z");
-            for part in &field.parts {
-                let log = if part[2] > 0.0 { libm::log10(part[2]) } else { f64::NAN };
-                document.line(&[part[0], part[1], log].map(number).join(" "));
-            }
-            document.line("};");
-        }
-        document.finished("groupplot")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -386,7 +280,6 @@ mod tests {
     % Written by mpm-verify 0.1.0.
     \documentclass{standalone}
     \usepackage{pgfplots}
-    \usepgfplotslibrary{groupplots}
     \pgfplotsset{compat=1.15}
     \begin{document}
     \begin{tikzpicture}
@@ -428,21 +321,5 @@ mod tests {
         let text = plot.to_pgfplots();
         assert_eq!(text.matches(" nan\n").count(), 335, "{text}");
         assert!(text.contains("\n1e3 nan\n") && !text.contains("legendentry"), "{text}");
-    }
-
-    #[test]
-    fn bars_have_curves_and_plane_bodies_have_panels() {
-        let field = |is_plane| crate::verify::ErrorField {
-            is_plane,
-            size: 0.5,
-            parts: vec![[1.0, 0.0, 1e-3], [0.0, 0.0, 0.0]],
-        };
-        let map = |is_plane| ErrorMap {
-            title: "A body".to_owned(),
-            label: "error (m)".to_owned(),
-            panels: vec![("one".to_owned(), field(is_plane))],
-        };
-        assert!(map(false).to_pgfplots().contains("x y\n0e0 nan\n1e0 1e-3\n"));
-        assert!(map(true).to_pgfplots().contains("x y z\n1e0 0e0 -3e0\n0e0 0e0 nan\n"));
     }
 }

@@ -107,10 +107,6 @@ impl<'a> SeriesLine<'a> {
         self.levels.iter().filter_map(|level| level.error)
     }
 
-    pub(super) fn path(&self, plot: &Plot) -> Vec<Pt> {
-        self.marked_path(plot).into_iter().map(|(at, _)| at).collect()
-    }
-
     fn marked_path(&self, plot: &Plot) -> Vec<(Pt, Mark)> {
         let levels = self.levels.iter();
         levels.filter_map(|l| Some((plot.place((l.x, l.error?)), l.mark))).collect()

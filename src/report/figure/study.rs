@@ -3,26 +3,20 @@
 use super::Figure;
 use super::plot::style;
 use super::plot::svg::SvgElement;
-use super::{Curve, ErrorMap, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
+use super::{Curve, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::subject::Totals;
-use crate::verify::{
-    Axis, Convergence, ErrorField, InternalForce, LevelOutcome, SuiteOutcome, Verdict,
-};
+use crate::verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict};
 
 /// Maximum number of curves in one plot, because a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-/// Maximum number of panels in one error map.
-const MOST_PANELS: usize = 24;
-
 /// Maximum ratio of the largest to the smallest curve range for which plots share a vertical axis.
 const MOST_ALIKE: f64 = 3.0;
 
-/// Draws convergence plots, error maps, velocity histories of cases with an observed point, and
+/// Draws convergence plots, velocity histories of cases with an observed point, and
 /// energies of cases with a reported energy rate.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures = convergence(outcome);
-    figures.extend(error_maps(outcome));
     figures.extend(histories(outcome));
     figures.extend(energies(outcome));
     figures
@@ -123,32 +117,6 @@ fn spacing(axis: Axis) -> &'static str {
         Axis::Time => "time step dt (s)",
         Axis::Particles => "particle spacing h/ppc^(1/D) (m)",
     }
-}
-
-/// Draws maps of the error of each case on its finest level.
-fn error_maps(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let field = |(name, study): (&str, &Convergence)| {
-        let level = study.levels.last()?;
-        let name = match level.run.failure {
-            Some(_) => format!("{name}, at its failure"),
-            None => name.to_owned(),
-        };
-        Some((name, level.run.field.clone()?))
-    };
-    let studies = studies(outcome);
-    let Some((_, first)) = studies.first() else { return Vec::new() };
-    let of = first.of.at_labels();
-    let label = format!("error of {} ({})", of.words(), of.unit()).replace(" ()", "");
-    let fields: Vec<_> = studies.iter().copied().filter_map(field).collect();
-    let parts = fields.chunks(MOST_PANELS).enumerate();
-    let figure = |(i, part): (usize, &[(String, ErrorField)])| {
-        let number = if fields.len() > MOST_PANELS { format!("-{}", i + 1) } else { String::new() };
-        let title = format!("{}: error on the finest level", outcome.title);
-        let map = ErrorMap { title, label: label.clone(), panels: part.to_vec() };
-        let file = format!("{}-error{number}.svg", outcome.suite);
-        Figure { file, svg: map.to_svg(), pgfplots: map.to_pgfplots() }
-    };
-    parts.map(figure).collect()
 }
 
 /// Returns the observed order of a converging series, for a reference slope.

@@ -178,14 +178,11 @@ impl<'a> ConvergenceRunner<'a> {
         let judging = judge_plan(plan, case, expectation, truth);
         let runs = CaseRuns { runner: self, case, truth };
         let all = plan.refine.levels(self.context.extent);
-        let count = all.len();
         let levels: Result<Vec<LevelRun>, SubjectError> = all
             .par_iter()
-            .enumerate()
-            .map(|(index, level)| {
-                let is_shown = index + 1 == count && case.against != Against::Nothing;
+            .map(|level| {
                 let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let run = runs.repeated(level, is_shown)?;
+                    let run = runs.repeated(level)?;
                     Ok(LevelRun { stable_time_step: limit, ..run })
                 });
                 progress();
@@ -234,14 +231,14 @@ struct CaseRuns<'r, 'a> {
 }
 
 impl CaseRuns<'_, '_> {
-    /// Runs one level. With `keeps_field`, the errors over the body are stored too.
-    fn level(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
+    /// Runs one level.
+    fn level(&self, level: LevelPlan) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
         let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
         let name = format!("{suite}::{}, {} cells, dt = {}", case.name, level.cells, level.dt);
         let key = format!("{suite} {fingerprint:016x} {} {level:?}", case.name);
-        let comparison = self.comparison(keeps_field);
+        let comparison = self.comparison();
         let run = || {
             let mut subject = subject_under(solver, suite, plan, case, level)?;
             Ok(verify::run(subject.as_mut(), self.truth, &clock, &comparison))
@@ -252,14 +249,14 @@ impl CaseRuns<'_, '_> {
     }
 
     /// Runs one level as often as the context requires, and measures the spread of the runs.
-    fn repeated(&self, level: LevelPlan, keeps_field: bool) -> Result<LevelRun, SubjectError> {
+    fn repeated(&self, level: LevelPlan) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, solver, repeat, .. } = self.runner.context;
         if repeat < 2 {
-            return self.level(level, keeps_field);
+            return self.level(level);
         }
         let clock = case.clock(plan, level.dt).ok_or("the time step is invalid")?;
-        let comparison = self.comparison(keeps_field);
+        let comparison = self.comparison();
         let mut first = None;
         let mut records = Vec::new();
         for number in 1..=repeat {
@@ -280,12 +277,12 @@ impl CaseRuns<'_, '_> {
     }
 
     /// Returns the settings of the comparison of a run with the exact solution.
-    fn comparison(&self, keeps_field: bool) -> Comparison<'_> {
+    fn comparison(&self) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);
         let (sum, observe) = (plan.sum.as_deref(), plan.observe.as_deref());
         let (of, within, steps) = (plan.of, plan.within.as_ref(), plan.steps);
-        Comparison { of, sum, within, observe, at_rest, steps, keeps_field }
+        Comparison { of, sum, within, observe, at_rest, steps }
     }
 
     /// Returns the `run` of a level with time steps of `dt` (s).
@@ -319,12 +316,12 @@ impl Reruns for CaseRuns<'_, '_> {
         let halved = taken(level).halved(axis, scene.dimension())?;
         Some(match halved.too_large(scene) {
             Some((what, amount)) => Err(format!("{amount:.1e} {what} exceed the limit").into()),
-            None => self.level(halved, false),
+            None => self.level(halved),
         })
     }
 
     fn run_with_step(&self, level: &LevelOutcome, dt: f64) -> Result<LevelRun, SubjectError> {
-        self.repeated(LevelPlan { dt, ..taken(level) }, false)
+        self.repeated(LevelPlan { dt, ..taken(level) })
     }
 
     fn rounding(&self) -> Option<RoundingSizes> {

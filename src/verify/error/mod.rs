@@ -2,7 +2,6 @@
 
 pub(crate) mod clock;
 pub(crate) mod declaration;
-pub(crate) mod error_field;
 pub(crate) mod judged_box;
 pub(crate) mod judged_sum;
 pub(crate) mod norm;

@@ -159,13 +159,6 @@ impl Quantity {
         self.sum().is_some()
     }
 
-    /// Returns the quantity that is plotted at labels: `self`, or the displacement if `self` is a
-    /// sum.
-    #[must_use]
-    pub fn at_labels(self) -> Self {
-        if self.is_sum() { Self::default() } else { self }
-    }
-
     /// Returns the property of the problem that a sum requires, in addition to a moving body;
     /// `None` for a field.
     pub(crate) fn sum_need(self) -> Option<SumNeed> {

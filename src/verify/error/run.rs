@@ -2,7 +2,6 @@
 
 use super::clock::Clock;
 use super::clock::StepKind;
-use super::error_field::ErrorField;
 use super::judged_box::JudgedBox;
 use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
@@ -33,8 +32,6 @@ pub struct Comparison<'a> {
     pub at_rest: Option<f64>,
     /// Whether steps advance time or the load.
     pub steps: StepKind,
-    /// Whether the errors over the body are stored for drawings.
-    pub keeps_field: bool,
 }
 
 impl Comparison<'_> {
@@ -183,7 +180,6 @@ impl<'a> RunMonitor<'a> {
         let distance = |(u, exact): (&Vec<f64>, &Vec<f64>)| {
             u.iter().zip(exact).fold(0.0, |all, (u, e)| libm::hypot(all, u - e))
         };
-        let field = self.field(clock.until);
         RunResult {
             errors: self.errors,
             displacement_errors: self.displacement_errors,
@@ -197,29 +193,16 @@ impl<'a> RunMonitor<'a> {
             observed_exact,
             displacement,
             residual_speed: self.residual_speed,
-            field,
             history: self.history.map(|(_, history)| history),
         }
     }
 
-    /// Returns the errors over the judged part of the body at time `t` (s). For a sum over the
-    /// body, these are the errors of the displacement. `None` if the errors are not stored or
-    /// cannot be computed.
-    fn field(&self, t: f64) -> Option<ErrorField> {
-        let Comparison { of, keeps_field, .. } = *self.comparison;
-        let judged = || judged_samples(self.comparison, &self.samples);
-        keeps_field.then(|| ErrorField::of(of.at_labels(), &judged(), self.truth, t))?
-    }
-
-    fn failed(mut self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
-        subject.sample(&mut self.samples);
-        let field = self.field(t);
+    fn failed(self, subject: &dyn Subject, step: u64, t: f64, failure: &Failure) -> RunResult {
         let reason = match self.comparison.steps {
             StepKind::Load => format!("{failure} (load step {step})"),
             StepKind::Time => format!("{failure} (step {step}, t = {t:.4} s)"),
         };
         RunResult {
-            field,
             errors: RunErrors::NONE,
             displacement_errors: self.displacement_errors.map(|_| RunErrors::NONE),
             drift: self.balance.map(|_| ConservationError::NONE),
@@ -272,8 +255,6 @@ pub struct RunResult {
     pub failure: Option<String>,
     /// Velocity history at the observed label, if it was requested and the run reached its end.
     pub history: Option<History>,
-    /// Errors over the body at the end or at the failure, if they were requested.
-    pub field: Option<ErrorField>,
     /// Displacement (m) of the observed point at the end, if it could be interpolated.
     pub displacement: Option<Vec<f64>>,
     /// Distance (m) between the computed and the exact displacement of the observed point.

@@ -113,7 +113,7 @@ fn a_folder_of_results_has_tables_and_sources_of_figures() {
     let folder = Folder::with("bar.yaml", BAR);
     let answer = folder.call(&["run", "bar.yaml", "--out", "out"]);
     assert_eq!(answer.code, SOUND, "{}", answer.errors);
-    for figure in ["short-bar", "short-bar-error", "short-bar-work-transfers"] {
+    for figure in ["short-bar", "short-bar-work-transfers"] {
         let tex = folder.read(&format!("out/{figure}.tex"));
         assert!(tex.ends_with("\\end{tikzpicture}\n\\end{document}\n"), "{tex}");
         assert!(folder.read(&format!("out/{figure}.svg")).starts_with("<svg "));

@@ -88,8 +88,6 @@ fn failed_run_is_written_up_to_its_failure() {
     let words = ["run", "finite-strain-crossing", "--case", case, "--brief", "--vtu", "vtu"];
     let found = folder.call(&[&words[..], &["--out", "out"]].concat());
     assert_eq!(found.code, SOUND, "{}", found.errors);
-    let picture = folder.read("out/finite-strain-crossing-error.svg");
-    assert_contains(&picture, &[">mpm-linear-apic-usl, at its failure<"]);
     let all = series(&folder);
     let (files, end) = last(&all[0]);
     // A period is 0.02 s.

@@ -5,7 +5,6 @@ use proptest::prelude::*;
 use rstest::rstest;
 use xml::{well_formed, without_bad_numbers};
 
-mod overlap;
 mod samples;
 mod work;
 mod xml;
@@ -183,5 +182,33 @@ proptest! {
         let svg = samples::history(&text, curves.collect()).to_svg();
         prop_assert_eq!(well_formed(&svg), Ok(()));
         prop_assert!(without_bad_numbers(&svg));
+    }
+}
+
+/// Returns the value of an attribute in one line of the document.
+fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
+    let start = line.find(&format!(" {name}=\""))? + name.len() + 3;
+    line[start..].split('"').next()
+}
+
+fn number(line: &str, name: &str) -> f64 {
+    attribute(line, name).unwrap().parse().unwrap()
+}
+
+#[rstest]
+#[case(samples::three_series().to_svg())]
+#[case(samples::eight_long_names().to_svg())]
+#[case(samples::damped_sine(1.0).to_svg())]
+#[case(samples::staircase().to_svg())]
+fn the_legend_is_below_the_frame_and_inside_the_figure(#[case] svg: String) {
+    let root = svg.lines().next().unwrap();
+    let frame = svg.lines().filter(|line| line.starts_with("<rect")).nth(1).unwrap();
+    let bottom = number(frame, "y") + number(frame, "height");
+    let (_, legend) = svg.split_once("<g class=\"legend\">").unwrap();
+    let entries: Vec<&str> = legend.lines().filter(|line| line.starts_with("<text")).collect();
+    assert!(!entries.is_empty());
+    for entry in entries {
+        assert!(number(entry, "y") > bottom + 50.0 && number(entry, "y") < number(root, "height"));
+        assert!(number(entry, "x") > 10.0 && number(entry, "x") < number(root, "width") - 20.0);
     }
 }

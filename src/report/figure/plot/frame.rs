@@ -80,12 +80,6 @@ impl<'a> Plot<'a> {
         self.frame.x + self.x.scale.fraction(x) * self.frame.w
     }
 
-    /// Returns the pixels per unit of the working coordinate along both axes. The unit of a
-    /// logarithmic axis is a decade.
-    pub(crate) fn pace(&self) -> Pt {
-        (self.frame.w / self.x.scale.span(), self.frame.h / self.y.scale.span())
-    }
-
     pub(crate) fn placeholder(&self, text: &str) -> SvgElement {
         let middle = (self.frame.x + self.frame.w / 2.0, self.frame.y + self.frame.h / 2.0);
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)

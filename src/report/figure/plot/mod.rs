@@ -7,4 +7,3 @@ pub(crate) mod scale;
 pub(crate) mod style;
 pub(crate) mod svg;
 pub(crate) mod ticks;
-pub(crate) mod triangle;

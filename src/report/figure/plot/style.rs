@@ -20,9 +20,7 @@ pub(crate) const PAPER: &str = "#ffffff";
 pub(crate) const INK: &str = "#222222";
 /// Colour of grid lines.
 pub(crate) const GRID: &str = "#e3e3e3";
-/// Colour of the inside of slope triangles.
-pub(crate) const SHADE: &str = "#f3f3f3";
-/// Colour of elements that belong to no series, such as slope triangles.
+/// Colour of elements that belong to no series, such as reference lines.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
 /// Colour of the exact solution. It is light, because computed curves are drawn over it.
 pub(crate) const EXACT: &str = "#929292";
@@ -32,11 +30,10 @@ pub(crate) const CONTEXT: &str = "#8e8e8e";
 pub(crate) const FRONT: &str = "#fbe9a6";
 
 /// Colours of the light theme with their replacements in the dark theme.
-const PALETTE: [(&str, &str); 8] = [
+const PALETTE: [(&str, &str); 7] = [
     (PAPER, "#15181e"),
     (INK, "#e6e6e6"),
     (GRID, "#333943"),
-    (SHADE, "#23282f"),
     (NEUTRAL, "#b4b8bf"),
     (EXACT, "#6d727b"),
     (CONTEXT, "#747a83"),
