@@ -49,7 +49,7 @@ enum Command {
     /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
     /// bad input
     Run(run::RunArgs),
-    /// Write a new suite; prompts for missing options when run in a terminal
+    /// Write a new suite with a comment for each key
     New(new::NewArgs),
     /// Merge the results of a sharded run (`run --shard K/N --resume DIR`) into the output of a
     /// single run, without running anything
