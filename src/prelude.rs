@@ -5,9 +5,7 @@ pub use crate::external::{
     ProblemMaterial, ProblemNeeds, ProblemParticles, SolverFactory,
 };
 pub use crate::study::{Runner, under};
-pub use crate::subject::{
-    Checkpoint, Failure, Memory, RunCounters, Samples, Subject, SubjectError, Totals,
-};
+pub use crate::subject::{Failure, RunCounters, Samples, Subject, SubjectError, Totals};
 pub use crate::suite::yaml::{Diagnostic, Source};
 pub use crate::suite::{Extent, Suite};
 #[cfg(feature = "testing")]

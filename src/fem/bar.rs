@@ -4,7 +4,7 @@ use super::Sampling;
 use super::mass::{BarMassMatrix, add_nodal_lengths};
 use super::mesh::{Element, Mesh, dot};
 use super::setup::{BarSetup, ScalarFunction, SetupError};
-use crate::subject::{Checkpoint, Failure, RunCounters, Samples, Site, Start, Subject};
+use crate::subject::{Failure, RunCounters, Samples, Site, Start, Subject};
 
 /// Evaluates `$body` with the constant `$nodes`, the number of nodes of `$element`, so that the
 /// compiler can unroll loops over the nodes.
@@ -256,18 +256,6 @@ impl Subject for Bar {
             left_domain: None,
             min_j: self.min_j,
         }
-    }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { displacement, velocity, acceleration, def_grad, .. } = self;
-        for column in [displacement, velocity, acceleration, def_grad] {
-            checkpoint.visit(&mut column[..]);
-        }
-        for number in [&mut self.time, &mut self.lag, &mut self.min_j] {
-            checkpoint.visit(number);
-        }
-        checkpoint.visit(&mut self.transfers);
-        true
     }
 }
 

@@ -7,13 +7,11 @@
 //! The module also defines sums over a body, wall reactions, the rules for the name and the claimed
 //! order of a solver, and the out-of-plane state of a two-dimensional body.
 
-mod checkpoint;
 mod column;
 mod energy_balance;
 mod functional;
 
 use crate::named::named;
-pub use checkpoint::{Checkpoint, Memory};
 pub use column::{BodyFields, Column, ColumnSize, Entry, Holder, Profile, StateField};
 pub use energy_balance::{EnergyBalance, LedgerStage};
 pub use functional::{Functional, FunctionalValue, GradientParameter};
@@ -57,13 +55,6 @@ pub trait Subject {
     /// by `true` for the high end of this axis. `None` by default, and before the first step.
     fn reaction(&self, _face: Option<(usize, bool)>) -> Option<Reaction> {
         None
-    }
-
-    /// Passes to `checkpoint` all state that affects later steps and that the set-up does not
-    /// restore. A subject with an equal set-up can then resume bit-identically. Returns false if
-    /// the subject does not support checkpoints.
-    fn checkpoint(&mut self, _checkpoint: &mut Checkpoint<'_>) -> bool {
-        false
     }
 
     /// Returns the kinetic energy (J) of the part of the velocities that the discretisation does

@@ -1,14 +1,9 @@
-//! Equal set-ups give equal bits for any number of threads, with other runs at the same time, and
-//! after an interruption.
+//! Equal set-ups give equal bits for any number of threads, and with other runs at the same time.
 
 use crate::common::columns::columns;
-use crate::common::interrupted::goes_on;
-use crate::common::{DT, H, free_body, in_dimension, methods, pairs};
-use mpm_verify::mpm::{
-    BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver, TransferChoice,
-    TransferName, Vector, WithParameter, combine, mass_matrix,
-};
-use mpm_verify::subject::{Start, Subject};
+use crate::common::{DT, H, free_body, in_dimension, methods};
+use mpm_verify::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};
+use mpm_verify::subject::Subject;
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
 use std::sync::Barrier;
@@ -97,63 +92,6 @@ fn step_on_several_threads_is_bit_identical(
     let one = shared(transfer, 1);
     for threads in [2, 3] {
         assert!(shared(transfer, threads) == one, "{threads} threads differ from one");
-    }
-}
-
-fn every_method_goes_on<const D: usize>() {
-    for method in methods() {
-        for &scheme in SchemeName::ALL {
-            let make = || Solver::new(free_body::<D>(method, scheme)).unwrap();
-            assert!(goes_on(make, DT, &format!("{D}-D {method:?} {scheme:?}")));
-        }
-    }
-}
-
-#[rstest]
-fn resumed_run_is_bit_identical(#[values(1, 2, 3)] dimension: usize) {
-    in_dimension!(dimension, every_method_goes_on());
-}
-
-/// All valid combinations in one dimension. A consistent mass matrix inverts particles with a small
-/// weight on a node; such a run must fail in the same step.
-#[test]
-fn an_interrupted_run_of_any_combination_gives_the_bits_of_a_whole_one() {
-    let mut ends = Vec::new();
-    for (basis, transfer) in pairs() {
-        for (&frame, &mass) in
-            FrameName::ALL.iter().flat_map(|f| MassName::ALL.iter().map(move |m| (f, m)))
-        {
-            if combine(basis, transfer, mass, frame).is_err() {
-                continue;
-            }
-            for (&scheme, &start) in
-                SchemeName::ALL.iter().flat_map(|s| Start::ALL.iter().map(move |t| (s, t)))
-            {
-                let setup = || {
-                    let mass = mass_matrix(mass);
-                    Setup { frame, mass, start, ..free_body::<1>((basis, transfer), scheme) }
-                };
-                let what =
-                    format!("{basis:?} {transfer:?} {mass:?} {frame:?} {scheme:?} {start:?}");
-                ends.push(goes_on(|| Solver::new(setup()).unwrap(), DT, &what));
-            }
-        }
-    }
-    let broken = ends.iter().filter(|ended| !**ended).count();
-    assert!(10 * broken < ends.len(), "{broken} of {} end in a failure", ends.len());
-}
-
-/// Methods with a series are not registered by name, so this test covers them.
-#[test]
-fn resumed_run_with_a_series_transfer_is_bit_identical() {
-    for choice in
-        [WithParameter::Xpic, WithParameter::Fmpm].map(|name| TransferChoice::With(name, 3))
-    {
-        let setup = || {
-            let named = free_body::<2>((BasisName::Linear, TransferName::Flip), SchemeName::Musl);
-            Setup { transfer: choice.build(), ..named }
-        };
-        assert!(goes_on(|| Solver::new(setup()).unwrap(), DT, &choice.name()));
     }
 }
 

@@ -4,12 +4,11 @@
 
 use crate::common::columns::columns;
 use crate::common::effect::add;
-use crate::common::interrupted::goes_on;
-use crate::common::{DT, H, free_body, in_dimension, methods};
+use crate::common::{DT, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
-    BasisName, Block, Bodies, Boundary, Effect, Fixed, Friction, Grid, Heat, HeatSolver,
-    HeatSource, NeoHookean, Particles, Placement, Prescribed, Pressure, PressureField, Roller,
-    SchemeName, Setup, Side, Solver, ThermalExpansion, TransferName, Vector, kernel,
+    BasisName, Block, Bodies, Boundary, Effect, Fixed, Friction, Grid, Particles, Placement,
+    Prescribed, Pressure, PressureField, Roller, SchemeName, Setup, Side, Solver, TransferName,
+    Vector, kernel,
 };
 use mpm_verify::study;
 use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
@@ -258,83 +257,6 @@ fn page_lists_columns_and_suites_of_each_wall() {
         (name, row(&key, |_| (), |setup| setup.boundary = vec![wall(name, &setup.grid)]))
     });
     are_on_the_page(&rows, has_wall);
-}
-
-fn every_effect_goes_on<const D: usize>(scheme: SchemeName) {
-    let method = (BasisName::ContiguousGimp, TransferName::Apic);
-    for &name in EffectName::ALL {
-        let make = || {
-            let mut setup = free_body::<D>(method, scheme);
-            add(name, &mut setup, method.0, 0.1);
-            Solver::new(setup).unwrap()
-        };
-        assert!(goes_on(make, DT, &format!("{D}-D {scheme:?} `{}`", name.name())));
-    }
-    let make = || {
-        let mut setup = free_body::<D>(method, scheme);
-        add(EffectName::Heat, &mut setup, method.0, 0.1);
-        setup.effects.push(Box::new(ThermalExpansion::of_deformation(0.1, 0.0)));
-        setup.material = Box::new(NeoHookean::new(1.0, 0.3));
-        Solver::new(setup).unwrap()
-    };
-    assert!(goes_on(make, DT, &format!("{D}-D {scheme:?} expansion of a deformation")));
-}
-
-#[rstest]
-fn resumed_run_with_any_effect_is_bit_identical(
-    #[values(1, 2, 3)] dimension: usize,
-    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
-) {
-    in_dimension!(dimension, every_effect_goes_on(scheme));
-}
-
-/// The body slides along the wall and into it.
-#[rstest]
-fn an_interrupted_run_at_any_wall_gives_the_bits_of_a_whole_one(
-    #[values("fixed", "roller", "velocity", "friction")] name: &str,
-    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
-    #[values(TransferName::Flip, TransferName::Apic)] transfer: TransferName,
-) {
-    assert!(WALLS.contains(&name));
-    let make = || {
-        let mut setup = free_body::<2>((BasisName::Linear, transfer), scheme);
-        setup.particles.x.iter_mut().for_each(|x| x[1] -= 2.0 * H);
-        setup.particles.v.iter_mut().for_each(|v| v[1] -= 1.5);
-        setup.boundary = vec![wall(name, &setup.grid)];
-        Solver::new(setup).unwrap()
-    };
-    assert!(goes_on(make, DT, &format!("{name} {scheme:?} {transfer:?}")));
-}
-
-/// Two bodies that collide.
-#[rstest]
-fn an_interrupted_run_of_two_bodies_gives_the_bits_of_a_whole_one(
-    #[values(None, Some(0.0), Some(0.3))] friction: Option<f64>,
-    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
-) {
-    let make = || {
-        let setup = |k: f64| {
-            let mut setup = free_body::<2>((BasisName::Linear, TransferName::Flip), scheme);
-            setup.particles.x.iter_mut().for_each(|x| x[0] += 1.5 * H * k);
-            setup.particles.v.iter_mut().for_each(|v| v[0] -= k);
-            setup
-        };
-        Bodies::new(vec![setup(-1.0), setup(1.0)], friction).unwrap()
-    };
-    assert!(goes_on(make, DT, &format!("{friction:?} {scheme:?}")));
-}
-
-#[test]
-fn an_interrupted_run_of_heat_gives_the_bits_of_a_whole_one() {
-    let make = || {
-        let Setup { kernel, grid, mut particles, .. } =
-            free_body::<2>((BasisName::Cpdi, TransferName::Flip), SchemeName::Musl);
-        let heat =
-            Heat::new(0.1, 1.0, &mut particles, |x| (libm::sin(9.0 * x[0]), Vector::zeros()));
-        let source: HeatSource<2> = Box::new(|t, _, into| into.fill(t));
-        HeatSolver::new(kernel, grid, particles, vec![Box::new(heat.with_source(source))]).unwrap()
-    };
-    assert!(goes_on(make, DT, "heat alone"));
 }
 
 /// The number of visits that a kernel counts equals the number of transfers in reports.

@@ -18,13 +18,16 @@
 //! Sources: von Neumann's analysis (the suite `courant-limit` has the closed forms); Ni & Zhang
 //! (2020), IJNME 121, for the dependence on particle positions.
 
-use crate::mpm::foundation::algebra::Vector;
+use crate::mpm::foundation::algebra::{Matrix, Vector};
+use crate::mpm::foundation::particles::Particles;
 use crate::mpm::scheme::{SchemeName, Stage};
 use crate::mpm::step::schedule::passes_of;
 use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
+use crate::mpm::step::subject::affine_state_mut;
 use crate::mpm::transfer::{TransferChoice, TransferKind, TransferName, kick};
-use crate::subject::{Checkpoint, Failure};
+use crate::subject::Failure;
+use std::any::Any;
 
 /// Largest nodal velocity in the iteration, in units of `h/longest` ([`Solver::stable_time_step`]).
 /// The resulting strains are much larger than the rounding error, 1e-16, and much smaller than one.
@@ -61,7 +64,7 @@ impl<const D: usize> Solver<D> {
         self.setup.effects.retain(|effect| effect.makes_stress());
         self.setup.boundary.retain(|condition| !condition.reads_velocity());
         self.run_all(&passes_of(&[Stage::Mass]), longest)?;
-        let start = self.state_of_start();
+        let start = StartState::of(&mut self);
         let nodes = self.setup.grid.velocity.len();
         let mut mode: Vec<Vector<D>> = (0..nodes)
             .map(|i| Vector::from_fn(|axis, _| scattered((i * D + axis) as u64)))
@@ -87,7 +90,7 @@ impl<const D: usize> Solver<D> {
     /// symmetric in this norm.
     fn square_of_frequency(
         &mut self,
-        start: &[u8],
+        start: &StartState<D>,
         mode: &mut [Vector<D>],
         dt: f64,
         speed: f64,
@@ -125,7 +128,7 @@ impl<const D: usize> Solver<D> {
     /// and back.
     fn response(
         &mut self,
-        start: &[u8],
+        start: &StartState<D>,
         velocity: &[Vector<D>],
         dt: f64,
     ) -> Result<Vec<Vector<D>>, Failure> {
@@ -152,21 +155,42 @@ impl<const D: usize> Solver<D> {
         self.setup.grid.mass.iter().zip(field).map(|(m, v)| m * v.norm_squared()).sum()
     }
 
-    fn state_of_start(&mut self) -> Vec<u8> {
-        let mut start = Checkpoint::empty();
-        self.visit_state(&mut start);
-        start.into_bytes()
+    /// Restores all state that [`Self::response`] changes.
+    fn restore(&mut self, start: &StartState<D>) {
+        let Setup { particles, transfer, material, effects, .. } = &mut self.setup;
+        particles.clone_from(&start.particles);
+        affine_state_mut(transfer.as_mut()).copy_from_slice(&start.affine);
+        if let Some(state) = &start.material {
+            material.set_state(state.as_ref());
+        }
+        for (effect, state) in effects.iter_mut().zip(&start.effects) {
+            if let Some(state) = state {
+                effect.set_state(state.as_ref());
+            }
+        }
+        self.velocity_time = start.velocity_time;
     }
+}
 
-    fn restore(&mut self, start: &[u8]) {
-        self.visit_state(&mut Checkpoint::from_bytes(start));
-    }
+/// State of a solver before a trial step.
+struct StartState<const D: usize> {
+    particles: Particles<D>,
+    affine: Vec<Matrix<D>>,
+    material: Option<Box<dyn Any>>,
+    effects: Vec<Option<Box<dyn Any>>>,
+    velocity_time: f64,
+}
 
-    /// Visits all state that [`Self::response`] changes, including the state of material and
-    /// effects.
-    fn visit_state(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.setup);
-        checkpoint.visit(&mut self.velocity_time);
+impl<const D: usize> StartState<D> {
+    fn of(solver: &mut Solver<D>) -> Self {
+        let Setup { particles, transfer, material, effects, .. } = &mut solver.setup;
+        Self {
+            particles: particles.clone(),
+            affine: affine_state_mut(transfer.as_mut()).to_vec(),
+            material: material.state(),
+            effects: effects.iter().map(|effect| effect.state()).collect(),
+            velocity_time: solver.velocity_time,
+        }
     }
 }
 

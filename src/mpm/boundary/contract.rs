@@ -2,7 +2,7 @@
 
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
 
 /// An advance of the grid velocities: `v += dt a`.
 ///
@@ -30,9 +30,6 @@ pub struct Advance {
 pub trait Boundary<const D: usize>: Send {
     /// Returns the columns that the condition stores per node.
     fn columns(&self) -> Vec<Column<'_>>;
-
-    /// Visits the state that persists between steps, to store or restore it.
-    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether [`Boundary::hold_advance`] reads velocities. If so, velocities are mapped to the
     /// grid before forces are computed.

@@ -16,7 +16,7 @@
 use super::contract::{Advance, Boundary, Side, nodes};
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
-use crate::subject::{Checkpoint, Column, Entry, Memory};
+use crate::subject::{Column, Entry};
 
 /// A face of the grid with friction.
 #[derive(Debug, Clone)]
@@ -56,10 +56,6 @@ impl Friction {
 impl<const D: usize> Boundary<D> for Friction {
     fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_nodes("contact state", &self.nodes)]
-    }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.nodes.iter_mut().for_each(|(_, state)| checkpoint.visit(state));
     }
 
     fn reads_velocity(&self) -> bool {
@@ -119,19 +115,6 @@ pub(in crate::mpm) enum ContactState {
 }
 
 impl Entry for ContactState {}
-
-impl Memory for ContactState {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let mut number = *self as u64;
-        checkpoint.visit(&mut number);
-        match number {
-            0 => *self = Self::Separated,
-            1 => *self = Self::Slip,
-            2 => *self = Self::Stick,
-            _ => checkpoint.refuse(),
-        }
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -11,7 +11,8 @@
 
 use super::contract::Effect;
 use crate::mpm::foundation::particles::Particles;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
+use std::any::Any;
 
 /// An artificial viscosity.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +43,14 @@ impl<const D: usize> Effect<D> for ArtificialViscosity {
         vec![Column::of_particles("q", &self.q)]
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.q);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        Some(Box::new(self.q.clone()))
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let Some(state) = state.downcast_ref() {
+            self.q.clone_from(state);
+        }
     }
 
     fn before_stress(&mut self, particles: &mut Particles<D>) {

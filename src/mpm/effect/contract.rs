@@ -4,7 +4,8 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::{Material, StressUpdate};
-use crate::subject::{Checkpoint, Column, Failure};
+use crate::subject::{Column, Failure};
+use std::any::Any;
 
 /// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
@@ -16,8 +17,14 @@ pub trait Effect<const D: usize>: Send {
         Vec::new()
     }
 
-    /// Visits the state that persists between steps, to store or restore it.
-    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
+    /// Returns a copy of the state that a stress update changes; `None` if the effect has no such
+    /// state.
+    fn state(&self) -> Option<Box<dyn Any>> {
+        None
+    }
+
+    /// Replaces the state by `state`, which [`state`](Self::state) returned.
+    fn set_state(&mut self, _: &dyn Any) {}
 
     /// Whether the effect reads F. The column of F exists only if an effect, a basis or a material
     /// reads F.

@@ -27,7 +27,8 @@ use crate::mpm::foundation::algebra::{Vector, inverse, times, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
-use crate::subject::{Checkpoint, Column, Failure, Site};
+use crate::subject::{Column, Failure, Site};
+use std::any::Any;
 
 /// Function that writes the heat per unit mass and time (W/kg) of every particle at a time (s).
 ///
@@ -156,8 +157,14 @@ impl<const D: usize> Effect<D> for Heat<D> {
         columns
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.slope[..]);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        Some(Box::new(self.slope.clone()))
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let Some(state) = state.downcast_ref() {
+            self.slope.clone_from(state);
+        }
     }
 
     fn state_passes(&self) -> &'static [&'static str] {

@@ -8,7 +8,7 @@ use super::contract::Effect;
 use crate::mpm::boundary::{VelocityField, continued};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::particles::Particles;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
 
 /// Prescribed velocity v(X, t) (m/s) of a set of particles.
 pub struct PrescribedVelocity<const D: usize> {
@@ -31,10 +31,6 @@ impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
 
     fn columns(&self) -> Vec<Column<'_>> {
         vec![Column::of_particles("prescribed", &self.members)]
-    }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.members.iter_mut().for_each(|(_, x)| checkpoint.visit(x));
     }
 
     fn modify_velocity(&self, t: f64, _: f64, particles: &mut Particles<D>) {

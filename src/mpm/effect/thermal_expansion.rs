@@ -13,7 +13,8 @@ use super::contract::Effect;
 use crate::mpm::foundation::algebra::{Matrix, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::material::{Material, StressUpdate};
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
+use std::any::Any;
 
 /// Thermal expansion. In the list of effects, the effect that computes temperatures must precede
 /// this effect.
@@ -69,11 +70,19 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
         }
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        match &mut self.law {
-            // Fe is overwritten before it is read, so it is not stored.
-            ExpansionLaw::OfDeformation { .. } => {}
-            ExpansionLaw::InRateForm { before, .. } => checkpoint.visit(&mut before[..]),
+    /// Excludes Fe, which is overwritten before it is read.
+    fn state(&self) -> Option<Box<dyn Any>> {
+        match &self.law {
+            ExpansionLaw::OfDeformation { .. } => None,
+            ExpansionLaw::InRateForm { before, .. } => Some(Box::new(before.clone())),
+        }
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let ExpansionLaw::InRateForm { before, .. } = &mut self.law
+            && let Some(state) = state.downcast_ref()
+        {
+            before.clone_from(state);
         }
     }
 

@@ -9,7 +9,8 @@ use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::{Matrix, Vector, zeros};
 use crate::mpm::foundation::particles::{Block, Particles};
-use crate::subject::{Checkpoint, Column, Failure};
+use crate::subject::{Column, Failure};
+use std::any::Any;
 
 /// A three-dimensional law, applied to a body of revolution in its meridian plane.
 pub(super) struct Axisymmetric {
@@ -99,8 +100,12 @@ impl<const D: usize> Material<D> for Axisymmetric {
         columns
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.law.checkpoint(checkpoint);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        self.law.state()
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        self.law.set_state(state);
     }
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {

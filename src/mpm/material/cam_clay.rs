@@ -21,7 +21,8 @@ use super::stretch::turned_by_steps;
 use crate::mpm::foundation::algebra::{Matrix, det, identity};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
-use crate::subject::{Checkpoint, Column, Entry, Failure, Memory};
+use crate::subject::{Column, Entry, Failure};
+use std::any::Any;
 
 /// Modified Cam-clay at finite strain.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,14 +53,6 @@ struct Clay {
 impl Entry for Clay {
     fn write(&self, numbers: &mut Vec<f64>) {
         numbers.push(self.consolidation);
-    }
-}
-
-impl Memory for Clay {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { tau, consolidation } = self;
-        checkpoint.visit(tau);
-        checkpoint.visit(consolidation);
     }
 }
 
@@ -348,8 +341,14 @@ impl<const D: usize> Material<D> for CamClay {
         vec![Column::of_particles("preconsolidation", &self.states)]
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.states);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        Some(Box::new(self.states.clone()))
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let Some(state) = state.downcast_ref() {
+            self.states.clone_from(state);
+        }
     }
 
     /// Sets the initial pressure. Fails for a body that starts deformed.

@@ -4,7 +4,8 @@ use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::{Matrix, det, in_space};
 use crate::mpm::foundation::particles::Particles;
-use crate::subject::{Checkpoint, Column, Failure};
+use crate::subject::{Column, Failure};
+use std::any::Any;
 
 /// Implements [`MaterialProperties::takes_averaged_volume`] for laws in rate form. Returns an
 /// error, because such a law computes the stress from the velocity gradient.
@@ -191,8 +192,13 @@ pub trait Material<const D: usize>: Send {
         Vec::new()
     }
 
-    /// Visits the state of the law, to store or restore it.
-    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
+    /// Returns a copy of the state that the law stores; `None` if the law has no state.
+    fn state(&self) -> Option<Box<dyn Any>> {
+        None
+    }
+
+    /// Replaces the state by `state`, which [`state`](Self::state) returned.
+    fn set_state(&mut self, _: &dyn Any) {}
 
     /// Returns this law in plane stress, sigma_33 = 0; `None` if plane stress is not implemented.
     fn in_plane_stress(&self) -> Option<Box<dyn Material<D>>> {

@@ -16,7 +16,8 @@ use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, SquaredStretch};
 use crate::mpm::foundation::algebra::{Matrix, det, identity, zeros};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
-use crate::subject::{Checkpoint, Column, Entry, Memory};
+use crate::subject::{Column, Entry};
+use std::any::Any;
 
 /// Isotropic linear elasticity with the Green-Naghdi rate.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,14 +44,6 @@ impl Default for Unrotated {
 impl Entry for Unrotated {
     fn write(&self, numbers: &mut Vec<f64>) {
         self.stress.write(numbers);
-    }
-}
-
-impl Memory for Unrotated {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { stress, inverse_stretch } = self;
-        checkpoint.visit(stress);
-        checkpoint.visit(inverse_stretch);
     }
 }
 
@@ -138,8 +131,14 @@ impl<const D: usize> Material<D> for GreenNaghdi {
         vec![Column::of_particles("unrotated stress", &self.states)]
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.states);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        Some(Box::new(self.states.clone()))
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let Some(state) = state.downcast_ref() {
+            self.states.clone_from(state);
+        }
     }
 
     fn update(&mut self, body: &mut StressUpdate<'_, D>) {

@@ -29,7 +29,8 @@ use crate::mpm::foundation::algebra::{
 };
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
-use crate::subject::{Checkpoint, Column, Entry, Failure, Memory, Site};
+use crate::subject::{Column, Entry, Failure, Site};
+use std::any::Any;
 
 /// Moduli (Pa) of isotropic elasticity in logarithmic strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -180,14 +181,6 @@ impl Default for Flowed {
     }
 }
 
-impl Memory for Flowed {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { inverse_metric, strain } = self;
-        checkpoint.visit(inverse_metric);
-        checkpoint.visit(strain);
-    }
-}
-
 impl<S: YieldSurface> ElastoPlastic<S> {
     pub(super) fn with_surface(surface: S) -> Self {
         Self { surface, flowed: Vec::new() }
@@ -333,8 +326,14 @@ impl<const D: usize, S: YieldSurface> Material<D> for ElastoPlastic<S> {
         vec![Column::of_particles("plastic flow", &self.flowed)]
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.flowed);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        Some(Box::new(self.flowed.clone()))
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        if let Some(state) = state.downcast_ref() {
+            self.flowed.clone_from(state);
+        }
     }
 
     fn energy(&self, particles: &Particles<D>) -> Option<f64> {

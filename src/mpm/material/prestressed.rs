@@ -11,7 +11,8 @@ use super::stress_update::StressUpdate;
 use super::tangent::StressResponse;
 use crate::mpm::foundation::algebra::{Matrix, identity, in_body, in_space, product};
 use crate::mpm::foundation::particles::Particles;
-use crate::subject::{Checkpoint, Column, Failure};
+use crate::subject::{Column, Failure};
+use std::any::Any;
 
 /// A law with an initial stress.
 pub struct Prestressed<const D: usize> {
@@ -63,8 +64,12 @@ impl<const D: usize> Material<D> for Prestressed<D> {
         columns
     }
 
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.law.checkpoint(checkpoint);
+    fn state(&self) -> Option<Box<dyn Any>> {
+        self.law.state()
+    }
+
+    fn set_state(&mut self, state: &dyn Any) {
+        self.law.set_state(state);
     }
 
     /// Returns the energy `W_law + S0 : E`. A law in rate form has no energy, because its stress

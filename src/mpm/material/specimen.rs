@@ -9,7 +9,7 @@ use super::{
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector, det};
 use crate::mpm::foundation::particles::{Block, Particles};
-use crate::subject::{Checkpoint, PlaneState};
+use crate::subject::PlaneState;
 use approx::assert_relative_eq;
 
 /// Duration (s) of a step so slow that viscous stresses are negligible. In a step of the duration
@@ -91,17 +91,13 @@ impl<const D: usize> Specimen<D> {
         particles.sigma[0]
     }
 
-    /// Creates another specimen of `plan`, resumed from the state of this specimen.
-    pub(super) fn interrupted(&mut self, plan: MaterialPlan) -> Self {
-        let mut checkpoint = Checkpoint::empty();
-        self.0.checkpoint(&mut checkpoint);
-        checkpoint.visit(&mut self.1);
-        let (left, mut other) = (checkpoint.into_bytes(), Self::new(plan));
-        let mut checkpoint = Checkpoint::from_bytes(&left);
-        other.0.checkpoint(&mut checkpoint);
-        checkpoint.visit(&mut other.1);
-        assert!(checkpoint.is_used_up());
-        other
+    /// Creates another specimen of `plan` with the state of this specimen.
+    pub(super) fn copied(&self, plan: MaterialPlan) -> Self {
+        let Self(mut material, _) = Self::new(plan);
+        if let Some(state) = self.0.state() {
+            material.set_state(state.as_ref());
+        }
+        Self(material, self.1.clone())
     }
 
     /// Returns stress and tangent at this 3-D F, for a step from the current state.

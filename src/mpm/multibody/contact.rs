@@ -24,7 +24,7 @@ use crate::mpm::scheme::SchemeName;
 use crate::mpm::step::schedule::CouplingPoint;
 use crate::mpm::step::setup::Setup;
 use crate::mpm::step::solver::Solver;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
 
 /// Contact among all bodies on a grid.
 pub(in crate::mpm) struct Contact<const D: usize> {
@@ -161,10 +161,6 @@ impl<const D: usize> Coupling<D> for Contact<D> {
             all("normal", &self.outwards),
             all("mapped velocity", &self.mapped),
         ]
-    }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        checkpoint.visit(&mut self.states[..]);
     }
 
     fn reads_velocity(&self) -> bool {

@@ -5,7 +5,7 @@ use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::step::schedule::CouplingPoint;
 use crate::mpm::step::solver::Solver;
-use crate::subject::{Checkpoint, Column};
+use crate::subject::Column;
 
 /// Coupling of two or more bodies at their interface nodes.
 pub(in crate::mpm) trait Coupling<const D: usize>: Send {
@@ -14,9 +14,6 @@ pub(in crate::mpm) trait Coupling<const D: usize>: Send {
 
     /// Returns the columns that the coupling stores per node.
     fn columns(&self) -> Vec<Column<'_>>;
-
-    /// Visits the state that persists between steps, to store or restore it.
-    fn checkpoint(&mut self, _: &mut Checkpoint<'_>) {}
 
     /// Whether the coupling reads velocities before they advance.
     fn reads_velocity(&self) -> bool;

@@ -19,8 +19,8 @@ use super::step::schedule::{Coupled, Pass, StepSchedule};
 use super::step::setup::Setup;
 use super::step::solver::Solver;
 use crate::subject::{
-    BodyFields, Checkpoint, ColumnSize, Failure, Perturbable, Profile, RunCounters, Samples, Site,
-    Subject, Totals,
+    BodyFields, ColumnSize, Failure, Perturbable, Profile, RunCounters, Samples, Site, Subject,
+    Totals,
 };
 use contact::Contact;
 use coupling::{Coupling, SharedVelocity};
@@ -166,16 +166,6 @@ impl<const D: usize> Subject for Bodies<D> {
     fn passes(&self) -> Vec<String> {
         let state = self.solvers.first().map(|one| one.setup.state_passes());
         self.schedule.texts(&state.unwrap_or_default())
-    }
-
-    #[inline(never)]
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { solvers, coupling, schedule: _ } = self;
-        checkpoint.visit(&mut solvers[..]);
-        if let Some(coupling) = coupling {
-            coupling.checkpoint(checkpoint);
-        }
-        true
     }
 }
 

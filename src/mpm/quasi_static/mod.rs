@@ -38,8 +38,7 @@ use super::step::initial;
 use super::step::observables::wall_reaction;
 use super::step::setup::{fields, profile};
 use crate::subject::{
-    BodyFields, Checkpoint, Column, Failure, Profile, Reaction, RunCounters, Samples, Site,
-    Subject, Totals,
+    BodyFields, Column, Failure, Profile, Reaction, RunCounters, Samples, Site, Subject, Totals,
 };
 use balance::{NO_TANGENT, StepEquations};
 
@@ -240,24 +239,5 @@ impl<const D: usize> Subject for QuasiStatic<D> {
         let face = face.map(|(axis, high)| (axis, side(high)));
         let force = wall_reaction(&grid.force, boundary, face);
         (self.advanced > 0.0).then_some(Reaction { time: self.advanced, force })
-    }
-
-    #[inline(never)]
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { setup, advanced, transfers, min_j, cell_tracker, .. } = self;
-        let QuasiStaticSetup { particles, material, effects, boundary, .. } = setup;
-        checkpoint.visit(particles);
-        material.checkpoint(checkpoint);
-        for effect in effects {
-            effect.checkpoint(checkpoint);
-        }
-        for condition in boundary {
-            condition.checkpoint(checkpoint);
-        }
-        checkpoint.visit(advanced);
-        checkpoint.visit(transfers);
-        checkpoint.visit(min_j);
-        checkpoint.visit(cell_tracker);
-        true
     }
 }

@@ -6,7 +6,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, vectorized};
 use crate::mpm::foundation::threads::{FEW, join};
-use crate::subject::{Checkpoint, Column, Failure, Memory, RunCounters, Site};
+use crate::subject::{Column, Failure, RunCounters, Site};
 
 /// Cells of all particles, with counters of crossings and departures.
 #[derive(Debug)]
@@ -109,15 +109,6 @@ fn enter_all<const D: usize>(
         },
     );
     found
-}
-
-impl<const D: usize> Memory for CellTracker<D> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { cells, crossings, left_domain } = self;
-        checkpoint.visit(&mut cells[..]);
-        checkpoint.visit(crossings);
-        checkpoint.visit(left_domain);
-    }
 }
 
 /// Whether every particle of a batch is still in its previous cell, the usual case.

@@ -7,9 +7,7 @@ use crate::mpm::effect::Effect;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Kernel, Tally};
-use crate::subject::{
-    BodyFields, Checkpoint, Column, Failure, Profile, RunCounters, Samples, Subject,
-};
+use crate::subject::{BodyFields, Column, Failure, Profile, RunCounters, Samples, Subject};
 
 /// Solver for a body at rest. Nodal masses are computed once, and a step integrates the state of
 /// the effects.
@@ -103,18 +101,5 @@ impl<const D: usize> Subject for HeatSolver<D> {
     fn passes(&self) -> Vec<String> {
         let passes = self.effects.iter().flat_map(|effect| effect.state_passes());
         passes.map(|pass| (*pass).to_owned()).collect()
-    }
-
-    /// Excludes the masses of the grid, which do not change after the start.
-    #[inline(never)]
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        let Self { grid: _, particles, kernel: _, effects, time, transfers } = self;
-        checkpoint.visit(particles);
-        for effect in effects {
-            effect.checkpoint(checkpoint);
-        }
-        checkpoint.visit(time);
-        checkpoint.visit(transfers);
-        true
     }
 }

@@ -13,9 +13,7 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::step::schedule::{Pass, StepSchedule};
-use crate::subject::{
-    BodyFields, Checkpoint, Failure, Reaction, RunCounters, Samples, Subject, Totals,
-};
+use crate::subject::{BodyFields, Failure, Reaction, RunCounters, Samples, Subject, Totals};
 
 /// A single-precision solver for one body.
 pub struct SinglePrecision<const D: usize>(Solver<D>);
@@ -89,11 +87,6 @@ impl<const D: usize> Subject for SinglePrecision<D> {
 
     fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
         Subject::reaction(&self.0, face)
-    }
-
-    #[inline(never)]
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        self.0.checkpoint(checkpoint)
     }
 
     fn null_space_energy(&self) -> Option<f64> {

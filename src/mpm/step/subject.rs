@@ -1,9 +1,6 @@
-//! Implements [`Subject`] for a solver: the step, checkpoints, and the state as a vector of
-//! numbers.
+//! Implements [`Subject`] for a solver: the step, and the state as a vector of numbers.
 //!
-//! A step runs the passes of the schedule in order. The checkpoint functions list every field by
-//! name, so the compiler reports an omitted field. The grid and the advected positions are not
-//! stored, because each step recomputes them.
+//! A step runs the passes of the schedule in order.
 //!
 //! The vector contains the state that a step reads and changes: velocities, stresses, volumes, F if
 //! its column exists, and the affine state of the transfer. Internal variables of a material
@@ -12,16 +9,14 @@
 use super::schedule::{Coupled, Pass, StepSchedule};
 use super::setup::{Setup, fields};
 use super::solver::Solver;
-use crate::mpm::boundary::{Advance, Side};
-use crate::mpm::foundation::algebra::{Matrix, Vector, pairs};
+use crate::mpm::boundary::Side;
+use crate::mpm::foundation::algebra::{Matrix, pairs};
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Affine, G2pRequest};
 use crate::mpm::transfer::{Transfer, kick};
 use crate::subject::{
-    BodyFields, Checkpoint, Failure, Memory, Perturbable, Reaction, RunCounters, Samples, Start,
-    Subject, Totals,
+    BodyFields, Failure, Perturbable, Reaction, RunCounters, Samples, Start, Subject, Totals,
 };
-use nalgebra::SMatrix;
 
 impl<const D: usize> Solver<D> {
     /// Performs [`Subject::step`], and calls `after` with the name of each completed pass, so that
@@ -160,117 +155,6 @@ impl<const D: usize> Subject for Solver<D> {
     fn passes(&self) -> Vec<String> {
         self.schedule.texts(&self.setup.state_passes())
     }
-
-    #[inline(never)]
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        checkpoint.visit(self);
-        true
-    }
-}
-
-/// Visits vectors and matrices column by column.
-impl<const R: usize, const C: usize> Memory for SMatrix<f64, R, C> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        f64::visit_each(self.as_mut_slice(), checkpoint);
-    }
-}
-
-/// Visits the columns that change during a run.
-impl<const D: usize> Memory for Particles<D> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            x0: _,
-            x,
-            current_position,
-            v,
-            mass: _,
-            vol0: _,
-            vol,
-            sigma,
-            def_grad,
-            across,
-            rate_across,
-            stress_across,
-            samples_stress_across: _,
-            domain,
-            domain0: _,
-            grad_v,
-            temperature,
-            spacing: _,
-        } = self;
-        for column in [x, current_position, v] {
-            checkpoint.visit::<[Vector<D>]>(column);
-        }
-        for column in [vol, across, rate_across, stress_across, temperature] {
-            checkpoint.visit::<[f64]>(column);
-        }
-        for column in [sigma, def_grad, domain, grad_v] {
-            checkpoint.visit(&mut column[..]);
-        }
-    }
-}
-
-impl Memory for Advance {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self { from, to, dt } = self;
-        for time in [from, to, dt] {
-            checkpoint.visit(time);
-        }
-    }
-}
-
-impl<const D: usize> Memory for Setup<D> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            grid: _,
-            particles,
-            kernel: _,
-            transfer,
-            mass: _,
-            frame: _,
-            volume: _,
-            material,
-            effects,
-            boundary,
-            scheme: _,
-            start: _,
-        } = self;
-        checkpoint.visit(particles);
-        checkpoint.visit(affine_state_mut(transfer.as_mut()));
-        material.checkpoint(checkpoint);
-        for effect in effects {
-            effect.checkpoint(checkpoint);
-        }
-        for condition in boundary {
-            condition.checkpoint(checkpoint);
-        }
-    }
-}
-
-impl<const D: usize> Memory for Solver<D> {
-    fn visit(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        let Self {
-            setup,
-            schedule: _,
-            time,
-            velocity_time,
-            advance,
-            started,
-            transfers,
-            min_j,
-            cell_tracker,
-            advected: _,
-            volume_average: _,
-        } = self;
-        checkpoint.visit(setup);
-        for number in [time, velocity_time, min_j] {
-            checkpoint.visit(number);
-        }
-        checkpoint.visit(advance);
-        checkpoint.visit(started);
-        checkpoint.visit(transfers);
-        checkpoint.visit(cell_tracker);
-    }
 }
 
 /// Returns the matrix columns of the particles, in the order of the state vector.
@@ -283,7 +167,9 @@ fn affine<const D: usize>(solver: &Solver<D>) -> Option<Affine<'_, D>> {
 }
 
 /// Returns the state of the affine velocity field; empty if the transfer has none.
-pub(super) fn affine_state_mut<const D: usize>(transfer: &mut dyn Transfer<D>) -> &mut [Matrix<D>] {
+pub(in crate::mpm) fn affine_state_mut<const D: usize>(
+    transfer: &mut dyn Transfer<D>,
+) -> &mut [Matrix<D>] {
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(0.0);
     moment.or(gradient).unwrap_or_default()
 }

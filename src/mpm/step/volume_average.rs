@@ -24,7 +24,7 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Kernel, ParticleField};
 use crate::mpm::material::{Material, StressUpdate};
 use crate::named::named;
-use crate::subject::{Checkpoint, Column, Failure};
+use crate::subject::{Column, Failure};
 
 named! {
     /// Volume ratios for which a law can compute its stress.
@@ -198,10 +198,6 @@ impl<const D: usize> Material<D> for AveragedLaw<'_, D> {
 
     fn columns(&self) -> Vec<Column<'_>> {
         self.material.columns()
-    }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) {
-        self.material.checkpoint(checkpoint);
     }
 
     /// Uses the particle volumes, which have already been computed from F.

@@ -1,8 +1,8 @@
-//! Repeatability checks: repeated sampling, a half-length step, a repeated run, a resumed run.
+//! Repeatability checks: repeated sampling, a half-length step, a repeated run.
 
 use super::course::ROUNDING;
 use super::record::{Breach, RunState, difference, largest, record};
-use crate::subject::{Checkpoint, Samples, Subject, SubjectError};
+use crate::subject::{Samples, Subject, SubjectError};
 
 pub(super) type Make<'a> = &'a dyn Fn() -> Result<Box<dyn Subject>, SubjectError>;
 
@@ -59,61 +59,4 @@ pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Bre
         Some(format!("{} after {step} steps", difference(&a.samples, &b.samples, ROUNDING)?))
     });
     Some(Breach::new("repeat", wanted, off.next()?))
-}
-
-/// Reports a breach if saving a checkpoint changes the run, or if a run resumed from the checkpoint
-/// differs from the uninterrupted run. Not applicable to a solver without checkpoints.
-pub(super) fn restart(make: Make<'_>, states: &[RunState], dt: f64) -> Vec<Breach> {
-    let (first, rest) = states.split_at(states.len().div_ceil(2));
-    let found = |wanted: &str, seen: String| vec![Breach::new("restart", wanted, seen)];
-    let (Ok(mut subject), Ok(mut fresh)) = (make(), make()) else { return Vec::new() };
-    let mut course = Vec::new();
-    if record(subject.as_mut(), first.len() - 1, dt, &mut course).is_err() {
-        return Vec::new();
-    }
-    let mut written = Checkpoint::empty();
-    if !subject.checkpoint(&mut written) {
-        return Vec::new();
-    }
-    let bytes = written.into_bytes();
-    let mut read = Checkpoint::from_bytes(&bytes);
-    if !(fresh.checkpoint(&mut read) && read.is_used_up()) {
-        let seen = format!(
-            "a new subject of the same problem does not read exactly the {} bytes of the \
-             checkpoint",
-            bytes.len()
-        );
-        return found("a checkpoint to be read by the same calls that wrote it", seen);
-    }
-    let mut breaches = Vec::new();
-    for (subject, wanted) in [
-        (&mut subject, "a checkpoint not to change the run"),
-        (&mut fresh, "a resumed run to be bit-identical to an uninterrupted run"),
-    ] {
-        let mut course = Vec::new();
-        let stepped = record(subject.as_mut(), rest.len(), dt, &mut course);
-        let pairs = rest.iter().zip(&course).enumerate();
-        let mut off = pairs.filter_map(|(step, (a, b))| {
-            let off = difference(&a.samples, &b.samples, 0.0).or_else(|| counted(a, b));
-            Some(format!("{} {} steps after the checkpoint", off?, step + 1))
-        });
-        let failed = stepped.err().map(|failure| failure.to_string());
-        if let Some(seen) = failed.or_else(|| off.next()) {
-            breaches.extend(found(wanted, seen));
-            break;
-        }
-    }
-    breaches
-}
-
-/// Describes counters and sums that differ between two states with equal samples.
-fn counted(wanted: &RunState, seen: &RunState) -> Option<String> {
-    // The states are compared as text, because NaN must count as equal to NaN.
-    let text = |state: &RunState| (format!("{:?}", state.counters), format!("{:?}", state.totals));
-    let ((a, b), (c, d)) = (text(wanted), text(seen));
-    match (a == c, b == d) {
-        (true, true) => None,
-        (false, _) => Some(format!("{c} instead of {a}")),
-        (true, false) => Some(format!("{d} instead of {b}")),
-    }
 }

@@ -116,10 +116,9 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     if breaches.is_empty() {
         breaches.extend(again::repeat(&make, &states, problem.dt));
     }
-    // These comparisons are meaningful only if runs are repeatable.
+    // This comparison is meaningful only if runs are repeatable.
     if breaches.is_empty() {
         breaches.extend(again::step_length(&make, &states, problem.dt));
-        breaches.extend(again::restart(&make, &states, problem.dt));
     }
     breaches.extend(course::work(&states));
     breaches

@@ -74,7 +74,7 @@ pub(super) fn largest(column: &[f64]) -> f64 {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Breach {
-    /// Name of the violated part of the contract, such as `counts`, `labels` or `restart`.
+    /// Name of the violated part of the contract, such as `counts`, `labels` or `repeat`.
     pub about: &'static str,
     /// Behaviour that the contract requires.
     pub expected: String,

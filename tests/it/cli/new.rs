@@ -1,6 +1,6 @@
 //! `new`: suites that run without changes.
 
-use super::{Folder, SOUND, assert_contains, refusals};
+use super::{Folder, SOUND, assert_contains};
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
 use rstest::rstest;
 use serde_json::Value;

@@ -3,7 +3,6 @@
 pub(crate) mod columns;
 pub(crate) mod effect;
 pub(crate) mod folder;
-pub(crate) mod interrupted;
 pub(crate) mod json_schema;
 pub(crate) mod vtk;
 

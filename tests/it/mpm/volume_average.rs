@@ -2,7 +2,6 @@
 //!
 //! A fluid of linear compressibility has `sigma = K (Jbar - 1) I`, so its stress determines Jbar.
 
-use crate::common::interrupted::goes_on;
 use crate::common::{DT, H, body, free_body};
 use allocation_counter::measure;
 use mpm_verify::mpm::{
@@ -10,7 +9,7 @@ use mpm_verify::mpm::{
     NeoHookean, Particles, SchemeName, Setup, Solver, StressUpdate, TransferName, Vector,
     VolumeName, det, kernel_with,
 };
-use mpm_verify::subject::{Column, Failure, Start, Subject};
+use mpm_verify::subject::{Column, Failure, Subject};
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
 
@@ -287,25 +286,6 @@ fn average_on_several_threads_is_bit_identical() {
     let one = run(1);
     for threads in [2, 3] {
         assert!(run(threads) == one, "{threads} threads differ from one");
-    }
-}
-
-#[rstest]
-fn resumed_run_is_bit_identical(
-    #[values(SchemeName::Usf, SchemeName::Usl, SchemeName::Musl)] scheme: SchemeName,
-    #[values(Start::AtZero, Start::HalfStepBack)] start: Start,
-) {
-    for &basis in BasisName::ALL {
-        let solver = || {
-            let law = Box::new(NeoHookean::new(2.0, 0.4));
-            Solver::new(Setup { start, ..averaged::<2>(basis, scheme, law) }).unwrap()
-        };
-        assert!(goes_on(solver, DT, &format!("{basis:?} {scheme:?} {start:?}")));
-        let fluid = || {
-            let law = Box::new(LinearFluid::new(BULK));
-            Solver::new(Setup { start, ..averaged::<3>(basis, scheme, law) }).unwrap()
-        };
-        assert!(goes_on(fluid, DT, &format!("fluid, {basis:?} {scheme:?} {start:?}")));
     }
 }
 

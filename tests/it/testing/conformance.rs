@@ -42,10 +42,6 @@ enum Fault {
     NegativeJ,
     TwiceTheMass,
     AnotherWayEachTime,
-    EmptyCheckpoint,
-    LongerCheckpoint,
-    DisturbingCheckpoint,
-    ForgetfulCheckpoint,
 }
 
 /// The built-in solver on a level, with a fault.
@@ -139,26 +135,6 @@ impl Subject for FaultySubject {
         let totals = self.sound.totals()?;
         Some(if self.fault == Fault::TwiceTheMass { totals.plus(totals) } else { totals })
     }
-
-    fn checkpoint(&mut self, checkpoint: &mut Checkpoint<'_>) -> bool {
-        match self.fault {
-            Fault::EmptyCheckpoint => true,
-            Fault::LongerCheckpoint => {
-                // The recorded number is the number of steps, so it differs in a new subject.
-                checkpoint.same(self.steps as usize);
-                self.sound.checkpoint(checkpoint)
-            }
-            Fault::DisturbingCheckpoint => {
-                self.sound.checkpoint(checkpoint) && self.sound.step(1e-3).is_ok()
-            }
-            Fault::ForgetfulCheckpoint => {
-                // The new subject continues, one step ahead of the state that it has read.
-                let is_read = self.steps == 0;
-                self.sound.checkpoint(checkpoint) && (!is_read || self.sound.step(1e-3).is_ok())
-            }
-            _ => self.sound.checkpoint(checkpoint),
-        }
-    }
 }
 
 /// The built-in solver in the role of a user's solver.
@@ -221,10 +197,6 @@ impl SolverFactory for OurSolver {
 #[case::negative_j(Fault::NegativeJ, "run counters", "0 < `min_j`", "-1e0")]
 #[case::mass(Fault::TwiceTheMass, "totals", "`mass` = 2.5e1 kg", "5e1 kg")]
 #[case::another(Fault::AnotherWayEachTime, "repeat", "the same results", "displacement[3]")]
-#[case::empty(Fault::EmptyCheckpoint, "restart", "bit-identical", "1 steps after the")]
-#[case::longer(Fault::LongerCheckpoint, "restart", "by the same calls", "does not read exactly")]
-#[case::disturbing(Fault::DisturbingCheckpoint, "restart", "not to change the run", "steps after")]
-#[case::forgetful(Fault::ForgetfulCheckpoint, "restart", "bit-identical", "1 steps after the")]
 fn each_breach_is_found_and_said(
     #[case] fault: Fault,
     #[case] about: &str,
