@@ -6,7 +6,7 @@
 //! import   tokens -> the paths that a file names
 //! graph    paths -> which file imports which; cycles
 //! rules    the rules about imports and code, each with its reason
-//! words    former names, names of types, phrases and comments
+//! words    names of types, phrases and comments
 //!
 //! markdown   text -> headings, links, spans of code, fenced blocks
 //! documents  stale paths, names, commands and JSON in documents
@@ -16,7 +16,7 @@
 //! defects    seeded defects: their original text still exists
 //! ```
 //!
-//! [`synthetic`] and [`planted`] test the scanners themselves on small texts with planted breaches.
+//! [`scanner`] tests the scanners themselves on small texts with planted breaches.
 
 mod defects;
 mod documents;
@@ -26,10 +26,9 @@ mod import;
 mod licences;
 mod markdown;
 mod pages;
-mod planted;
 mod rules;
+mod scanner;
 mod source;
-mod synthetic;
 mod token;
 mod words;
 
@@ -184,32 +183,6 @@ fn code_that_depends_on_the_platform_is_refused() {
         "it rounds once where the formula as written rounds twice, on every processor; elsewhere a \
          fused operation may be a call, and a change between the two changes stored results",
         &rules::fused(&sources),
-    );
-}
-
-#[test]
-fn old_names_are_refused() {
-    let mut breaches = words::old(&source::of_crate());
-    breaches.extend(words::old_files(&source::paths("src")));
-    hold(
-        "types, functions, fields and files have the words of the field (tests/architecture/words.rs)",
-        "a reader who knows the field finds them by searching for the words of the field",
-        &breaches,
-    );
-}
-
-#[test]
-fn old_phrases_of_reports_are_refused() {
-    let mut texts = source::texts("src", ".rs");
-    texts.extend(source::texts("tests/it", ".rs"));
-    texts.extend([".snap", ".yaml"].iter().flat_map(|end| source::texts("verification", end)));
-    let documents = source::texts("", ".md").into_iter();
-    // The changelog may quote former phrases.
-    texts.extend(documents.filter(|(file, _)| file != "CHANGELOG.md"));
-    hold(
-        "reports, suites and documents have the words of the field (tests/architecture/words.rs)",
-        "a colleague reads them without a glossary",
-        &words::old_phrases(&texts),
     );
 }
 

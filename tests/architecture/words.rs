@@ -1,4 +1,4 @@
-//! Rules for words: old names stay away, no two types have one name, and prose is in plain English.
+//! Rules for words: no two types have one name, and prose is in plain English.
 
 use crate::rules::Breach;
 use crate::source::Source;
@@ -7,103 +7,6 @@ use std::collections::BTreeMap;
 
 /// Maximum width of a comment line (columns), as for code in `.rustfmt.toml`.
 pub(crate) const LONGEST_COMMENT: usize = 100;
-
-/// Former names of types, each with the name in its place.
-pub(crate) const OLD_TYPES: &[(&str, &str)] = &[
-    ("Whereabouts", "CellTracker"),
-    ("Touch", "ContactState"),
-    ("Kept", "ResultCache"),
-    ("Shown", "ParticleField"),
-    ("Sight", "ParticleBatches"),
-    ("Seen", "NodeWeight"),
-    ("Several", "PatchBatch"),
-    ("Patches", "PatchBatch"),
-    ("Along", "Weights1d"),
-    ("Alongs", "Weights1dBatch"),
-    ("Alone", "Domain1d"),
-    ("Room", "Workspace"),
-    ("Sink", "NodeAccumulator"),
-    ("Spread", "WeightMoments"),
-    ("Inertia", "InertiaTensor"),
-    ("Conductor", "HeatSolver"),
-    ("Census", "RunCounters"),
-    ("Claim", "OrderHypothesis"),
-    ("Yardstick", "ErrorScale"),
-    ("Contender", "MethodCost"),
-    ("Tried", "Sample"),
-    ("Priced", "TimedSuite"),
-    ("Binder", "Evaluator"),
-    ("Complaint", "Diagnostic"),
-    ("Hold", "BoundaryCondition"),
-    ("Met", "Interface"),
-    ("Rub", "InterfaceTraction"),
-    ("Watch", "RunMonitor"),
-    ("Recipe", "P2gRequest, G2pRequest"),
-    ("Wanted", "P2gRequest, G2pRequest"),
-    ("Gathered", "P2gRequest, G2pRequest"),
-    ("Visited", "P2gRequest, G2pRequest"),
-    ("Taken", "P2gRequest, G2pRequest"),
-    ("Maps", "P2gRequest"),
-    ("Takes", "G2pRequest"),
-    ("Also", "P2gRequest, G2pRequest"),
-];
-
-/// Former names of functions, fields, variables and types, each with the name in its place.
-pub(crate) const OLD_NAMES: &[(&str, &str)] = &[
-    ("whereabouts", "cell_tracker"),
-    ("drive_velocity", "modify_velocity"),
-    ("oppose_motion", "modify_force"),
-    ("g2p_velocity", "g2p"),
-    ("safe_step", "stable_time_step"),
-    ("unrest", "residual_speed"),
-    ("spot", "point"),
-    ("spots", "points, quadrature_points"),
-    ("meeting", "interface"),
-    ("carried", "advected"),
-    ("touches", "states"),
-    ("census", "counters"),
-    ("yardstick", "error_scale"),
-    ("yardsticks", "error_scales"),
-    ("contender", "method"),
-    ("contenders", "methods"),
-    ("complaint", "diagnostic"),
-    ("complaints", "diagnostics"),
-    ("meetings", "interface"),
-    ("pricing", "cost"),
-    ("dear", "expensive, costly"),
-    ("dearer", "more expensive"),
-    ("FOUR", "LANES"),
-    ("Four", "F64x4"),
-];
-
-/// Former phrases of reports and documents, each with the phrase in its place; those in quotes are
-/// heads, keys and columns.
-pub(crate) const OLD_PHRASES: &[(&str, &str)] = &[
-    ("\"carried\"", "advected x"),
-    ("\"x moved\"", "current x"),
-    ("\"meeting\"", "interface node"),
-    ("\"spots\"", "quadrature point"),
-    ("\"touch\"", "contact state"),
-    ("\"driven\"", "prescribed"),
-    ("\"seen\"", "mapped v"),
-    ("\"bid\"", "best_candidate"),
-    ("\"front\":", "pareto_front"),
-    ("unrest", "residual_speed"),
-    ("safe_step", "stable_time_step"),
-    ("dt/safe", "dt/stable"),
-    ("safe step", "stable time step"),
-    ("safe steps", "stable time steps"),
-    ("longest safe", "stable"),
-    ("a particle  ", "particle memory"),
-    ("a node  ", "node memory"),
-    ("in full also", "further levels"),
-    ("g2p slope", "g2p scalar gradient"),
-    ("p2g flow", "p2g scalar flux"),
-    ("p2g amount", "p2g scalar source"),
-    ("leaves at", "critical eigenvalue"),
-    ("speed at rest over", "residual speed divided by"),
-    ("never beyond them", "interpolated, never extrapolated"),
-];
 
 /// Folders whose prose has none of the `UNCLEAR_PHRASES`, with the end of the names of their files.
 pub(crate) const PLAIN_FILES: &[(&str, &str)] =
@@ -168,38 +71,6 @@ pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
     ("what is left", "the rest, the remaining error"),
 ];
 
-/// Former names of files and folders, each with the name in its place.
-pub(crate) const OLD_FILES: &[(&str, &str)] = &[
-    ("whereabouts", "cell_tracker"),
-    ("touch", "contact_state"),
-    ("kept", "cache"),
-    ("shown", "run_result"),
-    ("moved", "changes"),
-    ("visits", "schedule"),
-    ("soundness", "finite_check"),
-    ("conductor", "heat_solver"),
-    ("spots", "quadrature_points"),
-    ("nature", "methods of `Scene`"),
-    ("truthless", "conservation_only"),
-    ("filling", "seeding"),
-    ("secular", "energy_rate"),
-    ("beta", "variance_ratio"),
-    ("student", "t_quantile"),
-    ("figures", "format_number"),
-    ("priced", "timed_suite"),
-    ("pricing", "cost"),
-    ("contrast", "a word for the test"),
-    ("dark", "a word for the theme"),
-    ("fine_steps", "small_step_reference"),
-    ("comparable", "subject_support"),
-    ("bar_limits", "subject_support"),
-    ("meetings", "interface"),
-    ("judged", "outcome"),
-    ("execute", "runner"),
-    ("words", "grammar"),
-    ("four", "simd"),
-];
-
 /// Names of types that several files may define, each with the reason.
 pub(crate) const TWICE: &[(&str, &str)] = &[
     ("Value", "serde's visitors must call their result so"),
@@ -211,35 +82,6 @@ pub(crate) const TWICE: &[(&str, &str)] = &[
 
 /// Path and text of a file, with its comments.
 pub(crate) type Text = (String, String);
-
-/// Breaches by types with an old name, and by old names anywhere in code.
-pub(crate) fn old(sources: &[Source]) -> Vec<Breach> {
-    let of_source = |source: &Source| -> Vec<Breach> {
-        let types = definitions(&source.code).into_iter().map(|token| (token, OLD_TYPES));
-        let names = source.code.iter().map(|token| (token, OLD_NAMES));
-        let found = types.chain(names).filter_map(|(token, list)| {
-            let (_, better) = list.iter().find(|(name, _)| *name == token.text)?;
-            let what = format!("has the old word `{}`: say `{better}`", token.text);
-            Some(Breach { file: source.file.clone(), line: token.line, what })
-        });
-        found.collect()
-    };
-    sources.iter().flat_map(of_source).collect()
-}
-
-/// Breaches by texts with an old phrase of reports, as whole words.
-pub(crate) fn old_phrases(texts: &[Text]) -> Vec<Breach> {
-    let of_text = |(file, text): &Text| -> Vec<Breach> {
-        let lines = text.lines().enumerate();
-        let of_line = |(at, line): (usize, &str)| {
-            let (phrase, better) = OLD_PHRASES.iter().find(|(phrase, _)| has(line, phrase))?;
-            let what = format!("has the old words `{}`: say `{better}`", phrase.trim_end());
-            Some(Breach { file: file.clone(), line: at + 1, what })
-        };
-        lines.filter_map(of_line).collect()
-    };
-    texts.iter().flat_map(of_text).collect()
-}
 
 /// Breaches by texts with an unclear phrase, in upper or lower case, also across the end of a line.
 pub(crate) fn unclear_phrases(texts: &[Text]) -> Vec<Breach> {
@@ -270,18 +112,6 @@ fn has(line: &str, phrase: &str) -> bool {
         let (before, after) = (&line[..at], &line[at + phrase.len()..]);
         !is_word(before.chars().next_back()) && !is_word(after.chars().next())
     })
-}
-
-/// Files and folders with an old name.
-pub(crate) fn old_files(files: &[String]) -> Vec<Breach> {
-    let of_file = |file: &String| -> Option<Breach> {
-        let mut parts = file.trim_end_matches(".rs").split('/');
-        let (name, better) =
-            parts.find_map(|part| OLD_FILES.iter().find(|(name, _)| *name == part))?;
-        let what = format!("has the old name `{name}`: say `{better}`");
-        Some(Breach { file: file.clone(), line: 1, what })
-    };
-    files.iter().filter_map(of_file).collect()
 }
 
 /// Breaches by types whose name another file defines too.
