@@ -1,8 +1,6 @@
 //! The figures of convergence and internal-force studies.
 
 use super::Figure;
-use super::plot::style;
-use super::plot::svg::SvgElement;
 use super::{Curve, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::subject::Totals;
 use crate::verify::{Axis, Convergence, InternalForce, LevelOutcome, SuiteOutcome, Verdict};
@@ -42,46 +40,6 @@ fn convergence(outcome: &SuiteOutcome) -> Vec<Figure> {
         Figure { file, svg: one.to_svg_among(&drawn), pgfplots: one.to_pgfplots() }
     };
     drawn.iter().enumerate().map(figure).collect()
-}
-
-/// Width and height of a thumbnail (px).
-const THUMBNAIL: (f64, f64) = (96.0, 40.0);
-
-/// Draws all convergence curves of a suite as a thumbnail without axes and texts. `None` if there
-/// is nothing to draw.
-pub(crate) fn thumbnail(outcome: &SuiteOutcome) -> Option<String> {
-    let line = |(name, study): &(&str, &Convergence)| {
-        let drawn = |value: f64| value.is_finite() && value > 0.0;
-        let levels = study.levels.iter().map(|level| (level.spacing, level.error));
-        let points = levels.filter(|(x, y)| drawn(*x) && drawn(*y));
-        let points: Vec<_> = points.map(|(x, y)| (libm::log10(x), libm::log10(y))).collect();
-        (points.len() > 1).then(|| (look(outcome, name), points))
-    };
-    let lines: Vec<(usize, Vec<(f64, f64)>)> = studies(outcome).iter().filter_map(line).collect();
-    let points = || lines.iter().flat_map(|(_, points)| points);
-    let ends = |value: fn(&(f64, f64)) -> f64| {
-        let values = || points().map(value);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
-    };
-    let ((left, right), (low, high)) = (ends(|point| point.0), ends(|point| point.1));
-    if lines.is_empty() || !(left < right) {
-        return None;
-    }
-    let (width, height) = THUMBNAIL;
-    let place = |&(x, y): &(f64, f64)| {
-        let down = if low < high { (high - y) / (high - low) } else { 0.5 };
-        (2.0 + (width - 4.0) * (x - left) / (right - left), 2.0 + (height - 4.0) * down)
-    };
-    let mut svg = SvgElement::new("svg")
-        .set("class", "thumbnail")
-        .set("viewBox", &format!("0 0 {width} {height}"))
-        .set("aria-hidden", "true");
-    for (number, points) in &lines {
-        let path: Vec<_> = points.iter().map(place).collect();
-        let line = SvgElement::through("polyline", &path).set("fill", "none");
-        svg.add(&line.set("stroke", style::look(*number).colour).at("stroke-width", 1.2));
-    }
-    Some(svg.render())
 }
 
 /// Returns the index of a case in its suite. The index determines the colour of the case in all

@@ -18,7 +18,6 @@ mod tests;
 pub use tables::SuiteSource;
 
 use crate::report::figure::plot::style::style_sheet;
-use crate::report::figure::study::thumbnail;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
 use crate::verify::CaseOutcome;
@@ -94,8 +93,7 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
         let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
             let link = tables::case_link(source.outcome, case, true);
             let why = Html::text(&format!(": {}", case.unmet.join("; ")));
-            let figure = thumbnail(source.outcome).map(Html::trusted);
-            Html::tag("li", &[], [link, why].into_iter().chain(figure).collect::<Vec<_>>())
+            Html::tag("li", &[], vec![link, why])
         };
         let items: Vec<Html> = cases().filter(|(_, case)| !case.passed()).map(item).collect();
         parts.push(Html::block("ul", &[("class", "unmet")], &items));

@@ -5,7 +5,6 @@
 
 use super::html::Html;
 use crate::report::columns::scientific;
-use crate::report::figure::study::thumbnail;
 use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 
@@ -124,7 +123,6 @@ fn suite_row(source: &SuiteSource<'_>) -> Html {
         Html::tag("a", &[("href", &format!("#{}", suite_id(outcome)))], outcome.suite.as_str());
     let title = Html::tag("span", &[("class", "muted title")], format!(" {}", outcome.title));
     let mut name = vec![link, title];
-    name.extend(thumbnail(outcome).map(Html::trusted));
     if !outcome.passed() {
         name.push(Html::tag("b", &[("class", "bad")], " FAIL"));
     }
