@@ -117,20 +117,6 @@ impl Node {
         node.is_choice |= !names.is_empty();
         Self { names, ..node }
     }
-
-    /// Calls `visit` for every path below this node that takes a number or one of several names.
-    pub(super) fn visit(&self, path: &str, visit: &mut dyn FnMut(&str, &Self)) {
-        if self.is_number || self.is_choice {
-            visit(path, self);
-        }
-        for (key, node) in &self.keys {
-            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            node.visit(&path, visit);
-        }
-        for node in self.named.iter().chain(&self.member) {
-            node.visit(path, visit);
-        }
-    }
 }
 
 /// Returns a valid suite of the kind. Other keys of its scene are read after the tested key.

@@ -1,10 +1,28 @@
 //! The pages of the grammar, docs/grammar, have a row for each key. Its last cell quotes a suite.
 
 use super::grammar::Node;
-use super::leaf::{joined, shared};
 use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+
+/// Returns the path of a key below another key.
+pub(super) fn joined(key: &str, name: &str) -> String {
+    if key.is_empty() { name.to_owned() } else { format!("{key}.{name}") }
+}
+
+/// Returns the path of a key that several kinds of study, or several bodies, share.
+pub(super) fn shared(study: &str, key: &str) -> String {
+    let key = key.replace("scene.bodies.", "scene.");
+    let first = key.split('.').next().unwrap_or(&key);
+    // A gradient study has the problem and the levels of a convergence study.
+    let is_of_convergence =
+        study == "gradient" && ["exact", "equilibrium", "run", "refine"].contains(&first);
+    let is_of_all = is_of_convergence || ["scene", "methods", "study"].contains(&first);
+    if study == "convergence" || is_of_all || key.starts_with(study) {
+        return key;
+    }
+    format!("{study}.{key}")
+}
 
 /// Keys of any suite at the top of the file; the pages describe them for one kind of study only.
 const OF_ALL: [&str; 6] = ["suite", "title", "source", "about", "parameters", "functions"];

@@ -1,94 +1,15 @@
-//! Every key and name of the grammar must be checked by a gate (docs/keys.md).
+//! The pages in docs/grammar must list every key and name of the grammar.
 
-#[path = "../../../defects/gate.rs"]
-mod gate;
 mod grammar;
-mod leaf;
 mod manual;
-mod page;
-mod reasons;
 mod required;
-mod search;
-mod solver;
 
 use grammar::{Node, STUDIES};
-use leaf::shared;
-use mpm_verify::suite::yaml::Source;
-use rayon::prelude::*;
-use solver::Known;
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::LazyLock;
-
-/// For each key of the grammar: whether it may be a number, and its allowed names.
-type Keys = BTreeMap<String, (bool, Vec<String>)>;
-
-/// Returns every key that takes a number or one of several names, for all kinds of study that run a
-/// method of this crate. Keys of gradient studies are tested in `external::differentiate`.
-fn keys(grammars: &[(&str, Node)]) -> Keys {
-    let mut keys = Keys::new();
-    for (study, grammar) in grammars.iter().filter(|(study, _)| *study != "gradient") {
-        grammar.visit("", &mut |key, node| {
-            let (is_number, names) = keys.entry(shared(study, key)).or_default();
-            *is_number |= node.is_number;
-            let with_settings = node.keys.iter().filter(|_| node.is_choice).map(|(name, _)| name);
-            names.extend(node.names.iter().chain(with_settings).cloned());
-            names.sort();
-            names.dedup();
-        });
-    }
-    keys
-}
 
 /// Grammar of each kind of study.
 static GRAMMARS: LazyLock<Vec<(&str, Node)>> =
     LazyLock::new(|| STUDIES.map(|study| (study, Node::of_study(study))).into());
-
-/// Returns the suites of the repository, cheap ones first.
-fn suites() -> Vec<Known> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("verification");
-    let files = Source::files_in(&folder).expect("suites");
-    let mut suites: Vec<Known> = files.par_iter().map(|file| Known::read(file)).collect();
-    suites.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    suites
-}
-
-/// Asserts that docs/keys.md and the grammar have the same keys.
-fn same<T: Ord + std::fmt::Debug>(grammar: &BTreeSet<T>, page: &BTreeSet<T>) {
-    let missing: Vec<&T> = grammar.difference(page).collect();
-    assert!(missing.is_empty(), "not in docs/keys.md; run ci/keys: {missing:?}");
-    let gone: Vec<&T> = page.difference(grammar).collect();
-    assert!(gone.is_empty(), "in docs/keys.md, and no words: {gone:?}");
-}
-
-#[test]
-fn every_key_and_name_has_its_row() {
-    let keys = keys(&GRAMMARS);
-    let (rows, names) = (page::numbers(), page::names());
-    let numbers = keys.iter().filter(|(_, (is_number, _))| *is_number).map(|(key, _)| key);
-    same(&numbers.collect(), &rows.keys().collect());
-    let known = keys.iter().flat_map(|(key, (_, names))| names.iter().map(move |name| (key, name)));
-    same(&known.collect(), &names.keys().map(|(key, name)| (key, name)).collect());
-    let wrong = reasons::wrong(&rows, &names);
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
-}
-
-#[test]
-fn a_sample_is_still_noticed() {
-    let (suites, sample) = (suites(), page::sample());
-    assert!(sample.len() >= 5, "only {} rows", sample.len());
-    sample.par_iter().for_each(|row| search::still_noticed(row, &GRAMMARS, &suites));
-}
-
-#[test]
-#[ignore = "ci/keys runs it"]
-fn every_key_is_noticed() {
-    let suites = suites();
-    let part = std::env::var("KEYS").unwrap_or_default();
-    page::write(&search::search(&keys(&GRAMMARS), &part, &GRAMMARS, &suites));
-    let wrong = reasons::wrong(&page::numbers(), &page::names());
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
-}
 
 #[test]
 fn every_key_has_a_row_in_the_manual() {

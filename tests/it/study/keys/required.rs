@@ -1,7 +1,6 @@
 //! Determines the required keys from the JSON Schema of a suite.
 
-use super::leaf::joined;
-use super::manual::key_of;
+use super::manual::{joined, key_of};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
