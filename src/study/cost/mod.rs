@@ -6,5 +6,4 @@
 
 pub(crate) mod measure;
 
-pub use measure::{Goal, goals};
 pub use measure::{TimedPart, price};
