@@ -52,12 +52,16 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// functions ([`Product`](super::Product)).
     type Patch<const D: usize>: Patch<D>;
 
-    /// Returns the number of functions along an axis with `cells` cells.
-    fn count(cells: usize, periodic: bool) -> usize;
+    /// Returns the number of functions along an axis with `cells` cells; one per node by default.
+    fn count(cells: usize, periodic: bool) -> usize {
+        cells + usize::from(!periodic)
+    }
 
     /// Returns the position of function `index` along an axis with `cells` cells (in cells from the
-    /// wall), such that sum N_i x_i = x (Greville abscissa).
-    fn abscissa(index: usize, cells: usize, periodic: bool) -> f64;
+    /// wall), such that sum N_i x_i = x (Greville abscissa); the position of the node by default.
+    fn abscissa(index: usize, _cells: usize, _periodic: bool) -> f64 {
+        index as f64
+    }
 
     /// Calls `visit` for every patch of particle `p`. If a node is in several patches, its weight
     /// and gradient are the sums over these patches. A particle outside the grid has no patch. The

@@ -142,14 +142,6 @@ macro_rules! gimp {
 
             type Patch<const D: usize> = Product<D, AT_ONCE>;
 
-            fn count(cells: usize, periodic: bool) -> usize {
-                cells + usize::from(!periodic)
-            }
-
-            fn abscissa(index: usize, _: usize, _: bool) -> f64 {
-                index as f64
-            }
-
             #[inline(always)]
             fn patches<const D: usize>(
                 grid: &Grid<D>,

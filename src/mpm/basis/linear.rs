@@ -35,14 +35,6 @@ impl Basis for Linear {
 
     type Patch<const D: usize> = Product<D, 2>;
 
-    fn count(cells: usize, periodic: bool) -> usize {
-        cells + usize::from(!periodic)
-    }
-
-    fn abscissa(index: usize, _: usize, _: bool) -> f64 {
-        index as f64
-    }
-
     #[inline(always)]
     fn patches<const D: usize>(
         grid: &Grid<D>,

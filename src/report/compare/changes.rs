@@ -1,69 +1,38 @@
 //! Changes between two runs.
 
-/// Kinds of changes of a case, the most important first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rank {
-    /// The case no longer meets its expectations.
-    Broken,
-    /// The verdict is worse, but whether the case meets its expectations has not changed.
-    WorseVerdict,
-    /// The verdict is different, but neither better nor worse.
-    OtherVerdict,
-    /// The verdict is better, or the case meets its expectations again.
-    BetterVerdict,
-    /// An error is larger, or a level newly fails.
-    LessAccurate,
-    /// A stability limit is lower.
-    LessStable,
-    /// More transfers are required on the same level.
-    MoreExpensive,
-    /// The case is more accurate, more stable or cheaper.
-    Better,
-    /// The problem has changed, so changes of results give no information about the method.
-    OtherProblem,
-    /// The judged quantity or the refinement has changed, so the results cannot be compared.
-    Otherwise,
-    /// The case is new.
-    New,
-    /// The case was removed.
-    Gone,
+use crate::named::named;
+
+named! {
+    /// Kinds of changes of a case, the most important first.
+    pub enum Rank {
+        /// The case no longer meets its expectations.
+        Broken = "no longer as expected",
+        /// The verdict is worse, but whether the case meets its expectations has not changed.
+        WorseVerdict = "worse verdict",
+        /// The verdict is different, but neither better nor worse.
+        OtherVerdict = "other verdict",
+        /// The verdict is better, or the case meets its expectations again.
+        BetterVerdict = "better verdict",
+        /// An error is larger, or a level newly fails.
+        LessAccurate = "less accurate",
+        /// A stability limit is lower.
+        LessStable = "less stable",
+        /// More transfers are required on the same level.
+        MoreExpensive = "more expensive",
+        /// The case is more accurate, more stable or cheaper.
+        Better = "better",
+        /// The problem has changed, so changes of results give no information about the method.
+        OtherProblem = "with a changed problem",
+        /// The judged quantity or the refinement has changed, so the results cannot be compared.
+        Otherwise = "judged or refined differently",
+        /// The case is new.
+        New = "new",
+        /// The case was removed.
+        Gone = "gone",
+    }
 }
 
 impl Rank {
-    /// All kinds, the most important first.
-    pub const ALL: [Self; 12] = [
-        Self::Broken,
-        Self::WorseVerdict,
-        Self::OtherVerdict,
-        Self::BetterVerdict,
-        Self::LessAccurate,
-        Self::LessStable,
-        Self::MoreExpensive,
-        Self::Better,
-        Self::OtherProblem,
-        Self::Otherwise,
-        Self::New,
-        Self::Gone,
-    ];
-
-    /// Returns the text for reports.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Broken => "no longer as expected",
-            Self::WorseVerdict => "worse verdict",
-            Self::OtherVerdict => "other verdict",
-            Self::BetterVerdict => "better verdict",
-            Self::LessAccurate => "less accurate",
-            Self::LessStable => "less stable",
-            Self::MoreExpensive => "more expensive",
-            Self::Better => "better",
-            Self::OtherProblem => "with a changed problem",
-            Self::Otherwise => "judged or refined differently",
-            Self::New => "new",
-            Self::Gone => "gone",
-        }
-    }
-
     /// Whether the change is for the worse.
     pub const fn is_worse(self) -> bool {
         matches!(
@@ -184,7 +153,7 @@ impl ReportComparison {
 
     /// Summarises the changes in one line: `2 less accurate, 1 new, 816 unchanged`.
     pub(super) fn headline(&self) -> String {
-        let counts = Rank::ALL.into_iter().map(|rank| (self.count(rank), rank.words()));
+        let counts = Rank::ALL.iter().map(|rank| (self.count(*rank), rank.name()));
         let counts = counts.chain([(self.unchanged, "unchanged")]).filter(|(count, _)| *count > 0);
         let mut parts: Vec<String> =
             counts.map(|(count, words)| format!("{count} {words}")).collect();

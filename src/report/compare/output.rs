@@ -20,12 +20,12 @@ pub fn text(comparison: &ReportComparison) -> String {
         };
         lines.extend(problem.rows.iter().map(line));
     }
-    for rank in Rank::ALL {
+    for &rank in Rank::ALL {
         let table = Table::new(&cases(), comparison.of(rank));
         if table.is_empty() {
             continue;
         }
-        lines.extend([String::new(), rank.words().to_owned()]);
+        lines.extend([String::new(), rank.name().to_owned()]);
         lines.extend(table.without_empty_columns().lines());
         for moved in comparison.of(rank) {
             let line = |note: &String| printable(&format!("    {}: {note}", moved.name));

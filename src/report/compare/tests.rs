@@ -91,7 +91,7 @@ fn after(before: &Value, change: impl Fn(&mut Value)) -> ReportComparison {
 }
 
 fn rank(found: &ReportComparison) -> Option<Rank> {
-    Rank::ALL.into_iter().find(|rank| found.count(*rank) > 0)
+    Rank::ALL.iter().copied().find(|rank| found.count(*rank) > 0)
 }
 
 fn set(path: &str, value: Value) -> impl Fn(&mut Value) {

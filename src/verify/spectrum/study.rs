@@ -48,21 +48,6 @@ pub struct SpectrumRow {
     pub limit: Option<f64>,
 }
 
-impl SpectrumRow {
-    /// Returns the relative deviations of the phase error and of the logarithm of the amplitude
-    /// from the prediction; `None` if a value is missing. The second deviation is also `None` if
-    /// the predicted amplitude is constant.
-    pub fn deviations(&self) -> (Option<f64>, Option<f64>) {
-        let (Some(predicted), Ok(measured)) = (&self.predicted, &self.measured) else {
-            return (None, None);
-        };
-        let phases = measured.phase_error.zip(predicted.phase_error);
-        let phase = phases.map(|(measured, predicted)| (measured / predicted - 1.0).abs());
-        let damping = (measured.log_kept / predicted.log_kept - 1.0).abs();
-        (phase, damping.is_finite().then_some(damping))
-    }
-}
-
 /// Results of a spectrum study: one row for each wavelength and Courant number.
 #[derive(Debug, Clone)]
 pub struct SpectrumStudy {

@@ -4,12 +4,12 @@
 //! velocity of walls at low ends is constant. The velocity of walls at high ends grows as `v t/T`
 //! with the run time T.
 
-use super::stress::{constant_and_rate, require_whole_body};
+use super::stress::{constant_and_rate, judge_ends};
 use super::walls::bar;
 use crate::testing::doctor::course::{Course, displacement, line, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "moving-wall",
@@ -64,15 +64,7 @@ const RULES: Rules<4> = Rules {
 };
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 1, 3], &ELASTIC, &|kind| pushed(kind, 0, true))?;
-    let kind = (scene.dimension, scene.law);
-    let ends = (0..kind.0).flat_map(|axis| [(axis, false), (axis, true)]);
-    let scenes: Vec<BoxScene> = ends.clone().map(|(axis, high)| pushed(kind, axis, high)).collect();
-    let courses = patient.run_all(&scenes)?;
-    require_whole_body(&courses[0], &scenes[0])?;
-    let rows = ends.zip(scenes.iter().zip(&courses));
-    let rows = rows.map(|(end, (scene, course))| measure(scene, course, end));
-    Ok(RULES.judge(&rows.collect::<Vec<_>>()))
+    judge_ends(patient, &[2, 1, 3], &RULES, pushed, measure)
 }
 
 /// Returns component `i` of the velocity of the wall (m/s), at high ends at the end of the run.

@@ -5,11 +5,11 @@
 //! faces are constant. Tractions on high faces are `p (1 + t/T)` with the run time T, times `3 (Y -
 //! Y0)^2/w^2` with the mean 1 along the width w of the face.
 
-use super::stress::{constant_and_rate, require_whole_body};
+use super::stress::{constant_and_rate, judge_ends};
 use crate::testing::doctor::course::{Course, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "traction",
@@ -66,15 +66,7 @@ const RULES: Rules<4> = Rules {
 };
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ELASTIC, &|kind| loaded(kind, 0, true))?;
-    let kind = (scene.dimension, scene.law);
-    let ends = (0..kind.0).flat_map(|axis| [(axis, false), (axis, true)]);
-    let scenes: Vec<BoxScene> = ends.clone().map(|(axis, high)| loaded(kind, axis, high)).collect();
-    let courses = patient.run_all(&scenes)?;
-    require_whole_body(&courses[0], &scenes[0])?;
-    let rows = ends.zip(scenes.iter().zip(&courses));
-    let rows = rows.map(|(end, (scene, course))| measure(scene, course, end));
-    Ok(RULES.judge(&rows.collect::<Vec<_>>()))
+    judge_ends(patient, &[2, 3, 1], &RULES, loaded, measure)
 }
 
 /// Returns component `i` of the traction (Pa) at the start.

@@ -24,7 +24,8 @@ use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, minus, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC};
+use crate::testing::doctor::rules::{Row, Rules};
+use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 use measure::{MeasuredModuli, STRETCH};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -278,4 +279,23 @@ pub(super) fn require_whole_body(course: &Course, scene: &BoxScene) -> Result<()
         return Err(Hindrance::Lacks(lacks.to_owned()));
     }
     Ok(())
+}
+
+/// Runs a scene for each end of each axis, and judges the rows of measured values.
+pub(super) fn judge_ends<const N: usize>(
+    patient: &Patient<'_>,
+    dimensions: &[usize],
+    rules: &Rules<N>,
+    make: fn(Kind, usize, bool) -> BoxScene,
+    measure: fn(&BoxScene, &Course, (usize, bool)) -> Row<N>,
+) -> Result<Examined, Hindrance> {
+    let scene = patient.able(dimensions, &ELASTIC, &|kind| make(kind, 0, true))?;
+    let kind = (scene.dimension, scene.law);
+    let ends = (0..kind.0).flat_map(|axis| [(axis, false), (axis, true)]);
+    let scenes: Vec<BoxScene> = ends.clone().map(|(axis, high)| make(kind, axis, high)).collect();
+    let courses = patient.run_all(&scenes)?;
+    require_whole_body(&courses[0], &scenes[0])?;
+    let rows = ends.zip(scenes.iter().zip(&courses));
+    let rows = rows.map(|(end, (scene, course))| measure(scene, course, end));
+    Ok(rules.judge(&rows.collect::<Vec<_>>()))
 }
