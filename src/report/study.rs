@@ -29,7 +29,10 @@ pub(crate) trait StudyReport: Sync {
     /// kind of study.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
-    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure>;
+    /// Draws the figures of a suite; none by default.
+    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
+        Vec::new()
+    }
 }
 
 /// Returns the studies of one kind, with the names of their cases.
@@ -139,10 +142,6 @@ impl StudyReport for InternalForceReport {
         };
         members(json!({"forces": study.map(objects)}))
     }
-
-    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
-        study::forces(outcome).into_iter().collect()
-    }
 }
 
 pub(crate) struct StabilityReport;
@@ -193,10 +192,6 @@ impl StudyReport for GradientReport {
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
         members(json!({"gradient": case.results().map(gradient_json)}))
-    }
-
-    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
-        Vec::new()
     }
 }
 
@@ -257,10 +252,6 @@ impl StudyReport for SpectrumReport {
             study.rows.iter().map(|row| json_object(&columns, row)).collect()
         };
         members(json!({"spectrum": case.results().map(objects)}))
-    }
-
-    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
-        Vec::new()
     }
 }
 

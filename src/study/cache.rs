@@ -115,19 +115,17 @@ fn read<T: DeserializeOwned>(text: &str, key: &str) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject::{RunCounters, Totals};
+    use crate::subject::RunCounters;
     use crate::verify::{ConservationError, History, Interval, Norms, RunErrors, RunResult};
     use proptest::prelude::*;
 
     fn some(x: f64, failure: Option<String>) -> RunResult {
         let norms = Norms { rms: x, l1: -x, l2: 0.1 * x, linf: f64::NAN, mass_l2: Some(x) };
         let errors = RunErrors { at_end: Norms::NONE, largest: norms };
-        let totals = Totals { kinetic_energy: x, strain_energy: Some(x), ..Totals::default() };
         RunResult {
             errors,
             displacement_errors: Some(RunErrors { at_end: norms, ..errors }),
             drift: Some(ConservationError::NONE),
-            account: vec![(0.0, totals), (x, Totals { strain_energy: None, ..totals })],
             energy_rate: Some(Interval { value: x, low: -x, high: f64::INFINITY }),
             counters: RunCounters {
                 particles: Some(7),

@@ -255,7 +255,6 @@ pub(in crate::verify) mod tests {
             errors: RunErrors::NONE,
             displacement_errors: None,
             drift: None,
-            account: Vec::new(),
             energy_rate: None,
             counters: RunCounters::new(0),
             steps: 1,

@@ -321,7 +321,7 @@ fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
 }
 
 /// A [`Solver`] with an [`EnergyLedger`]. The steps are bit-identical to those of the solver
-/// without a ledger. Checkpoints are not supported.
+/// without a ledger.
 pub struct LedgerSolver<const D: usize> {
     solver: Solver<D>,
     ledger: EnergyLedger,

@@ -5,7 +5,6 @@
 //! whose names begin with different words.
 
 use super::plot::canvas::{Heading, canvas, text_width};
-use super::plot::scale::{Pad, Scale};
 use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
 use super::plot::svg::SvgElement;
 use crate::verify::rounded;
@@ -69,9 +68,9 @@ impl Map {
             svg.add(&SvgElement::text(at, "middle", column));
         }
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
-        let scale = colour_scale(fields.filter_map(|field| field.value));
+        let range = ColourRange::new(fields.filter_map(|field| field.value));
         for ((name, fields), y) in self.rows.iter().zip(places) {
-            svg.add(&row(name, fields, RowPlace { left, top: y, field }, scale));
+            svg.add(&row(name, fields, RowPlace { left, top: y, field }, range));
         }
         svg.add(&SvgElement::text((LEFT, bottom + 18.0), "start", &note));
         svg.render() + "\n"
@@ -103,14 +102,14 @@ struct RowPlace {
     field: f64,
 }
 
-fn row(name: &str, fields: &[MapField], place: RowPlace, scale: Scale) -> SvgElement {
+fn row(name: &str, fields: &[MapField], place: RowPlace, range: ColourRange) -> SvgElement {
     let RowPlace { left: x, top: y, field: width } = place;
     let mut group = SvgElement::new("g");
     group.add(&SvgElement::text((x - 8.0, y + ROW - 4.5), "end", name));
     for (k, field) in fields.iter().enumerate() {
         let at = x + width * k as f64;
         let value = field.value.filter(|value| value.is_finite());
-        let known = value.map(|value| colour(scale.fraction(value)));
+        let known = value.map(|value| colour(range.share(value)));
         let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
         let square =
             SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
@@ -124,16 +123,25 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, scale: Scale) -> SvgEle
 /// Minimum ratio of the largest to the smallest value for which the colour scale is logarithmic.
 const SPAN: f64 = 1e3;
 
-/// Creates the colour scale, from the smallest to the largest finite value.
-fn colour_scale(values: impl Iterator<Item = f64>) -> Scale {
-    let finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    let low = finite.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = finite.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let none = Pad { lo: 0.0, hi: 0.0 };
-    if low > 0.0 && high / low > SPAN {
-        Scale::log(finite.into_iter(), none)
-    } else {
-        Scale::linear(finite.into_iter(), none)
+/// Smallest and largest finite value of a map, which have the ends of the colours.
+#[derive(Clone, Copy)]
+struct ColourRange([f64; 2]);
+
+impl ColourRange {
+    fn new(values: impl Iterator<Item = f64>) -> Self {
+        let finite = values.filter(|value| value.is_finite());
+        Self(finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+            [low.min(value), high.max(value)]
+        }))
+    }
+
+    /// Returns the position of a value between dark (0) and light (1); 0.5 if all values are equal.
+    fn share(self, value: f64) -> f64 {
+        let Self([low, high]) = self;
+        let is_logarithmic = low > 0.0 && high / low > SPAN;
+        let place = |x: f64| if is_logarithmic { libm::log10(x) } else { x };
+        let share = (place(value) - place(low)) / (place(high) - place(low));
+        if share.is_finite() { share } else { 0.5 }
     }
 }
 

@@ -1,27 +1,29 @@
 //! Figures as standalone SVG documents.
 //!
-//! There are three kinds: the [`LogLogPlot`] (error against cell size, time step or work), the
-//! [`HistoryPlot`] (curves with linear axes) and the [`Map`] (a table of numbers on coloured
-//! fields). All are pure functions of their input and can be compared byte by byte: coordinates
-//! have two decimals, and transcendental functions come from `libm`.
+//! There are two kinds: the [`LogLogPlot`] (error against cell size, time step or work) and the
+//! [`Map`] (a table of numbers on coloured fields). Both are pure functions of their input and can
+//! be compared byte by byte: coordinates have two decimals, and transcendental functions come from
+//! `libm`.
 //!
-//! Figures accept any input. A value that cannot be placed on its axis is drawn as failed,
-//! interrupts its curve, or is counted in a note below the figure.
+//! Figures accept any input. A value that cannot be placed on its axis is drawn as failed or is
+//! counted in a note below the figure.
 //!
 //! ```
-//! use mpm_verify::report::figure::{Curve, HistoryPlot};
+//! use mpm_verify::report::figure::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 //!
-//! let svg = HistoryPlot {
+//! let point = |x: f64| PlotPoint { x, error: x * x, mark: Mark::Measured };
+//! let series = PlotSeries {
+//!     name: "linear".into(),
+//!     look: 0,
+//!     points: vec![point(0.25), point(0.5), point(1.0)],
+//! };
+//! let svg = LogLogPlot {
 //!     title: "Vibrating bar".into(),
-//!     x_label: "time (s)".into(),
-//!     y_label: "velocity (m/s)".into(),
-//!     curves: vec![Curve {
-//!         name: "exact".into(),
-//!         look: 0,
-//!         points: vec![(0.0, 1.0), (0.5, -1.0), (1.0, 1.0)],
-//!         exact: true,
-//!         markers: false,
-//!     }],
+//!     x_label: "cell size h (m)".into(),
+//!     y_label: "error (m)".into(),
+//!     series: vec![series],
+//!     reference_orders: vec![2.0],
+//!     ..LogLogPlot::default()
 //! }
 //! .to_svg();
 //! assert!(svg.starts_with("<svg xmlns="));
@@ -33,12 +35,10 @@ pub(crate) mod plot;
 pub(crate) mod study;
 pub(crate) mod sweep;
 
-mod history;
 mod log_log;
 mod pgfplots;
 mod series;
 
-pub use history::{Curve, HistoryPlot};
 pub use log_log::LogLogPlot;
 pub use map::{Map, MapField};
 pub use series::{Mark, PlotPoint, PlotSeries};

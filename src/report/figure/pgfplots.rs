@@ -4,13 +4,9 @@
 //! include the file with the package `standalone`.
 
 use super::log_log::order_name;
-use super::plot::style::{CONTEXT, EXACT, MarkerShape, NEUTRAL, look};
-use super::{HistoryPlot, LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
+use super::plot::style::{CONTEXT, MarkerShape, NEUTRAL, look};
+use super::{LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
 use crate::report::latex::escaped;
-
-/// Maximum number of points of a curve, because TeX is slow and more points are not visible in
-/// print.
-const MOST_POINTS: usize = 400;
 
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 
@@ -180,39 +176,6 @@ fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f6
     points
 }
 
-impl HistoryPlot {
-    /// Creates the figure as a LaTeX document. Curves with more than 400 points are reduced to
-    /// evenly chosen points.
-    pub fn to_pgfplots(&self) -> String {
-        let mut document = PgfDocument::new();
-        let titles = titles(&self.title, &self.x_label, &self.y_label);
-        document.line(&format!(
-            "\\begin{{axis}}[{titles}, grid=major, unbounded coords=jump, {LEGEND}]"
-        ));
-        document.colour("exact", EXACT);
-        for (number, curve) in self.curves.iter().enumerate() {
-            let look = look(curve.look);
-            let colour = format!("series{number}");
-            document.colour(&colour, look.colour);
-            let marks = if curve.markers { mark(look.shape, false) } else { "no marks".to_owned() };
-            let style = if curve.exact {
-                "exact, line width=3pt, no marks".to_owned()
-            } else {
-                format!("{colour}, thick, {marks}")
-            };
-            let stride = curve.points.len().div_ceil(MOST_POINTS).max(1);
-            let last = curve.points.len().saturating_sub(1);
-            let chosen = curve.points.iter().enumerate();
-            let chosen = chosen.filter(|(k, _)| k % stride == 0 || *k == last);
-            document.plot(&format!("{style}, forget plot"), chosen.map(|(_, point)| *point));
-            if !curve.name.is_empty() {
-                document.legend(&style, &escaped(&curve.name));
-            }
-        }
-        document.finished("axis")
-    }
-}
-
 impl Map {
     /// Creates the figure as a LaTeX document. Each number is printed on a coloured field.
     pub fn to_pgfplots(&self) -> String {
@@ -262,7 +225,6 @@ impl Map {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::figure::Curve;
 
     #[test]
     fn a_log_log_plot_has_its_data_and_a_legend_in_order() {
@@ -309,17 +271,5 @@ mod tests {
     \end{tikzpicture}
     \end{document}
     "#);
-    }
-
-    #[test]
-    fn a_curve_with_many_points_is_thinned_and_keeps_its_end() {
-        let points: Vec<(f64, f64)> = (0..=1000).map(|k| (f64::from(k), f64::NAN)).collect();
-        let curve = Curve { name: String::new(), look: 0, points, exact: false, markers: false };
-        let (title, label) = (String::new(), String::new());
-        let plot =
-            HistoryPlot { title, x_label: label.clone(), y_label: label, curves: vec![curve] };
-        let text = plot.to_pgfplots();
-        assert_eq!(text.matches(" nan\n").count(), 335, "{text}");
-        assert!(text.contains("\n1e3 nan\n") && !text.contains("legendentry"), "{text}");
     }
 }

@@ -1,37 +1,23 @@
-//! Figures of runs over a swept parameter: curves if there are many values, and a map if there are
-//! few.
+//! Figures of runs over a swept parameter: a map for each reported quantity.
 
 use super::Figure;
 use super::map::{column_head, merged_fields};
-use super::{Curve, HistoryPlot, Map, MapField};
+use super::{Map, MapField};
 use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
-
-/// Minimum number of parameter values for which curves are drawn.
-const CURVES: usize = 5;
-
-/// Maximum number of curves in one plot.
-const MOST_CURVES: usize = 6;
 
 /// Returns the studies that do not search for a stability limit, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
 }
 
-/// Draws the plots or the map of each reported quantity, if there are several runs to compare.
+/// Draws a map of each reported quantity, if there are several runs to compare.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };
-    let values = first.rows.len();
-    let shown = |figure: &RunFigure| -> Vec<Figure> {
-        if values >= CURVES {
-            curves(outcome, &studies, *figure)
-        } else if values > 1 || studies.len() > 1 {
-            vec![map(outcome, &studies, *figure)]
-        } else {
-            Vec::new()
-        }
-    };
-    first.figures.iter().flat_map(shown).collect()
+    if first.rows.len() < 2 && studies.len() < 2 {
+        return Vec::new();
+    }
+    first.figures.iter().map(|figure| map(outcome, &studies, *figure)).collect()
 }
 
 /// Returns the reported quantity of a run; NaN if the run failed.
@@ -52,42 +38,6 @@ fn short(value: f64) -> String {
     }
 }
 
-fn title(outcome: &SuiteOutcome, figure: RunFigure) -> String {
-    format!("{}: {}", outcome.title, figure.head())
-}
-
-fn curves(
-    outcome: &SuiteOutcome,
-    studies: &[(&str, &StabilityStudy)],
-    figure: RunFigure,
-) -> Vec<Figure> {
-    let plots = studies.len().div_ceil(MOST_CURVES);
-    let in_each = studies.len().div_ceil(plots.max(1)).max(1);
-    let parts = studies.chunks(in_each).enumerate();
-    let plot = |(i, part): (usize, &[(&str, &StabilityStudy)])| {
-        let curve = |(k, (name, study)): (usize, &(&str, &StabilityStudy))| Curve {
-            name: (*name).to_owned(),
-            look: i * in_each + k,
-            points: study.rows.iter().map(|row| (row.value, value(row, figure))).collect(),
-            exact: false,
-            markers: true,
-        };
-        HistoryPlot {
-            title: title(outcome, figure),
-            x_label: part.first().map_or(String::new(), |(_, study)| study.swept.clone()),
-            y_label: figure.head().to_owned(),
-            curves: part.iter().enumerate().map(curve).collect(),
-        }
-    };
-    let figures: Vec<HistoryPlot> = parts.map(plot).collect();
-    let drawn = figures.iter().enumerate().map(|(i, one)| {
-        let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
-        let file = format!("{}-{}{number}.svg", outcome.suite, figure.name());
-        Figure { file, svg: one.to_svg_among(&figures), pgfplots: one.to_pgfplots() }
-    });
-    drawn.collect()
-}
-
 fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunFigure) -> Figure {
     let field = |row: &StabilityRow| {
         let value = value(row, figure);
@@ -98,7 +48,7 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
     };
     let first = studies.first().map(|(_, study)| *study);
     let map = Map {
-        title: title(outcome, figure),
+        title: format!("{}: {}", outcome.title, figure.head()),
         x_label: first.map_or(String::new(), |study| study.swept.clone()),
         z_label: figure.head().to_owned(),
         columns: first

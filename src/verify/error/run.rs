@@ -185,7 +185,6 @@ impl<'a> RunMonitor<'a> {
             displacement_errors: self.displacement_errors,
             drift: self.balance.as_ref().map(Balance::drift),
             energy_rate: energy_rate(&self.account),
-            account: self.account,
             counters: subject.counters(),
             steps: clock.steps,
             failure: None,
@@ -207,7 +206,6 @@ impl<'a> RunMonitor<'a> {
             displacement_errors: self.displacement_errors.map(|_| RunErrors::NONE),
             drift: self.balance.map(|_| ConservationError::NONE),
             energy_rate: None,
-            account: self.account,
             counters: subject.counters(),
             steps: step,
             failure: Some(reason),
@@ -242,9 +240,6 @@ pub struct RunResult {
     pub displacement_errors: Option<RunErrors>,
     /// Drifts of the sums over the body, if the solver reports these sums; NaN if the run failed.
     pub drift: Option<ConservationError>,
-    /// Sums over the body at t = 0 and at every instant, each with its time (s); empty if the
-    /// solver reports none.
-    pub account: Vec<(f64, Totals)>,
     /// Energy rate d ln E/dt (1/s) with its confidence interval, if it could be computed.
     pub energy_rate: Option<Interval>,
     /// Counters at the end of the run or at its failure.

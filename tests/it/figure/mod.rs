@@ -14,10 +14,6 @@ mod xml;
 #[case(samples::eight_long_names().to_svg())]
 #[case(samples::less_than_a_decade().to_svg())]
 #[case(samples::ten_decades().to_svg())]
-#[case(samples::damped_sine(1.0).to_svg())]
-#[case(samples::damped_sine(3e-5).to_svg())]
-#[case(samples::square_wave().to_svg())]
-#[case(samples::staircase().to_svg())]
 fn samples_are_well_formed(#[case] svg: String) {
     assert_eq!(well_formed(&svg), Ok(()));
     assert!(without_bad_numbers(&svg));
@@ -29,7 +25,6 @@ fn samples_are_well_formed(#[case] svg: String) {
 #[rstest]
 #[case(samples::three_series().to_svg())]
 #[case(samples::eight_long_names().to_svg())]
-#[case(samples::square_wave().to_svg())]
 #[case(work::diagram().to_svg())]
 fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
     let (before, rest) = svg.split_once("<style>").expect("a style sheet");
@@ -51,7 +46,6 @@ fn every_colour_has_a_dark_counterpart(#[case] svg: String) {
 #[test]
 fn the_same_figure_has_the_same_bytes() {
     assert_eq!(samples::three_series().to_svg(), samples::three_series().to_svg());
-    assert_eq!(samples::square_wave().to_svg(), samples::square_wave().to_svg());
 }
 
 #[test]
@@ -123,20 +117,6 @@ fn failures_at_the_same_size_are_stacked() {
     assert_eq!(svg.matches("stroke-width=\"1.30\"").count(), 2);
 }
 
-#[test]
-fn missing_values_interrupt_a_curve() {
-    let mut figure = samples::square_wave();
-    let lines = |figure: &HistoryPlot| figure.to_svg().matches("<polyline").count();
-    let before = lines(&figure);
-    figure.curves[1].points[500].1 = f64::NAN;
-    assert_eq!(lines(&figure), before + 1);
-}
-
-#[test]
-fn long_curves_are_thinned() {
-    assert!(samples::damped_sine(1.0).to_svg().len() < 120_000);
-}
-
 fn marks() -> impl Strategy<Value = Mark> {
     prop::sample::select(KEYS.map(|(mark, _)| mark).to_vec())
 }
@@ -165,24 +145,6 @@ proptest! {
         prop_assert_eq!(well_formed(&svg), Ok(()));
         prop_assert!(without_bad_numbers(&svg));
     }
-
-    #[test]
-    fn no_history_breaks_the_figure(
-        points in prop::collection::vec(
-            (prop::collection::vec((any_value(), any_value()), 0..20), any::<(bool, bool)>()), 0..5),
-        text in any::<String>(),
-    ) {
-        let curves = points.into_iter().map(|(points, (exact, markers))| Curve {
-            name: text.clone(),
-            look: 0,
-            points,
-            exact,
-            markers,
-        });
-        let svg = samples::history(&text, curves.collect()).to_svg();
-        prop_assert_eq!(well_formed(&svg), Ok(()));
-        prop_assert!(without_bad_numbers(&svg));
-    }
 }
 
 /// Returns the value of an attribute in one line of the document.
@@ -198,8 +160,6 @@ fn number(line: &str, name: &str) -> f64 {
 #[rstest]
 #[case(samples::three_series().to_svg())]
 #[case(samples::eight_long_names().to_svg())]
-#[case(samples::damped_sine(1.0).to_svg())]
-#[case(samples::staircase().to_svg())]
 fn the_legend_is_below_the_frame_and_inside_the_figure(#[case] svg: String) {
     let root = svg.lines().next().unwrap();
     let frame = svg.lines().filter(|line| line.starts_with("<rect")).nth(1).unwrap();

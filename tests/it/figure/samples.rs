@@ -1,6 +1,6 @@
 //! Drawings that several tests use.
 
-use mpm_verify::report::figure::{Curve, HistoryPlot, LogLogPlot, Mark, PlotPoint, PlotSeries};
+use mpm_verify::report::figure::{LogLogPlot, Mark, PlotPoint, PlotSeries};
 
 /// Returns cell sizes from 1/4 m, each half of the previous one.
 fn sizes(count: usize) -> impl Iterator<Item = f64> {
@@ -74,67 +74,4 @@ pub(super) fn ten_decades() -> LogLogPlot {
     let one = series("spectral", 6, |_, h| (libm::pow(h, 5.0), Mark::Window));
     let two = series("linear", 6, |_, h| (30.0 * h, Mark::Window));
     convergence(vec![one, two], &[1.0, 5.0])
-}
-
-fn curve(name: &str, count: i32, exact: bool, f: impl Fn(f64) -> f64) -> Curve {
-    let at = |i: i32| {
-        let t = 2.0 * f64::from(i) / f64::from(count);
-        (t, f(t))
-    };
-    let points = (0..=count).map(at).collect();
-    Curve { name: name.to_owned(), look: 0, points, exact, markers: false }
-}
-
-pub(super) fn history(y_label: &str, curves: Vec<Curve>) -> HistoryPlot {
-    let curves = curves.into_iter().enumerate();
-    let curves = curves.map(|(look, one)| Curve { look, ..one }).collect();
-    HistoryPlot {
-        title: "Free end of the bar".to_owned(),
-        x_label: "time t (s)".to_owned(),
-        y_label: y_label.to_owned(),
-        curves,
-    }
-}
-
-pub(super) fn damped_sine(amplitude: f64) -> HistoryPlot {
-    let wave = |damping: f64, pace: f64| {
-        move |t: f64| amplitude * libm::exp(-damping * t) * libm::sin(pace * t)
-    };
-    history(
-        "velocity v (m/s)",
-        vec![
-            curve("exact", 4000, true, wave(0.8, 14.0)),
-            curve("cubic B-spline", 4000, false, wave(1.0, 14.1)),
-            curve("linear", 4000, false, wave(1.5, 13.6)),
-        ],
-    )
-}
-
-pub(super) fn square_wave() -> HistoryPlot {
-    let square = |t: f64| if libm::sin(8.0 * t) >= 0.0 { 1.0 } else { -1.0 };
-    let ringing = move |t: f64, lag: f64| {
-        let since = libm::fmod(8.0 * t - lag + std::f64::consts::PI, std::f64::consts::PI);
-        square(t - lag / 8.0) * (1.0 - 0.6 * libm::exp(-2.5 * since) * libm::cos(16.0 * since))
-    };
-    history(
-        "stress (Pa)",
-        vec![
-            curve("exact", 2000, true, square),
-            curve("GIMP", 1000, false, move |t| ringing(t, 0.0)),
-            curve("linear", 1000, false, move |t| ringing(t, 0.2)),
-        ],
-    )
-}
-
-pub(super) fn staircase() -> HistoryPlot {
-    let step = |t: f64| 0.1 * libm::floor(t * 4.0);
-    let mut steps = curve("linear shape functions", 40, false, step);
-    steps.markers = true;
-    let mut smooth = curve("quadratic B-spline", 20, false, |t| 0.4 * t);
-    smooth.markers = true;
-    HistoryPlot {
-        title: "Internal force on a node".to_owned(),
-        x_label: "particle position (m)".to_owned(),
-        ..history("internal force (N)", vec![steps, smooth])
-    }
 }

@@ -27,13 +27,12 @@ pub(crate) struct Plot<'a> {
 struct PlotAxis {
     scale: Scale,
     ticks: Vec<Tick>,
-    factor: Option<Label>,
 }
 
 impl PlotAxis {
     fn new(scale: Scale, length: f64, extent: impl Fn(&Label) -> f64) -> Self {
         let ticks = ticks::choose(&scale, length, extent);
-        Self { scale, ticks, factor: scale.factor() }
+        Self { scale, ticks }
     }
 
     fn labels(&self) -> impl Iterator<Item = (f64, &Label)> {
@@ -56,7 +55,7 @@ impl<'a> Plot<'a> {
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = Heading::new(titles.title, WIDTH);
         let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);
-        let top = heading.bottom() + if y.factor.is_some() { 14.0 } else { 0.0 };
+        let top = heading.bottom();
         let widest = y.labels().map(|(_, l)| l.width()).fold(LABELS, f64::max);
         let left = MARGIN + 18.0 + widest;
         let room = WIDTH - left - MARGIN;
@@ -150,7 +149,7 @@ impl<'a> Plot<'a> {
 
     fn texts(&self) -> SvgElement {
         let Rect { x, y, w, h } = self.frame;
-        let (right, bottom) = (self.frame.right(), self.frame.bottom());
+        let bottom = self.frame.bottom();
         let mut group = SvgElement::new("g");
         self.heading.draw(&mut group);
         let ticks = || SvgElement::new("g").set("class", "ticks");
@@ -164,15 +163,7 @@ impl<'a> Plot<'a> {
         group.add(&below);
         group.add(&beside);
         let foot = bottom + 40.0;
-        let mut room = w;
-        if let Some(factor) = &self.x.factor {
-            group.add(&factor.draw((right, foot - 2.0), "end"));
-            room -= 2.0 * factor.width() + 16.0;
-        }
-        if let Some(factor) = &self.y.factor {
-            group.add(&factor.draw((x, y - 5.0), "start"));
-        }
-        let x_label = shorten(self.titles.x_label, TEXT, room);
+        let x_label = shorten(self.titles.x_label, TEXT, w);
         group.add(&SvgElement::text((x + w / 2.0, foot), "middle", &x_label));
         let y_label = shorten(self.titles.y_label, TEXT, h + FOOT);
         let turn =

@@ -4,21 +4,9 @@ use super::canvas::text_width;
 use super::style::{SUPERSCRIPT, TEXT};
 use super::svg::{Pt, SvgElement};
 
-/// Working coordinate of an axis: a function of the value that is linear in pixels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ScaleKind {
-    /// The value divided by a power of ten.
-    Linear {
-        /// Exponent of the power of ten that all tick labels have in common; 0 for plain decimals.
-        power: i32,
-    },
-    /// The decimal logarithm of the value.
-    Log,
-}
-
+/// A logarithmic axis. Its working coordinate, which is linear in pixels, is the decimal logarithm.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    kind: ScaleKind,
     lo: f64,
     hi: f64,
 }
@@ -34,59 +22,15 @@ pub(crate) struct Pad {
 /// fill the figure.
 const MIN_DECADES: f64 = 0.5;
 
-/// Minimum length of a linear axis as a fraction of its largest value. A shorter axis would show
-/// rounding noise.
-const MIN_SPREAD: f64 = 1e-7;
-
-/// Magnitude below which a value is drawn as zero. All subnormal numbers are smaller.
-const TINY: f64 = 1e-290;
-
 impl Scale {
     /// Creates a logarithmic axis for the positive finite `values`.
     pub(crate) fn log(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
         let logs = values.filter(|v| v.is_finite() && *v > 0.0).map(libm::log10);
         let (lo, hi) = range(logs).unwrap_or((-1.0, 0.0));
         let widen = ((MIN_DECADES - (hi - lo)) / 2.0).max(0.0);
-        Self::padded(ScaleKind::Log, lo - widen, hi + widen, pad)
-    }
-
-    /// Creates a linear axis for the finite `values`.
-    pub(crate) fn linear(values: impl Iterator<Item = f64>, pad: Pad) -> Self {
-        let (lo, hi) = range(values.filter(|v| v.is_finite())).unwrap_or((0.0, 1.0));
-        let largest = lo.abs().max(hi.abs());
-        let power = if largest < TINY || (1e-2..1e5).contains(&largest) {
-            0
-        } else {
-            libm::floor(libm::log10(largest)) as i32
-        };
-        // Dividing before subtracting avoids overflow at the extremes of f64.
-        let unit = libm::pow(10.0, f64::from(power));
-        let (lo, hi, largest) = (lo / unit, hi / unit, largest / unit);
-        let widen = if largest < TINY {
-            1.0
-        } else if hi - lo < MIN_SPREAD * largest {
-            largest / 2.0
-        } else {
-            0.0
-        };
-        Self::padded(ScaleKind::Linear { power }, lo - widen, hi + widen, pad)
-    }
-
-    fn padded(kind: ScaleKind, lo: f64, hi: f64, pad: Pad) -> Self {
+        let (lo, hi) = (lo - widen, hi + widen);
         let span = (hi - lo) / (1.0 - pad.lo - pad.hi);
-        Self { kind, lo: lo - pad.lo * span, hi: hi + pad.hi * span }
-    }
-
-    pub(crate) fn kind(&self) -> ScaleKind {
-        self.kind
-    }
-
-    /// Returns the common power of ten of all labels, if any.
-    pub(crate) fn factor(&self) -> Option<Label> {
-        match self.kind {
-            ScaleKind::Linear { power } if power != 0 => Some(Label::power("×10", power)),
-            _ => None,
-        }
+        Self { lo: lo - pad.lo * span, hi: hi + pad.hi * span }
     }
 
     /// Returns both ends in working coordinates.
@@ -94,18 +38,14 @@ impl Scale {
         (self.lo, self.hi)
     }
 
-    /// Returns the length of the axis in working coordinates, which are decades on a logarithmic
-    /// axis.
+    /// Returns the length of the axis in decades.
     pub(crate) fn span(&self) -> f64 {
         self.hi - self.lo
     }
 
     /// Returns the position of a value: 0 at the low end, 1 at the high end.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
-        self.fraction_of_working(match self.kind {
-            ScaleKind::Linear { power } => value / libm::pow(10.0, f64::from(power)),
-            ScaleKind::Log => libm::log10(value),
-        })
+        self.fraction_of_working(libm::log10(value))
     }
 
     /// Returns the position of a working coordinate: 0 at the low end, 1 at the high end.
@@ -134,8 +74,7 @@ impl Label {
         Self { base: format!("{value:.decimals$}").replace('-', "\u{2212}"), exponent: None }
     }
 
-    /// Creates `base` with a superscript. `base` is "10", a multiple of 10, or "×10" for the common
-    /// factor of an axis.
+    /// Creates `base` with a superscript. `base` is "10" or a multiple of 10.
     pub(crate) fn power(base: &str, exponent: i32) -> Self {
         Self { base: base.to_owned(), exponent: Some(exponent) }
     }
@@ -189,20 +128,6 @@ mod tests {
     const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
 
     #[rstest]
-    #[case(&[0.0, 2.0], 0, 0.0, 2.0)]
-    #[case(&[2e-5, 4e-5], -5, 2.0, 4.0)]
-    #[case(&[-3e7, 3e7], 7, -3.0, 3.0)]
-    #[case(&[5.0, 5.0], 0, 2.5, 7.5)]
-    #[case(&[0.0, 1e-320], 0, -1.0, 1.0)]
-    #[case(&[f64::NAN, f64::INFINITY], 0, 0.0, 1.0)]
-    fn linear_ranges(#[case] values: &[f64], #[case] power: i32, #[case] lo: f64, #[case] hi: f64) {
-        let scale = Scale::linear(values.iter().copied(), NONE);
-        assert_eq!(scale.kind(), ScaleKind::Linear { power });
-        assert_abs_diff_eq!(scale.ends().0, lo, epsilon = 1e-12);
-        assert_abs_diff_eq!(scale.ends().1, hi, epsilon = 1e-12);
-    }
-
-    #[rstest]
     #[case(&[0.01, 1.0], -2.0, 0.0)]
     #[case(&[0.1, 0.1], -1.25, -0.75)]
     #[case(&[0.0, -1.0, f64::NAN], -1.0, 0.0)]
@@ -214,9 +139,9 @@ mod tests {
 
     #[test]
     fn padding_is_a_fraction_of_the_whole_axis() {
-        let scale = Scale::linear([0.0, 7.0].into_iter(), Pad { lo: 0.1, hi: 0.2 });
-        assert_abs_diff_eq!(scale.fraction(0.0), 0.1, epsilon = 1e-12);
-        assert_abs_diff_eq!(scale.fraction(7.0), 0.8, epsilon = 1e-12);
+        let scale = Scale::log([1.0, 1e7].into_iter(), Pad { lo: 0.1, hi: 0.2 });
+        assert_abs_diff_eq!(scale.fraction(1.0), 0.1, epsilon = 1e-12);
+        assert_abs_diff_eq!(scale.fraction(1e7), 0.8, epsilon = 1e-12);
     }
 
     #[test]

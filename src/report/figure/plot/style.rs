@@ -22,20 +22,17 @@ pub(crate) const INK: &str = "#222222";
 pub(crate) const GRID: &str = "#e3e3e3";
 /// Colour of elements that belong to no series, such as reference lines.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";
-/// Colour of the exact solution. It is light, because computed curves are drawn over it.
-pub(crate) const EXACT: &str = "#929292";
 /// Colour of methods that are drawn for comparison only.
 pub(crate) const CONTEXT: &str = "#8e8e8e";
 /// Colour of the Pareto front, a band behind all lines.
 pub(crate) const FRONT: &str = "#fbe9a6";
 
 /// Colours of the light theme with their replacements in the dark theme.
-const PALETTE: [(&str, &str); 7] = [
+const PALETTE: [(&str, &str); 6] = [
     (PAPER, "#15181e"),
     (INK, "#e6e6e6"),
     (GRID, "#333943"),
     (NEUTRAL, "#b4b8bf"),
-    (EXACT, "#6d727b"),
     (CONTEXT, "#747a83"),
     (FRONT, "#4a4a2a"),
 ];
@@ -165,7 +162,7 @@ mod tests {
 
     #[test]
     fn texts_and_lines_have_contrast_in_both_schemes() {
-        let lines = SERIES.iter().map(|colour| colour.0).chain([EXACT, CONTEXT]);
+        let lines = SERIES.iter().map(|colour| colour.0).chain([CONTEXT]);
         for (colour, least) in lines.map(|colour| (colour, 3.0)).chain([(INK, 7.0), (NEUTRAL, 7.0)])
         {
             for (ink, paper) in schemes(colour).iter().zip(schemes(PAPER)) {

@@ -1,7 +1,6 @@
 //! Positions and labels of ticks.
 
-use super::scale::Label;
-use super::scale::{Scale, ScaleKind};
+use super::scale::{Label, Scale};
 
 /// One tick. Ticks with a label are major ticks.
 #[derive(Clone, Debug)]
@@ -34,46 +33,13 @@ pub(crate) fn choose(scale: &Scale, length: f64, extent: impl Fn(&Label) -> f64)
             .collect();
         major.windows(2).all(|w| w[1].0 - w[0].0 >= f64::midpoint(w[0].1, w[1].1))
     };
-    let mut choices = match scale.kind() {
-        ScaleKind::Linear { .. } => (1..=8).rev().map(|n| linear(scale, n)).collect(),
-        ScaleKind::Log if scale.span() < SHORT => short_log(scale),
-        ScaleKind::Log => {
-            [1, 2, 3, 4, 5, 10, 20, 50, 100, 200].map(|stride| decades(scale, stride)).to_vec()
-        }
+    let mut choices = if scale.span() < SHORT {
+        short_log(scale)
+    } else {
+        [1, 2, 3, 4, 5, 10, 20, 50, 100, 200].map(|stride| decades(scale, stride)).to_vec()
     };
     let chosen = choices.iter().position(fits);
     choices.swap_remove(chosen.unwrap_or(choices.len() - 1))
-}
-
-/// Creates ticks at multiples of 1, 2 or 5 times a power of ten, with about `count` labels.
-fn linear(scale: &Scale, count: u32) -> Vec<Tick> {
-    let (lo, hi) = scale.ends();
-    let raw = (hi - lo) / f64::from(count);
-    let power = libm::floor(libm::log10(raw));
-    let unit = libm::pow(10.0, power);
-    let (digit, parts, carry) = match raw / unit {
-        r if r <= 1.0 => (1.0, 5, 0.0),
-        r if r <= 2.0 => (2.0, 4, 0.0),
-        r if r <= 5.0 => (5.0, 5, 0.0),
-        _ => (1.0, 5, 1.0),
-    };
-    let power = power + carry;
-    let step = digit * libm::pow(10.0, power);
-    let decimals = (-power).max(0.0) as usize;
-    let minor = step / parts as f64;
-    // The tolerance keeps ticks at the ends of the axis if rounding places them just outside.
-    let first = libm::ceil(lo / minor - 1e-6) as i64;
-    let last = libm::floor(hi / minor + 1e-6) as i64;
-    (first..=last)
-        .map(|i| Tick {
-            at: scale.fraction_of_working(i as f64 * minor),
-            label: match i {
-                0 => Some(Label::decimal(0.0, 0)),
-                _ if i % parts == 0 => Some(Label::decimal((i / parts) as f64 * step, decimals)),
-                _ => None,
-            },
-        })
-        .collect()
 }
 
 /// Creates ticks at powers of ten and labels every `stride`-th one.
@@ -152,19 +118,6 @@ mod tests {
         assert!(ticks.windows(2).all(|w| w[0].at < w[1].at));
         let labels: Vec<_> = ticks.iter().filter_map(|t| t.label.as_ref()).collect();
         labels.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
-    }
-
-    #[rstest]
-    #[case(0.0, 1.0, "0 0.2 0.4 0.6 0.8 1.0")]
-    #[case(0.0, 10.0, "0 2 4 6 8 10")]
-    #[case(-1.3, 1.3, "-1.0 -0.5 0 0.5 1.0")]
-    #[case(0.0, 3.5, "0 0.5 1.0 1.5 2.0 2.5 3.0 3.5")]
-    #[case(0.0, 4e-5, "0 1 2 3 4")]
-    #[case(-2e6, 7e6, "-2 0 2 4 6")]
-    #[case(1000.0, 1000.002, "1000.0000 1000.0005 1000.0010 1000.0015 1000.0020")]
-    #[case(f64::MIN, f64::MAX, "-1.5 -1.0 -0.5 0 0.5 1.0 1.5")]
-    fn linear_ticks(#[case] lo: f64, #[case] hi: f64, #[case] expected: &str) {
-        assert_eq!(labels(&Scale::linear([lo, hi].into_iter(), NONE)), expected);
     }
 
     #[rstest]
