@@ -12,6 +12,7 @@ BLENDS = [1.0, 0.95, 0.0]
 NUMPY = ["{python}", "examples/solvers/numpy_mpm.py"]
 APIC = ["{python}", "tests/clients/apic_mpm.py"]
 VARIANT = ["{python}", "tests/clients/variant.py"]
+LAWS = {"soils": ["drucker_prager", "mohr_coulomb"], "metal-and-fluids": ["j2", "newtonian", "linear_fluid", "polytropic"]}
 
 
 @dataclass
@@ -128,6 +129,22 @@ def small_strain_configurations():
         yield Configuration("Small strains", name, command, True)
 
 
+def law_configurations():
+    laws = [*VARIANT, "--client", "laws"]
+    for form, basis in itertools.product(["finite", "rate"], BASES[:2]):
+        for family, names in LAWS.items():
+            yield Configuration(f"Further laws, {form} form", f"laws-{family}-{form}-{basis}",
+                                [*laws, "--laws", "linear_elastic", *names, "--basis", basis, "--form", form], False)
+    for name, options in {"pic": ["--flip", "0.0"], "blend": ["--flip", "0.95", "--basis", BASES[2]],
+                          "rate-musl": ["--form", "rate", "--scheme", "musl"],
+                          "half-step-back": ["--start", "half_step_back", "--scheme", "usl"]}.items():
+        yield Configuration("Further laws, all", f"laws-{name}", [*laws, *options], False)
+    yield Configuration("Small strains", "small-fem-plates", [*VARIANT, "--client", "small-fem", "--plates"], True)
+    for dimension, at in itertools.product("12", ["nodes", "points"]):
+        yield Configuration("Load steps only", f"load-steps-{dimension}-{at}",
+                            [*VARIANT, "--client", "load_steps", "--dimension", dimension, "--at", at], False)
+
+
 def sample_configurations():
     for basis, kind, scheme in itertools.product(BASES, ["every-second", "every-third"], SCHEMES):
         yield Configuration("Points that are a sample", f"numpy-{basis}-{scheme}-{kind}",
@@ -149,6 +166,7 @@ CONFIGURATIONS = [
     *cpp_configurations(),
     *small_strain_configurations(),
     *sample_configurations(),
+    *law_configurations(),
     Configuration("Fortran client", "fortran", ["{fortran}"], False),
 ]
 CONFIGURATIONS = {configuration.name: configuration for configuration in CONFIGURATIONS}

@@ -4,7 +4,8 @@
 
 The stress is C : sym(grad u) in the reference configuration (`small_strain`). Elements are linear in one dimension,
 bilinear in two and trilinear in three, with two Gauss points along each axis, a lumped mass and velocity Verlet steps.
-With `--at nodes`, states are those of the nodes, without stresses; otherwise those of the Gauss points.
+With `--at nodes`, states are those of the nodes, without stresses; otherwise those of the Gauss points. With
+`--plates`, two-dimensional bodies may be in plane stress.
 """
 
 from __future__ import annotations
@@ -36,8 +37,9 @@ class SmallFem(TotalLagrangian):
         "initial_deformation": True,
     }
 
-    def __init__(self, at: str) -> None:
+    def __init__(self, at: str, plates: bool) -> None:
         self.at_nodes = at == "nodes"
+        self.capabilities = {**self.capabilities, "plane_stress": plates}
         if self.at_nodes:
             self.capabilities = {**self.capabilities, "columns": []}
 
@@ -64,6 +66,8 @@ class SmallFem(TotalLagrangian):
         young, poisson = material["parameters"]["young"], material["parameters"]["poisson"]
         self.lam = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         self.mu = young / (2 * (1 + poisson))
+        if problem.plane == "stress":
+            self.lam = young * poisson / (1 - poisson**2)
         self.volume = self.weight * np.bincount(self.nodes.ravel(), minlength=len(self.place))
         self.mass = material["density"] * self.volume
         self.held = np.zeros(self.place.shape, bool)
@@ -107,4 +111,5 @@ class SmallFem(TotalLagrangian):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
     parser.add_argument("--at", choices=["points", "nodes"], default="points")
+    parser.add_argument("--plates", action="store_true")
     serve(SmallFem(**vars(parser.parse_args())))

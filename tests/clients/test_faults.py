@@ -18,7 +18,9 @@ from faults import FAULTS
 MESSAGES = [3, 1, 4, 2]  # steps of each message
 ROUNDING = 1e-9  # of the largest value of a column
 SOILS = {"drucker_prager": {"friction": 0.3, "dilation": 0.1, "strength": 1.0},
-         "mohr_coulomb": {"friction_angle": 30.0, "dilation_angle": 10.0, "cohesion": 1.0}}
+         "mohr_coulomb": {"friction_angle": 30.0, "dilation_angle": 10.0, "cohesion": 1.0},
+         "j2": {"yield": 2.0, "hardening": 50.0}, "newtonian": {"bulk": 500.0, "viscosity": 0.5},
+         "linear_fluid": {"bulk": 500.0}}
 ROOM = {"free": 1.0, "fixed": 0.0, "roller": 0.0, "periodic": 0.0, "velocity": 0.0, "friction": 0.0}  # cells of the grid beyond a face
 
 
@@ -42,7 +44,7 @@ class Harness:
         return {"type": "body_force", "values": self.values.ravel()}
 
 
-def problem(law, faces, cells, per_axis, force="none", speed=0.0, strain=0.0, turn=0.0, shift=0.0,
+def problem(law, faces, cells, per_axis, force="none", speed=0.0, strain=0.0, turn=0.0, shift=0.0, grade=0.0,
             more=None):
     """A box of some cells, moving and rotating, with an initial deformation and stress; `shift` (cells) in its grid."""
     d, h, density, dt = len(cells), 0.13, 3.0, 0.0013
@@ -57,6 +59,8 @@ def problem(law, faces, cells, per_axis, force="none", speed=0.0, strain=0.0, tu
     u = (x0 - middle) @ gradient.T if is_free else np.zeros_like(x0)
     f = np.broadcast_to(np.eye(d) + (gradient if is_free else 0), (n, d, d))
     stress = np.broadcast_to(strain * 50.0 * (np.eye(d) + 0.5), (n, d, d))
+    gradient = grade * (x0 - middle)[:, :1, None] * np.eye(d)  # of F and stress over the body
+    f, stress = f + gradient, stress + 60 * gradient
     spin = turn * (np.tri(d, k=-1) - np.tri(d, k=-1).T)
     velocity = speed * (1 + 0.3 * np.sin(9 * x0)) + (x0 - middle) @ spin.T
     volume = (h / per_axis) ** d
@@ -110,7 +114,9 @@ def supports(capabilities, message):
              ("laws", {material["law"] for material in message["materials"]}),
              ("loads", {load["load"] for load in message["loads"]})]
     return (all(wanted <= set(capabilities[key]) for key, wanted in needs)
-            and (len(message["materials"]) == 1 or capabilities.get("contact", False)))
+            and (len(message["materials"]) == 1 or capabilities.get("contact", False))
+            and (message["plane"] == "strain" or capabilities.get("plane_stress", False))
+            and ("load_steps" in message) == capabilities.get("load_steps", False))
 
 
 FREE, PERIODIC = ["free"] * 6, ["periodic"] * 6
@@ -124,6 +130,17 @@ PROBLEMS = {
     "rotating cone of soil": problem("drucker_prager", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
     "rotating pyramid of soil": problem("mohr_coulomb", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
     "block of the Hencky law": problem("hencky", FREE[:4], (4, 3), 2, "none", 0.5, -0.05, 5.0),
+    "graded": problem("linear_elastic", FREE[:4], (4, 5), 2, "none", 0.5, grade=0.1),
+    "graded hyperelastic": problem("neo_hookean", FREE[:4], (4, 5), 2, "none", 0.5, grade=0.1),
+    "soil without dilation": problem("drucker_prager", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0,
+                                     more={"materials": [{"law": "drucker_prager", "density": 3.0, "parameters": {
+                                         "young": 700.0, "poisson": 0.3, "friction": 0.3, "dilation": 0.0, "strength": 1e-4}}]}),
+    "yielding metal": problem("j2", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
+    "viscous fluid": problem("newtonian", FREE[:4], (4, 5), 2, "none", 3.0),
+    "acoustic fluid": problem("linear_fluid", FREE[:4], (4, 5), 2, "none", 3.0),
+    "plate": problem("linear_elastic", FREE[:4], (4, 5), 2, "none", 3.0, more={"plane": "stress"}),
+    "load steps": problem("hencky", ["fixed", "free"], (6,), 2, "constant", more={
+        "load_steps": 10, "bodies": [{"shape": "box", "from": [0.7], "to": [0.7 + 6 * 0.13]}]}),
     "falling": problem("linear_elastic", FREE[:4], (4, 3), 2, "constant", 1.0),
     "bar": problem("linear_elastic", ["fixed", "free"], (6,), 2, "asked", -5.0),
     "block": problem("linear_elastic", FREE, (2, 3, 2), 2, "none", 0.5, -0.05, 5.0),

@@ -36,6 +36,8 @@ SOURCES = {
     "fem": ([CLIENTS / "fem.py"], "Fem"),
     "small-fem": ([SOLVERS / "mpm_verify.py", SOLVERS / "lagrangian.py", CLIENTS / "small_fem.py"], "SmallFem"),
     "total_lagrangian": ([CLIENTS / "total_lagrangian.py"], "TotalLagrangian"),
+    "laws": ([SOLVERS / "mpm_verify.py", SOLVERS / "numpy_mpm.py", CLIENTS / "laws_mpm.py"], "Laws"),
+    "load_steps": ([SOLVERS / "mpm_verify.py", CLIENTS / "load_steps.py"], "LoadSteps"),
 }
 MAIN = '\nif __name__ == "__main__":\n'
 

@@ -44,6 +44,9 @@ pub(super) const FRICTION: f64 = 0.3;
 /// Friction angle (degrees) of a Mohr-Coulomb soil.
 pub(super) const FRICTION_ANGLE: f64 = 30.0;
 
+/// Exponent of a polytropic gas.
+const GAS_EXPONENT: f64 = 1.4;
+
 /// Slope M of the critical-state line of Cam-clay, `q = M p`.
 pub(super) const CRITICAL_STATE_SLOPE: f64 = 1.2;
 
@@ -74,8 +77,11 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
-    /// Strength or cohesion (Pa) of a soil; the initial pressure of Cam-clay.
+    /// Strength or cohesion (Pa) of a soil; the initial pressure of Cam-clay; the yield stress of
+    /// `j2` with [`Extras::hardening`].
     pub(super) strength: f64,
+    /// Friction of a soil, as a share of [`FRICTION`] or [`FRICTION_ANGLE`].
+    pub(super) friction: f64,
     /// Dilation of a soil, as a share of its friction.
     pub(super) dilation: f64,
     /// Density (kg/m3).
@@ -105,6 +111,14 @@ pub(super) struct Extras {
     pub(super) loads: Vec<String>,
     /// Formulas of the initial velocity, one for each axis, in place of the affine field.
     pub(super) velocity: Option<Vec<String>>,
+    /// Further keys of the scene in suite notation, such as `plane: stress`.
+    pub(super) keys: Vec<String>,
+    /// Hardening modulus (Pa) of `j2`; `None` for a body that does not yield.
+    pub(super) hardening: Option<f64>,
+    /// Dynamic viscosity (Pa s) of a Newtonian fluid.
+    pub(super) viscosity: f64,
+    /// Whether the load is applied in load steps without time.
+    pub(super) load_steps: bool,
     /// Second body: box, material and initial velocity of this scene.
     pub(super) second: Option<Box<BoxScene>>,
     /// Coefficient of friction between the bodies; `None` for bodies without contact.
@@ -132,6 +146,7 @@ impl BoxScene {
             young: 0.1,
             poisson: 0.3,
             strength: 1e-4,
+            friction: 1.0,
             dilation: 1.0 / 3.0,
             // This density is not a power, product or ratio of the other numbers, so that each
             // possible mistake of a solver changes accelerations by another factor (see
@@ -209,20 +224,29 @@ impl BoxScene {
     fn material(&self) -> String {
         let Self { law, young, poisson, density, .. } = self;
         let bulk = young / (3.0 * (1.0 - 2.0 * poisson));
+        let (eta, phi) = (FRICTION * self.friction, FRICTION_ANGLE * self.friction);
         let parameters = match *law {
-            "newtonian" => format!("bulk: {bulk:e}, viscosity: 0"),
+            "newtonian" => format!("bulk: {bulk:e}, viscosity: {:e}", self.extras.viscosity),
             "linear_fluid" => format!("bulk: {bulk:e}"),
-            "j2" => format!("young: {young:e}, poisson: {poisson}, yield: {:e}", 10.0 * young),
+            "polytropic" => format!(
+                "stiffness: {:e}, exponent: {GAS_EXPONENT}",
+                bulk / GAS_EXPONENT * libm::pow(*density, -GAS_EXPONENT)
+            ),
+            "j2" => format!(
+                "young: {young:e}, poisson: {poisson}, yield: {:e}, hardening: {:e}",
+                self.extras.hardening.map_or(10.0 * young, |_| self.strength),
+                self.extras.hardening.unwrap_or(0.0)
+            ),
             "drucker_prager" => format!(
-                "young: {young:e}, poisson: {poisson}, friction: {FRICTION}, dilation: {}, \
-                 strength: {:e}",
-                FRICTION * self.dilation,
+                "young: {young:e}, poisson: {poisson}, friction: {eta}, dilation: {}, strength: \
+                 {:e}",
+                eta * self.dilation,
                 self.strength
             ),
             "mohr_coulomb" => format!(
-                "young: {young:e}, poisson: {poisson}, friction_angle: {FRICTION_ANGLE}, \
-                 dilation_angle: {}, cohesion: {:e}",
-                FRICTION_ANGLE * self.dilation,
+                "young: {young:e}, poisson: {poisson}, friction_angle: {phi}, dilation_angle: {}, \
+                 cohesion: {:e}",
+                phi * self.dilation,
                 self.strength
             ),
             "cam_clay" => format!(
@@ -244,9 +268,12 @@ impl BoxScene {
         let Self { body: (from, to), dimension, extras, .. } = self;
         let affine = || self.velocity.formulas(*dimension);
         let velocity = extras.velocity.clone().unwrap_or_else(affine);
+        let velocity = match extras.load_steps {
+            true => String::new(),
+            false => format!(", initial_velocity: {velocity:?}"),
+        };
         format!(
-            "body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {}, initial_velocity: \
-             {velocity:?}",
+            "body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {}{velocity}",
             self.material()
         )
     }
@@ -285,14 +312,26 @@ impl BoxScene {
         if let Some(friction) = extras.contact {
             keys.push_str(&format!(", contact: {{friction: {friction}}}"));
         }
+        extras.keys.iter().for_each(|key| keys.push_str(&format!(", {key}")));
+        let (run, expectation) = match extras.load_steps {
+            true => (
+                format!(
+                    "{{load_steps: {}}}\nreference: {{same_method: {{cells: {}}}}}",
+                    self.steps,
+                    4.0 * cells
+                ),
+                "error_below: 1",
+            ),
+            false => {
+                (format!("{{until: {:e}, dt: {:e}}}", self.end(), self.dt), "drift: {mass: 1e-13}")
+            }
+        };
         format!(
             "suite: doctor\ntitle: a box\nsource: mpm-verify doctor\n\
              scene: {{dimension: {d}, grid: {{from: {low:?}, to: {high:?}}}, {keys}}}\n\
-             run: {{until: {until:e}, dt: {dt:e}}}\nrefine: {{cells: {cells}, ppc: {ppc}}}\n\
+             run: {run}\nrefine: {{cells: {cells}, ppc: {ppc}}}\n\
              methods:\n  - mpm: {{{method}}}\n\
-             expect:\n  - drift: {{mass: 1e-13}}\n    because: no step is made\n",
-            until = self.end(),
-            dt = self.dt,
+             expect:\n  - {expectation}\n    because: no step is made\n",
             ppc = self.ppc.pow(*d as u32),
         )
     }
@@ -300,7 +339,10 @@ impl BoxScene {
     /// Converts the scene to a problem, and to the capabilities that the problem requires of a
     /// solver. The state is sampled after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
-        let suite = self.suite("basis: linear, transfer: flip, scheme: musl")?;
+        let suite = self.suite(match self.extras.load_steps {
+            true => "basis: linear, scheme: quasi_static",
+            false => "basis: linear, transfer: flip, scheme: musl",
+        })?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;

@@ -139,7 +139,16 @@ fn doctor_finds_no_defect_in_the_built_in_solver(#[case] dimension: usize, #[cas
     let report = doctor(&built_in(dimension, method), &|_| ());
     assert_eq!(report.defects(), 0, "{}", page(&report));
     // `ChangedSolver` has no other loads and conditions; unit tests of the library examine these.
-    let beyond = ["traction", "damping", "moving-wall", "friction", "bodies", "contact"];
+    let beyond = [
+        "plane-stress",
+        "traction",
+        "damping",
+        "moving-wall",
+        "friction",
+        "bodies",
+        "contact",
+        "load-steps",
+    ];
     let is_examined = |made: &ExaminationReport| {
         matches!(made.result, ExaminationResult::Examined { .. })
             || beyond.contains(&made.examination)

@@ -209,7 +209,7 @@ fn k0_ratio(ratio: f64) -> f64 {
 mod tests {
     use super::super::measure::{PATHS, STEPS};
     use super::*;
-    use crate::testing::doctor::examination::soils;
+    use crate::testing::doctor::examination::paths;
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -223,7 +223,7 @@ mod tests {
     fn built_in_solver_approaches_the_critical_state() {
         const METHOD: &str = "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian";
         let (name, gradient) = &PATHS[2];
-        let scene = soils::path((2, "cam_clay"), gradient, STEPS / 10);
+        let scene = paths::path((2, "cam_clay"), gradient, STEPS / 10);
         let course = scene.built_in(METHOD).expect("a complete run");
         let Ok(end) = PathEnd::measure(name, &scene, &course) else { panic!("another motion") };
         // The closed form without the measured strain.
@@ -253,7 +253,7 @@ mod tests {
     /// Integrates the rate equations along a path by the explicit Euler method, without correction
     /// of the drift from the yield surface and without detection of the yield point.
     fn integrate(path: &'static str, [compaction, shear]: [f64; 2], fault: Fault) -> PathEnd {
-        let (lambda, mu) = soils::path((2, "cam_clay"), &[[0.0; 3]; 3], STEPS).lame();
+        let (lambda, mu) = paths::path((2, "cam_clay"), &[[0.0; 3]; 3], STEPS).lame();
         let ratio = mu / (lambda + 2.0 * mu / 3.0);
         let steps = STEPS as f64;
         let (mut p, mut q, mut pc) = (1.0_f64, 0.0_f64, OVERCONSOLIDATION);

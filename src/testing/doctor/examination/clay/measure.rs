@@ -2,7 +2,7 @@
 
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{Course, shown};
-use crate::testing::doctor::examination::{laws::deformation_gradient, soils};
+use crate::testing::doctor::examination::{laws::deformation_gradient, paths};
 use crate::testing::doctor::patient::Hindrance;
 use crate::testing::doctor::scene::{
     BoxScene, CRITICAL_STATE_SLOPE, Kind, OVERCONSOLIDATION, SWELLING_SLOPE,
@@ -69,7 +69,7 @@ impl PathEnd {
             )));
         }
         let j = det_of_rows(d, &f);
-        let stress = soils::in_middle(course, scene)?;
+        let stress = paths::in_middle(course, scene)?;
         let mut tau = [[0.0; 3]; 3];
         for (k, stress) in stress.iter().enumerate() {
             tau[k / d][k % d] = stress * j / scene.strength;
@@ -125,5 +125,5 @@ impl PathEnd {
 }
 
 pub(super) fn path(kind: Kind, gradient: &[[f64; 3]; 3]) -> BoxScene {
-    BoxScene { strength: PRESSURE, ..soils::path(kind, gradient, STEPS) }
+    BoxScene { strength: PRESSURE, ..paths::path(kind, gradient, STEPS) }
 }
