@@ -14,6 +14,7 @@ mod paths;
 mod periodic;
 mod rest;
 mod start;
+mod start_gradient;
 mod stress;
 mod traction;
 mod transfer;

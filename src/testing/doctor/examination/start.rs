@@ -5,15 +5,15 @@
 //! faces, component j of the momentum of the upper half changes at the rate `-P_ji A`, where P is
 //! the initial first Piola-Kirchhoff stress.
 
+use super::start_gradient;
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, sampling_error};
 use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
+    AffineField, Course, displacement, dot, minus, shown, shown_vector, size, times,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -78,7 +78,7 @@ const PLACEMENTS: [BodyPlacement; 3] = [
 
 /// Maximum relative error of the force. The value allows for approaching waves and small changes of
 /// the state.
-const NEAR: f64 = 0.12;
+pub(super) const NEAR: f64 = 0.12;
 
 /// Maximum force in the first step normal to the expected force, relative to the expected force.
 const ACROSS: f64 = 0.15;
@@ -100,7 +100,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         Err(Hindrance::Lacks(_)) => None,
     };
     let Some(seen) = seen else {
-        let (mut all, graded) = (first?, examine_gradient(patient)?);
+        let (mut all, graded) = (first?, start_gradient::examine(patient)?);
         if !graded.measured.is_empty() {
             all.measured = format!("{}; {}", all.measured, graded.measured);
         }
@@ -162,87 +162,10 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
     Ok(all)
 }
 
-/// Gradient (1/m) of an initial strain that varies along the first axis. Strains are at most 0.006.
-const STRAIN_GRADIENT: f64 = 0.008;
-
-/// Velocities at the end of the first step may belong to a time half a step earlier or later. If
-/// the law computes the stress from F, a wrong initial stress acts in the first step only.
-const GRADIENT: Rules<2> = Rules {
-    quantities: [
-        ("velocity after one step", 1.0, 0.62),
-        ("acceleration in later steps", 1.0, NEAR),
-    ],
-    findings: &[
-        ("initial-stress-uniform", [None, Some(0.0)], UNIFORM),
-        ("initial-stress-uniform", [Some(0.0), Some(1.0)], UNIFORM),
-        (
-            "initial-stress-gradient",
-            [None; 2],
-            "the initial stress varies wrongly over the body: values belong to other particles, or \
-             masses or volumes do not",
-        ),
-    ],
-    look_at: "`particles.stress`, `particles.deformation_gradient` and `particles.initial_stress` \
-              of the problem, which have one tensor for each particle, in the order of the \
-              particles",
-};
-
-const UNIFORM: &str = "the initial stress or F of one particle, or a mean over the body, is used \
-                       for all particles";
-
-/// Examines bodies whose initial strain is `c (X - X_c)`, and a body with the initial stress
-/// `M c (X - X_c)`. With the longitudinal modulus M, the middle has the acceleration `M c/rho`
-/// until waves arrive from the faces.
-fn examine_gradient(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let graded = |kind: Kind, by_stress: bool| {
-        let mut scene = scene(kind, PLACEMENTS[0].sheared, PLACEMENTS[0]);
-        scene.displacement = AffineField::default();
-        let ((lambda, mu), c) = (scene.lame(), STRAIN_GRADIENT);
-        let from_centre = format!("(X - ({:e}))", scene.centre()[0]);
-        let mut formulas = vec!["0".to_owned(); kind.0];
-        formulas[0] = format!("{:e}*{from_centre}^2", 0.5 * c);
-        scene.extras.keys.push(match by_stress {
-            true => {
-                format!("initial_stress: {{xx: \"{:e}*{from_centre}\"}}", (lambda + 2.0 * mu) * c)
-            }
-            false => format!("initial_displacement: {formulas:?}"),
-        });
-        scene
-    };
-    let able = |laws: &[&'static str], by_stress| {
-        patient.able(&[2, 3, 1], laws, &|kind| graded(kind, by_stress)).ok()
-    };
-    let laws = FINITE.iter().chain(&[SMALL_STRAIN]);
-    let laws = laws.filter_map(|law| Some(("strain", able(&[law], false)?)));
-    let by_stress = able(&FINITE, true).map(|scene| ("stress", scene));
-    let (names, scenes): (Vec<&str>, Vec<BoxScene>) = laws.chain(by_stress).unzip();
-    if scenes.is_empty() {
-        return Ok(Examined::default());
-    }
-    let courses = patient.run_all(&scenes)?;
-    let rows = names.into_iter().zip(scenes.iter().zip(&courses)).map(|(name, (scene, course))| {
-        let values = accelerations(course, scene).map(Some);
-        (format!("{} with a gradient of the initial {name}", scene.law), values)
-    });
-    Ok(GRADIENT.judge(&rows.collect::<Vec<Row<2>>>()))
-}
-
-/// Returns the accelerations of the middle in the first step and in later steps, relative to
-/// `M c/rho`.
-fn accelerations(course: &Course, scene: &BoxScene) -> [f64; 2] {
-    let (centre, (lambda, mu)) = (scene.centre(), scene.lame());
-    let is_near = |x: &[f64; 3]| {
-        (0..scene.dimension).all(|i| (x[i] - centre[i]).abs() <= 2.0 * H * (1.0 + 1e-9))
-    };
-    let speed = |k: usize| {
-        let near = course.points(velocity, k).filter(|(label, _)| is_near(label));
-        let (sum, count) = near.fold((0.0, 0.0), |(s, n), (_, v)| (s + v[0], n + 1.0));
-        sum / count
-    };
-    let speeds: Vec<f64> = (1..=course.last()).map(speed).collect();
-    let (_, slope, _) = line(&course.times[1..], &speeds);
-    let expected = (lambda + 2.0 * mu) * STRAIN_GRADIENT / scene.density;
-    [speeds[0] / course.times[1] / expected, slope / expected]
+/// Creates the first body of the examination, undeformed.
+pub(super) fn undeformed(kind: Kind) -> BoxScene {
+    let displacement = AffineField::default();
+    BoxScene { displacement, ..scene(kind, PLACEMENTS[0].sheared, PLACEMENTS[0]) }
 }
 
 fn scene(kind: Kind, offset: [f64; 3], placement: BodyPlacement) -> BoxScene {

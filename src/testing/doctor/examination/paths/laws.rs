@@ -1,6 +1,9 @@
 //! Paths and mistakes of J2 plasticity, fluids and plane stress.
 
-use super::{AFTER, COMPRESSION, Cause, Gradient, Laws, Leg, Mistake, Path, SHEAR, YOUNG, examine};
+use super::{
+    AFTER, COMPRESSION, LawCause, LawMistake, Laws, Leg, SHEAR, StrainGradient, StrainPath, YOUNG,
+    examine,
+};
 use crate::external::SMALL_STRAIN;
 use crate::testing::doctor::patient::Examination;
 use crate::testing::doctor::scene::BoxScene;
@@ -43,10 +46,10 @@ const J2: Laws = Laws {
     dimensions: &[2, 3, 1],
     measures: [1.0, 0.5],
     paths: &[
-        Path::new("shear in one step", SHEAR, METAL).steps(1),
-        Path::new("shear", SHEAR, METAL).everywhere(),
-        Path::new("compression in one step", COMPRESSION, METAL).steps(1).everywhere(),
-        Path::new("compression", COMPRESSION, METAL).everywhere(),
+        StrainPath::new("shear in one step", SHEAR, METAL).steps(1),
+        StrainPath::new("shear", SHEAR, METAL).everywhere(),
+        StrainPath::new("compression in one step", COMPRESSION, METAL).steps(1).everywhere(),
+        StrainPath::new("compression", COMPRESSION, METAL).everywhere(),
     ],
     mistakes: &[
         (|scene| scene.law = "hencky", 1.0, J2_ELASTIC),
@@ -76,36 +79,38 @@ const RADIAL_RETURN: &str = "the radial return: the yield function sqrt(3/2) |s|
                              with the deviator s; the multiplier flow = f/(3 mu + H); alpha grows \
                              by flow in each step. With f = |s| - sqrt(2/3) (Y + H alpha), the \
                              multiplier is f/(2 mu + 2/3 H), and alpha grows by sqrt(2/3) of it";
-const J2_ELASTIC: Cause = (
+const J2_ELASTIC: LawCause = (
     "j2-does-not-yield",
     "the stress stays elastic beyond the yield stress: the return mapping is not applied",
     RADIAL_RETURN,
 );
-const J2_PERFECT: Cause = ("j2-without-hardening", "the yield stress does not grow", RADIAL_RETURN);
-const J2_HARDENING: Cause = (
+const J2_PERFECT: LawCause =
+    ("j2-without-hardening", "the yield stress does not grow", RADIAL_RETURN);
+const J2_HARDENING: LawCause = (
     "j2-hardening-scaled",
     "the hardening modulus is wrong by a factor of 2/3 or 3/2",
     RADIAL_RETURN,
 );
-const J2_RADIUS: Cause = (
+const J2_RADIUS: LawCause = (
     "j2-yield-radius",
     "the yield stress is wrong by a factor of sqrt(3/2) or sqrt(3), or its inverse: |s|, or \
      sqrt(J2), is compared with the uniaxial yield stress",
     RADIAL_RETURN,
 );
-const J2_STEPS: Cause = (
+const J2_STEPS: LawCause = (
     "j2-depends-on-steps",
     "the stress is correct after many steps, but wrong after one: the return mapping stops before \
      the stress reaches the yield surface",
     RADIAL_RETURN,
 );
-const J2_NOT_ACCUMULATED: Cause = (
+const J2_NOT_ACCUMULATED: LawCause = (
     "j2-not-accumulated",
     "the stress is correct after one step, but wrong after many: the plastic strain or the \
      hardening variable is not kept from step to step, or grows by a wrong amount",
     RADIAL_RETURN,
 );
-const J2_RETURN: Cause = ("j2-return", "the stress is not that of a radial return", RADIAL_RETURN);
+const J2_RETURN: LawCause =
+    ("j2-return", "the stress is not that of a radial return", RADIAL_RETURN);
 
 /// Relative change of volume of a fluid. The value is so small that few particles cross cell faces,
 /// and so large that an equation of state differs from its linearisation.
@@ -113,7 +118,7 @@ const CHANGE: f64 = 0.06;
 
 const FLUID_STEPS: u64 = 50;
 
-const fn stretch(strain: f64) -> Gradient {
+const fn stretch(strain: f64) -> StrainGradient {
     [[strain, 0.0, 0.0], [0.0; 3], [0.0; 3]]
 }
 
@@ -124,10 +129,10 @@ const FLUID: Laws = Laws {
     // 1/(1 - tr(D) dt). These factors differ by at most the square of the strain of the step.
     measures: [0.0, 1.0 / FLUID_STEPS as f64],
     paths: &[
-        Path::new("compression", stretch(-CHANGE), |_| {}).steps(FLUID_STEPS),
-        Path::new("extension", stretch(CHANGE), |_| {}).steps(FLUID_STEPS),
+        StrainPath::new("compression", stretch(-CHANGE), |_| {}).steps(FLUID_STEPS),
+        StrainPath::new("extension", stretch(CHANGE), |_| {}).steps(FLUID_STEPS),
         // The viscous stress of a Newtonian fluid is a tenth of Young's modulus.
-        Path::new("shear", [[0.0, CHANGE, 0.0], [0.0; 3], [0.0; 3]], |scene| {
+        StrainPath::new("shear", [[0.0, CHANGE, 0.0], [0.0; 3], [0.0; 3]], |scene| {
             scene.extras.viscosity = 0.1 * YOUNG / CHANGE;
         })
         .steps(FLUID_STEPS),
@@ -170,46 +175,46 @@ const STATE: &str = "equation-of-state";
 const PRESSURE: &str = "the pressure as a function of J = V/V0, which `mpm-verify explain SUITE` \
                         prints, with J < 1 in compression; the update of J or of the density in \
                         each step; in the column, -p I plus the viscous stress 2 eta dev(D)";
-const PRESSURE_CONSTANT: Cause =
+const PRESSURE_CONSTANT: LawCause =
     (STATE, "the pressure stays that of V = V0: the volume or density is not updated", PRESSURE);
-const PRESSURE_SIGN: Cause = (STATE, "the pressure has the wrong sign", PRESSURE);
-const PRESSURE_INVERSE: Cause = (STATE, "V0/V and V/V0 are exchanged", PRESSURE);
-const PRESSURE_LINEAR: Cause = (STATE, "the pressure is linear in V/V0, K (1 - V/V0)", PRESSURE);
-const PRESSURE_OF_DENSITY: Cause =
+const PRESSURE_SIGN: LawCause = (STATE, "the pressure has the wrong sign", PRESSURE);
+const PRESSURE_INVERSE: LawCause = (STATE, "V0/V and V/V0 are exchanged", PRESSURE);
+const PRESSURE_LINEAR: LawCause = (STATE, "the pressure is linear in V/V0, K (1 - V/V0)", PRESSURE);
+const PRESSURE_OF_DENSITY: LawCause =
     (STATE, "the pressure is linear in the density, K (V0/V - 1)", PRESSURE);
-const PRESSURE_DIFFERS: Cause = (
+const PRESSURE_DIFFERS: LawCause = (
     STATE,
     "the pressure is not that of the equation of state: another exponent or modulus, the Kirchhoff \
      stress J sigma, or a stress that is not isotropic",
     PRESSURE,
 );
-const VISCOSITY_IGNORED: Cause = ("viscous-stress", "the viscosity is ignored", PRESSURE);
-const VISCOSITY_SCALED: Cause = (
+const VISCOSITY_IGNORED: LawCause = ("viscous-stress", "the viscosity is ignored", PRESSURE);
+const VISCOSITY_SCALED: LawCause = (
     "viscous-stress",
     "the viscous stress is wrong by a factor of two, as in 2 eta D with D = (L + L^T)/2",
     PRESSURE,
 );
-const VISCOUS_STRESS: Cause = (
+const VISCOUS_STRESS: LawCause = (
     "viscous-stress",
     "the viscous stress is wrong: another rate of deformation, or a kinematic viscosity in place \
      of the dynamic one",
     PRESSURE,
 );
 
-const PLATE_STRAIN: Gradient = [[-0.000_75, 0.000_4, 0.0], [0.0, 0.000_2, 0.0], [0.0; 3]];
+const PLATE_STRAIN: StrainGradient = [[-0.000_75, 0.000_4, 0.0], [0.0, 0.000_2, 0.0], [0.0; 3]];
 
 const PLATE: Laws = Laws {
     laws: &["linear_elastic", "neo_hookean", "hencky", SMALL_STRAIN],
     dimensions: &[2],
     measures: [1.0, 0.5],
-    paths: &[Path::new("stretch and shear", PLATE_STRAIN, |scene| {
+    paths: &[StrainPath::new("stretch and shear", PLATE_STRAIN, |scene| {
         scene.extras.keys.push("plane: stress".to_owned());
     })],
     mistakes: &PLATE_MISTAKES,
     otherwise: |_, _, _| PLATE_DIFFERS,
 };
 
-const PLATE_MISTAKES: [Mistake; 2] = [
+const PLATE_MISTAKES: [LawMistake; 2] = [
     (
         |scene| scene.extras.keys.clear(),
         1.0,
@@ -228,5 +233,5 @@ const PLATE_MISTAKES: [Mistake; 2] = [
 const PLATE_LAW: &str = "`plane` of the problem, which is \"stress\": the stress across the plate \
                          is zero, and the strain across it is -nu/(1 - nu) times the sum of the \
                          strains in the plane; the stiffness E/(1 - nu^2) of a plate";
-const PLATE_DIFFERS: Cause =
+const PLATE_DIFFERS: LawCause =
     ("plane-stress-differs", "the stress is not that of a plate in plane stress", PLATE_LAW);

@@ -53,27 +53,27 @@ const NEAR: f64 = 0.025;
 const STEP_RATIO: f64 = 0.3;
 
 /// A displacement gradient.
-type Gradient = [[f64; 3]; 3];
+type StrainGradient = [[f64; 3]; 3];
 
 /// Uniaxial compression.
-const COMPRESSION: Gradient = [[-0.000_75, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+const COMPRESSION: StrainGradient = [[-0.000_75, 0.0, 0.0], [0.0; 3], [0.0; 3]];
 
 /// Shear with three different principal stresses, so the stress is on a face of the Mohr-Coulomb
 /// pyramid.
-const SHEAR: Gradient = [[0.000_3, 0.0, 0.0], [0.0, -0.000_3, 0.0], [0.0; 3]];
+const SHEAR: StrainGradient = [[0.000_3, 0.0, 0.0], [0.0, -0.000_3, 0.0], [0.0; 3]];
 
 /// Name of a finding, its cause, and the code to check.
-type Cause = (&'static str, &'static str, &'static str);
+type LawCause = (&'static str, &'static str, &'static str);
 
 /// A mistake: the change of the scene and the factor that give the wrong stress, and the finding.
-type Mistake = (fn(&mut BoxScene), f64, Cause);
+type LawMistake = (fn(&mut BoxScene), f64, LawCause);
 
 /// A strain path.
 #[derive(Clone, Copy)]
-struct Path {
+struct StrainPath {
     name: &'static str,
     /// Displacement gradient at the end.
-    gradient: Gradient,
+    gradient: StrainGradient,
     steps: u64,
     /// Sets parameters of the law.
     set: fn(&mut BoxScene),
@@ -82,11 +82,11 @@ struct Path {
     /// Maximum error; `None` for [`bound`].
     bound: Option<f64>,
     /// Finding on any wrong stress; `None` for a finding from the mistakes of the laws.
-    cause: Option<Cause>,
+    cause: Option<LawCause>,
 }
 
-impl Path {
-    const fn new(name: &'static str, gradient: Gradient, set: fn(&mut BoxScene)) -> Self {
+impl StrainPath {
+    const fn new(name: &'static str, gradient: StrainGradient, set: fn(&mut BoxScene)) -> Self {
         Self { name, gradient, steps: STEPS, set, everywhere: false, bound: None, cause: None }
     }
 
@@ -98,7 +98,7 @@ impl Path {
         Self { everywhere: true, ..self }
     }
 
-    const fn cause(self, cause: Cause) -> Self {
+    const fn cause(self, cause: LawCause) -> Self {
         Self { cause: Some(cause), ..self }
     }
 
@@ -117,17 +117,17 @@ struct Laws {
     /// Differences between correct codes, divided by the strain: of the stress measure, relative to
     /// the stress; and of the strain measure, relative to the strain.
     measures: [f64; 2],
-    paths: &'static [Path],
-    mistakes: &'static [Mistake],
+    paths: &'static [StrainPath],
+    mistakes: &'static [LawMistake],
     /// Returns the finding on a wrong stress that no mistake explains. The last argument is true if
     /// the stress is right with another number of steps.
-    otherwise: fn(&Leg, &[Leg], bool) -> Cause,
+    otherwise: fn(&Leg, &[Leg], bool) -> LawCause,
 }
 
 /// A path of a law, and the stress at its end.
 #[derive(Clone)]
 struct Leg {
-    path: Path,
+    path: StrainPath,
     /// The scene, with the measured motion.
     scene: BoxScene,
     /// Measured stress (Pa).
@@ -167,7 +167,7 @@ impl Leg {
 
     /// Whether the stress agrees with `factor` times the stress of the law after `change`, and much
     /// better than with its own law.
-    fn is_that_of(&self, (change, factor, _): &Mistake) -> Result<bool, Hindrance> {
+    fn is_that_of(&self, (change, factor, _): &LawMistake) -> Result<bool, Hindrance> {
         let mut scene = self.scene.clone();
         change(&mut scene);
         let other: Vec<f64> = expected(&scene)?.iter().map(|stress| factor * stress).collect();
@@ -175,7 +175,7 @@ impl Leg {
         Ok(off <= NEAR && off <= 0.3 * self.relative_error())
     }
 
-    fn finding(&self, (name, cause, look_at): Cause) -> SolverFinding {
+    fn finding(&self, (name, cause, look_at): LawCause) -> SolverFinding {
         let list = |stress: &[f64]| stress.iter().map(|s| shown(*s)).collect::<Vec<_>>().join(", ");
         let seen = format!(
             "{} in {}-D, {}: in the middle of the body, the stress is ({}) Pa, expected ({}) Pa. \
@@ -242,17 +242,17 @@ fn legs(
     laws: &Laws,
     everywhere: bool,
 ) -> Result<Vec<Leg>, Hindrance> {
-    let applies = |path: &&Path| {
+    let applies = |path: &&StrainPath| {
         let is_plane = path.gradient[0][1] != 0.0 || path.gradient[1] != [0.0; 3];
         let is_viscous = path.scene(kind).extras.viscosity > 0.0;
         (path.everywhere || !everywhere)
             && (kind.0 > 1 || !is_plane)
             && (kind.1 == "newtonian" || !is_viscous)
     };
-    let paths: Vec<&Path> = laws.paths.iter().filter(applies).collect();
+    let paths: Vec<&StrainPath> = laws.paths.iter().filter(applies).collect();
     let scenes: Vec<BoxScene> = paths.iter().map(|path| path.scene(kind)).collect();
     let courses = patient.run_all(&scenes)?;
-    let leg = |((path, scene), course): ((&Path, &BoxScene), &Course)| {
+    let leg = |((path, scene), course): ((&StrainPath, &BoxScene), &Course)| {
         let stress = in_middle(course, scene)?;
         let unevenness = unevenness(course, scene);
         let scene = with_gradient(scene, &deformation_gradient(course, scene));
@@ -341,7 +341,7 @@ fn unevenness(course: &Course, scene: &BoxScene) -> f64 {
 }
 
 /// Creates a body whose displacement gradient grows to `gradient` in `steps` steps.
-pub(super) fn path(kind: Kind, gradient: &Gradient, steps: u64) -> BoxScene {
+pub(super) fn path(kind: Kind, gradient: &StrainGradient, steps: u64) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
     let d = scene.dimension;
     let part = |i: usize, j: usize| if i < d && j < d { gradient[i][j] } else { 0.0 };

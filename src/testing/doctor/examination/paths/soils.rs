@@ -1,6 +1,8 @@
 //! Paths and mistakes of soils: yield, flow, edges, the apex, objectivity and the number of steps.
 
-use super::{AFTER, COMPRESSION, Cause, Gradient, Laws, Leg, Path, SHEAR, YOUNG, examine};
+use super::{
+    AFTER, COMPRESSION, LawCause, Laws, Leg, SHEAR, StrainGradient, StrainPath, YOUNG, examine,
+};
 use crate::testing::doctor::patient::Examination;
 use crate::testing::doctor::scene::{BoxScene, FRICTION, FRICTION_ANGLE};
 
@@ -14,12 +16,12 @@ pub(in super::super) const SOILS: Examination = Examination {
 };
 
 /// Uniaxial extension whose elastic stress lies beyond the apex of the yield surface.
-const EXTENSION: Gradient = [[0.000_15, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+const EXTENSION: StrainGradient = [[0.000_15, 0.0, 0.0], [0.0; 3], [0.0; 3]];
 /// Three different strains. The middle principal stress is in the plane.
-const UNEQUAL: Gradient = [[-0.000_75, 0.0, 0.0], [0.0, -0.000_1, 0.0], [0.0, 0.0, 0.000_1]];
+const UNEQUAL: StrainGradient = [[-0.000_75, 0.0, 0.0], [0.0, -0.000_1, 0.0], [0.0, 0.0, 0.000_1]];
 /// Compression to 0.97 along X and a rotation by 0.4 rad: the cosine is 0.921061 and the sine
 /// 0.389418.
-const ROTATION: Gradient =
+const ROTATION: StrainGradient =
     [[0.921_061 * 0.97 - 1.0, -0.389_418, 0.0], [0.389_418 * 0.97, 0.921_061 - 1.0, 0.0], [0.0; 3]];
 
 /// Maximum error on the path with a rotation; larger than on other paths, because affine transfers
@@ -44,22 +46,22 @@ const SOIL: Laws = Laws {
     dimensions: &[2, 3, 1],
     measures: [1.0, 0.5],
     paths: &[
-        Path::new("compression in one step", COMPRESSION, SOFT_SOIL).steps(1),
-        Path::new("compression", COMPRESSION, SOFT_SOIL),
-        Path::new("shear", SHEAR, SOFT_SOIL),
-        Path::new("extension beyond the apex", EXTENSION, SOFT_SOIL).cause(APEX),
-        Path::new("compression without dilation", COMPRESSION, WITHOUT_DILATION),
-        Path::new("extension without dilation", EXTENSION, WITHOUT_DILATION).cause(APEX),
-        Path::new("extension without dilation in one step", EXTENSION, WITHOUT_DILATION)
+        StrainPath::new("compression in one step", COMPRESSION, SOFT_SOIL).steps(1),
+        StrainPath::new("compression", COMPRESSION, SOFT_SOIL),
+        StrainPath::new("shear", SHEAR, SOFT_SOIL),
+        StrainPath::new("extension beyond the apex", EXTENSION, SOFT_SOIL).cause(APEX),
+        StrainPath::new("compression without dilation", COMPRESSION, WITHOUT_DILATION),
+        StrainPath::new("extension without dilation", EXTENSION, WITHOUT_DILATION).cause(APEX),
+        StrainPath::new("extension without dilation in one step", EXTENSION, WITHOUT_DILATION)
             .steps(1)
             .cause(APEX),
-        Path::new("compression without friction", COMPRESSION, WITHOUT_FRICTION),
-        Path::new("extension without friction", EXTENSION, WITHOUT_FRICTION),
-        Path::new(UNEQUAL_STRAINS, UNEQUAL, SOFT_SOIL).everywhere(),
-        Path {
+        StrainPath::new("compression without friction", COMPRESSION, WITHOUT_FRICTION),
+        StrainPath::new("extension without friction", EXTENSION, WITHOUT_FRICTION),
+        StrainPath::new(UNEQUAL_STRAINS, UNEQUAL, SOFT_SOIL).everywhere(),
+        StrainPath {
             bound: Some(NEAR_WITH_ROTATION),
             steps: 100,
-            ..Path::new("compression with a rotation by 0.4", ROTATION, STRONG_SOIL)
+            ..StrainPath::new("compression with a rotation by 0.4", ROTATION, STRONG_SOIL)
         }
         .cause(NOT_OBJECTIVE),
     ],
@@ -74,7 +76,7 @@ const SOIL: Laws = Laws {
 const UNEQUAL_STRAINS: &str = "unequal strains";
 
 /// Returns the finding on a wrong stress that is neither elastic nor that of another dilation.
-fn otherwise(leg: &Leg, legs: &[Leg], depends_on_steps: bool) -> Cause {
+fn otherwise(leg: &Leg, legs: &[Leg], depends_on_steps: bool) -> LawCause {
     let is_compression = leg.path.gradient == COMPRESSION;
     let face_is_right = legs.iter().any(|leg| leg.path.name == "shear" && !leg.is_wrong());
     // The stress of a Mohr-Coulomb soil is on an edge in compression, and on a face in shear.
@@ -93,21 +95,21 @@ fn otherwise(leg: &Leg, legs: &[Leg], depends_on_steps: bool) -> Cause {
 
 const FLOW: &str = "the flow potential, which contains the dilation in place of the friction; the \
                     volumetric part of the return, which is K times the dilation";
-const DOES_NOT_YIELD: Cause = (
+const DOES_NOT_YIELD: LawCause = (
     "soil-does-not-yield",
     "the stress stays elastic beyond the yield surface",
     "the yield function; the units of the strength; the signs: the mean stress p and principal \
      stresses are positive in tension",
 );
-const ASSOCIATED: Cause = (
+const ASSOCIATED: LawCause = (
     "soil-flow-direction",
     "the plastic flow is associated: the dilation equals the friction",
     FLOW,
 );
-const NO_DILATION: Cause = ("soil-flow-direction", "the plastic flow is without dilation", FLOW);
-const FLOW_POINT: Cause =
+const NO_DILATION: LawCause = ("soil-flow-direction", "the plastic flow is without dilation", FLOW);
+const FLOW_POINT: LawCause =
     ("soil-flow-direction", "the stress is on the yield surface, but at the wrong point", FLOW);
-const STEPS_MATTER: Cause = (
+const STEPS_MATTER: LawCause = (
     "soil-depends-on-steps",
     "the stress depends on the number of steps, although the strain path is straight. The return \
      mapping stops before the stress reaches the yield surface, or uses the flow direction at the \
@@ -115,21 +117,21 @@ const STEPS_MATTER: Cause = (
     "the return mapping, which must give a stress on the yield surface at the end of a step of any \
      size",
 );
-const YIELD_SURFACE: Cause = (
+const YIELD_SURFACE: LawCause = (
     "soil-yield-surface",
     "the stress is not on the yield surface of the problem: wrong coefficient, wrong strength, a \
      strength that changes, wrong sign of the mean stress, or angles in wrong units",
     "the yield function: sqrt(J2) + eta p = k with p positive in tension (Drucker-Prager); (t1 - \
      t3) + (t1 + t3) sin(phi) = 2 c cos(phi) with angles in degrees (Mohr-Coulomb)",
 );
-const EDGE: Cause = (
+const EDGE: LawCause = (
     "soil-edge",
     "the return to a face of the yield surface is correct, but the return to an edge, where two \
      principal stresses are equal, is wrong",
     "the return to both planes of the edge, with two plastic multipliers; the choice of the edge; \
      after the return, no yield function may be positive",
 );
-const APEX: Cause = (
+const APEX: LawCause = (
     "soil-apex",
     "in tension, the return mapping does not end at the apex of the yield surface, or the strength \
      is wrong",
@@ -137,7 +139,7 @@ const APEX: Cause = (
      required if the return to the cone or to an edge would reverse the deviator. It must not \
      divide by the dilation, which may be zero",
 );
-const MIDDLE_STRESS: Cause = (
+const MIDDLE_STRESS: LawCause = (
     "soil-middle-stress",
     "stresses are correct in compression and shear, but wrong if three principal strains differ: \
      the return mapping keeps or exchanges the middle principal stress",
@@ -145,7 +147,7 @@ const MIDDLE_STRESS: Cause = (
      dilation, the middle one by lambda times the plastic volume strain; the order of principal \
      stresses and directions",
 );
-const NOT_OBJECTIVE: Cause = (
+const NOT_OBJECTIVE: LawCause = (
     "soil-not-objective",
     "the stress is correct without rotation, but wrong with rotation: the elastic strain or the \
      plastic state does not rotate with the body",
