@@ -78,7 +78,7 @@ const PLACEMENTS: [BodyPlacement; 3] = [
 
 /// Maximum relative error of the force. The value allows for approaching waves and small changes of
 /// the state.
-pub(super) const NEAR: f64 = 0.12;
+const NEAR: f64 = 0.12;
 
 /// Maximum force in the first step normal to the expected force, relative to the expected force.
 const ACROSS: f64 = 0.15;
@@ -100,7 +100,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         Err(Hindrance::Lacks(_)) => None,
     };
     let Some(seen) = seen else {
-        let (mut all, graded) = (first?, start_gradient::examine(patient)?);
+        let (mut all, graded) = (first?, start_gradient::examine(patient, &undeformed)?);
         if !graded.measured.is_empty() {
             all.measured = format!("{}; {}", all.measured, graded.measured);
         }
@@ -163,7 +163,7 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
 }
 
 /// Creates the first body of the examination, undeformed.
-pub(super) fn undeformed(kind: Kind) -> BoxScene {
+fn undeformed(kind: Kind) -> BoxScene {
     let displacement = AffineField::default();
     BoxScene { displacement, ..scene(kind, PLACEMENTS[0].sheared, PLACEMENTS[0]) }
 }

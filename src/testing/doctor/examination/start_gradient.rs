@@ -1,12 +1,14 @@
 //! Bodies that start with a strain or stress that varies linearly, as part of the examination
 //! `start`.
 
-use super::start::{NEAR, undeformed};
 use crate::external::SMALL_STRAIN;
 use crate::testing::doctor::course::{Course, line, velocity};
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
+
+/// Maximum relative error of an acceleration, as of the forces in the examination `start`.
+const NEAR: f64 = 0.12;
 
 /// Gradient (1/m) of an initial strain that varies along the first axis. Strains are at most 0.006.
 const STRAIN_GRADIENT: f64 = 0.008;
@@ -39,7 +41,10 @@ const UNIFORM: &str = "the initial stress or F of one particle, or a mean over t
 /// Examines bodies whose initial strain is `c (X - X_c)`, and a body with the initial stress
 /// `M c (X - X_c)`. With the longitudinal modulus M, the middle has the acceleration `M c/rho`
 /// until waves arrive from the faces.
-pub(super) fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
+pub(super) fn examine(
+    patient: &Patient<'_>,
+    undeformed: &dyn Fn(Kind) -> BoxScene,
+) -> Result<Examined, Hindrance> {
     let graded = |kind: Kind, by_stress: bool| {
         let mut scene = undeformed(kind);
         let ((lambda, mu), c) = (scene.lame(), STRAIN_GRADIENT);
