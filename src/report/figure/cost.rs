@@ -21,7 +21,14 @@ pub fn cost_figures(
     unit: &str,
 ) -> Vec<Figure> {
     let SuiteOutcome { suite, title, cases, .. } = outcome;
-    let methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
+    // Rankings may contain variants of the cases. Variants are styled after all cases.
+    let rows = rankings.iter().flat_map(|ranking| &ranking.rows);
+    let mut methods: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
+    for row in rows {
+        if !methods.contains(&row.method.name.as_str()) {
+            methods.push(&row.method.name);
+        }
+    }
     let figure = |(i, ranking): (usize, &Ranking)| {
         let number = if rankings.len() > 1 { format!("-{}", i + 1) } else { String::new() };
         let title = match rankings.len() {

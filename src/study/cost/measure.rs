@@ -8,10 +8,13 @@
 use crate::external::SolverFactory;
 use crate::study::handover::subject_under;
 use crate::study::runner::Runner;
+use crate::study::setup::dispatch::subject;
 use crate::subject::{Subject, SubjectError};
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{LevelOutcome, Machine, SuiteOutcome, TimedSuite, Timing, Workload};
+use crate::verify::{
+    LevelOutcome, Machine, Ranked, SuiteOutcome, TimedSuite, Timing, Workload, by_transfers,
+};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
 use std::sync::LazyLock;
@@ -50,6 +53,15 @@ impl TimingJob<'_> {
         let (spent, repeats) = (self.seconds.iter().sum::<f64>(), self.seconds.len());
         (repeats >= FEWEST && spent >= LEAST) || spent >= LONGEST || repeats >= MOST
     }
+}
+
+/// Measures the time (s) of the steps of a level, until the run ends or fails.
+pub(crate) fn seconds(
+    plan: &ConvergencePlan,
+    case: &Case,
+    level: LevelPlan,
+) -> Result<f64, SubjectError> {
+    seconds_of(plan, case, level, || subject(plan, case.method, level))
 }
 
 /// Measures the time (s) of the steps of a solver on a level. The time of an external solver
@@ -156,6 +168,62 @@ fn load(level: &LevelOutcome) -> Workload {
         transfers: counters.transfers as f64,
         updates: counters.particles.unwrap_or(0) as f64 * steps,
         steps,
+    }
+}
+
+/// A level that reaches a target error and runs on one thread.
+#[derive(Debug)]
+pub struct Goal<'a> {
+    plan: &'a ConvergencePlan,
+    case: &'a Case,
+    level: LevelPlan,
+    error: f64,
+}
+
+/// Returns the cheapest level of each method of the suite's first problem that reaches `target`,
+/// sorted by cost. The level must be in the method's converging part, and its error relative to the
+/// size of the solution must be at most `target`. Methods that do not reach the target are
+/// excluded.
+pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
+    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
+    let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
+    let goal = |row: &Ranked| {
+        let case = plan.cases.iter().find(|case| case.name == row.method.name)?;
+        let k = row.part.levels.clone().find(|k| row.method.samples[*k].error <= target)?;
+        let level = *plan.refine.levels.get(k)?;
+        Some((
+            row.method.samples[k],
+            Goal { plan, case, level, error: row.method.samples[k].error },
+        ))
+    };
+    let rows = ranked.first().map_or(&[][..], |ranking| &ranking.rows);
+    let mut goals: Vec<_> = rows.iter().filter_map(goal).collect();
+    goals.sort_by(|(a, _), (b, _)| a.work.total_cmp(&b.work));
+    goals.into_iter().map(|(_, goal)| goal).collect()
+}
+
+impl Goal<'_> {
+    /// Returns the name of the case.
+    pub fn case(&self) -> &str {
+        &self.case.name
+    }
+
+    /// Returns the number of cells along the first axis.
+    pub fn cells(&self) -> u64 {
+        self.level.cells
+    }
+
+    /// Returns the error relative to the size of the solution, from the judged run.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// Sets up the level and runs its steps; returns the time of the steps (s).
+    ///
+    /// # Errors
+    /// The reason why the level cannot be set up.
+    pub fn seconds(&self) -> Result<f64, SubjectError> {
+        seconds(self.plan, self.case, self.level)
     }
 }
 

@@ -6,4 +6,5 @@
 
 pub(crate) mod measure;
 
+pub use measure::{Goal, goals};
 pub use measure::{TimedPart, price};

@@ -68,7 +68,7 @@ impl Timing {
 /// A suite with the measured times of its levels.
 #[derive(Debug, Clone)]
 pub struct TimedSuite {
-    /// Results of the suite's cases.
+    /// Results of the suite's cases and of their variants.
     pub outcome: SuiteOutcome,
     /// Workload and time of each level of each case. The time is `None` if the set-up of the level
     /// failed. The time of a failed run ends at the failure.
