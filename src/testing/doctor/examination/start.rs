@@ -310,6 +310,31 @@ fn wrong_components_of_column(course: &Course, scene: &BoxScene) -> Option<Strin
     })
 }
 
+/// Whether the column `stress` has the initial stress after one step.
+fn has_initial_stress(course: &Course, scene: &BoxScene) -> bool {
+    let sigma = &course.problem.particles.stress[..scene.dimension * scene.dimension];
+    let scale = sigma.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    let column = inside(course, scene, &course.states[1].stress);
+    column.is_some_and(|column| largest_difference(&column, sigma) <= 0.2 * scale)
+}
+
+fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
+    SolverFinding::defect(
+        "force-of-deformed-body",
+        format!(
+            "{force}; the force vector has an error of {} of the expected force, but the column \
+             `stress` has the initial stress",
+            shown(forces.error)
+        ),
+        "the stress of a body that starts deformed is correct, but its force or its mass is not: \
+         gradients of the reference configuration with the Cauchy stress, the transposed first \
+         Piola-Kirchhoff stress, `reference_volume` in place of `volume`, or masses that are \
+         computed from deformed volumes",
+        "the internal force: V sigma grad N with present gradients, or V0 P grad N with reference \
+         gradients; `particles.mass` and `particles.volume` of the problem",
+    )
+}
+
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
     // A wrong start is detected after the first step, because the motion in this step is much
@@ -360,24 +385,8 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     }
     // Points that are a sample make the force inaccurate.
     let is_wrong = !(forces.error <= NEAR + sampling_error(course, scene));
-    let column = inside(course, scene, &course.states[1].stress);
-    let sigma = &course.problem.particles.stress[..d * d];
-    let scale = sigma.iter().map(|x| x.abs()).fold(0.0, f64::max);
-    if is_wrong && column.is_some_and(|column| largest(&column, sigma) <= 0.2 * scale) {
-        return Some(SolverFinding::defect(
-            "force-of-deformed-body",
-            format!(
-                "{force}; the force vector has an error of {} of the expected force, but the column \
-                 `stress` has the initial stress",
-                shown(forces.error)
-            ),
-            "the stress of a body that starts deformed is correct, but its force or its mass is \
-             not: gradients of the reference configuration with the Cauchy stress, the transposed \
-             first Piola-Kirchhoff stress, `reference_volume` in place of `volume`, or masses that \
-             are computed from deformed volumes",
-            "the internal force: V sigma grad N with present gradients, or V0 P grad N with \
-             reference gradients; `particles.mass` and `particles.volume` of the problem",
-        ));
+    if is_wrong && has_initial_stress(course, scene) {
+        return Some(force_of_deformed_body(&force, forces));
     }
     let wrong = wrong_components_of_column(course, scene);
     if let Some(wrong) = wrong.or_else(|| forces.wrong_components(scene)) {
