@@ -135,6 +135,10 @@ PROBLEMS = {
     "soil without dilation": problem("drucker_prager", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0,
                                      more={"materials": [{"law": "drucker_prager", "density": 3.0, "parameters": {
                                          "young": 700.0, "poisson": 0.3, "friction": 0.3, "dilation": 0.0, "strength": 1e-4}}]}),
+    "pyramid without dilation": problem(
+        "mohr_coulomb", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0,
+        more={"materials": [{"law": "mohr_coulomb", "density": 3.0, "parameters": {
+            "young": 700.0, "poisson": 0.3, "friction_angle": 30.0, "dilation_angle": 0.0, "cohesion": 1e-4}}]}),
     "yielding metal": problem("j2", FREE[:4], (4, 5), 2, "none", 3.0, turn=12.0),
     "viscous fluid": problem("newtonian", FREE[:4], (4, 5), 2, "none", 3.0),
     "acoustic fluid": problem("linear_fluid", FREE[:4], (4, 5), 2, "none", 3.0),

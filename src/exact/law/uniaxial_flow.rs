@@ -202,7 +202,7 @@ mod tests {
         let piola = law.piola(&tensor);
         let (tau, lateral) = (along * (1.0 + grad), piola[(axis + 1) % 3][(axis + 1) % 3]);
         assert_eq!((piola[axis][axis], lateral), (along, piola[(axis + 2) % 3][(axis + 2) % 3]));
-        let limit = if grad < 0.0 { 0 } else { 1 };
+        let limit = usize::from(grad >= 0.0);
         let excess = law.response().limits[limit].dot([tau, lateral]) - 20.0 * libm::sqrt(0.75);
         let elastic = 5e3 * libm::log1p(grad);
         assert!(excess.abs() < 1e-9 || (excess < 0.0 && (lateral - elastic).abs() < 1e-12));

@@ -58,9 +58,10 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         };
         let is_examined = matches!(result, ExaminationResult::Examined { .. });
         let Examination { name, expected, .. } = *examination;
-        report.silent = match report.examinations.is_empty() {
-            true => silent(&result),
-            false => report.silent.filter(|_| !is_examined),
+        report.silent = if report.examinations.is_empty() {
+            silent(&result)
+        } else {
+            report.silent.filter(|_| !is_examined)
         };
         report.examinations.push(ExaminationReport { examination: name, expected, result });
         if report.silent.is_some() && is_examined {

@@ -268,9 +268,10 @@ impl BoxScene {
         let Self { body: (from, to), dimension, extras, .. } = self;
         let affine = || self.velocity.formulas(*dimension);
         let velocity = extras.velocity.clone().unwrap_or_else(affine);
-        let velocity = match extras.load_steps {
-            true => String::new(),
-            false => format!(", initial_velocity: {velocity:?}"),
+        let velocity = if extras.load_steps {
+            String::new()
+        } else {
+            format!(", initial_velocity: {velocity:?}")
         };
         format!(
             "body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {}{velocity}",
@@ -313,18 +314,17 @@ impl BoxScene {
             keys.push_str(&format!(", contact: {{friction: {friction}}}"));
         }
         extras.keys.iter().for_each(|key| keys.push_str(&format!(", {key}")));
-        let (run, expectation) = match extras.load_steps {
-            true => (
+        let (run, expectation) = if extras.load_steps {
+            (
                 format!(
                     "{{load_steps: {}}}\nreference: {{same_method: {{cells: {}}}}}",
                     self.steps,
                     4.0 * cells
                 ),
                 "error_below: 1",
-            ),
-            false => {
-                (format!("{{until: {:e}, dt: {:e}}}", self.end(), self.dt), "drift: {mass: 1e-13}")
-            }
+            )
+        } else {
+            (format!("{{until: {:e}, dt: {:e}}}", self.end(), self.dt), "drift: {mass: 1e-13}")
         };
         format!(
             "suite: doctor\ntitle: a box\nsource: mpm-verify doctor\n\
@@ -339,9 +339,10 @@ impl BoxScene {
     /// Converts the scene to a problem, and to the capabilities that the problem requires of a
     /// solver. The state is sampled after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
-        let suite = self.suite(match self.extras.load_steps {
-            true => "basis: linear, scheme: quasi_static",
-            false => "basis: linear, transfer: flip, scheme: musl",
+        let suite = self.suite(if self.extras.load_steps {
+            "basis: linear, scheme: quasi_static"
+        } else {
+            "basis: linear, transfer: flip, scheme: musl"
         })?;
         let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;

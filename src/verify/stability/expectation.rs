@@ -21,7 +21,7 @@ pub struct StabilityExpectation {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FigureBounds {
     /// Expected value, and the maximum difference between the measured and the expected value. The
-    /// difference is relative to the expected value, or absolute if that value is smaller than one.
+    /// difference is relative to the expected value, or absolute if that value is zero.
     pub is: Option<(f64, f64)>,
     /// Minimum measured value.
     pub above: Option<f64>,
@@ -34,7 +34,8 @@ impl FigureBounds {
     fn unmet(&self, name: &str, got: f64) -> Vec<String> {
         let mut unmet = Vec::new();
         if let Some((value, within)) = self.is {
-            let error = (got - value).abs() / value.abs().max(1.0);
+            let scale = if value == 0.0 { 1.0 } else { value.abs() };
+            let error = (got - value).abs() / scale;
             if !(error <= within) {
                 unmet.push(format!(
                     "expected {name} {} within {within:e}, got {} (off by {error:.1e})",
@@ -62,7 +63,7 @@ impl FigureBounds {
             }
         };
         match limit {
-            StabilityLimit::At(value) => self.closed(value),
+            StabilityLimit::At(value) => self.unmet("the limit", value),
             StabilityLimit::Above(high) => {
                 let holds = self.is.is_none() && self.below.is_none();
                 beyond(high, holds && self.above.is_some_and(|least| high >= least), "above")
@@ -72,23 +73,6 @@ impl FigureBounds {
                 beyond(low, holds && self.below.is_some_and(|most| low <= most), "below")
             }
         }
-    }
-
-    /// Describes the unmet bounds on a limit inside the searched range. Deviations are relative to
-    /// the expected value, even if that value is small.
-    fn closed(&self, got: f64) -> Vec<String> {
-        let mut unmet = Self { is: None, ..*self }.unmet("the limit", got);
-        if let Some((value, within)) = self.is {
-            let error = (got / value - 1.0).abs();
-            if !(error <= within) {
-                unmet.push(format!(
-                    "expected the limit {} within {within:e}, got {} (off by {error:.1e})",
-                    format_number(value),
-                    format_number(got)
-                ));
-            }
-        }
-        unmet
     }
 }
 
@@ -157,5 +141,20 @@ mod tests {
     fn a_limit_above_the_range(#[case] bounds: FigureBounds, #[case] holds: bool) {
         let unmet = bounds.unmet_by_limit(StabilityLimit::Above(10.0));
         assert_eq!(unmet.is_empty(), holds, "{unmet:?}");
+    }
+
+    /// A deviation of 13 % from a small value does not meet a relative bound of 0.1 %.
+    #[rstest]
+    #[case(0.007, 0.0079, false)]
+    #[case(0.007, 0.007_000_5, true)]
+    #[case(7e6, 7.9e6, false)]
+    #[case(-0.007, -0.007_000_5, true)]
+    #[case(0.0, 0.0005, true)]
+    #[case(0.0, 0.002, false)]
+    #[case(0.007, f64::NAN, false)]
+    #[case(f64::NAN, 0.007, false)]
+    fn a_deviation_is_relative(#[case] value: f64, #[case] got: f64, #[case] holds: bool) {
+        let bounds = FigureBounds { is: Some((value, 1e-3)), ..FigureBounds::default() };
+        assert_eq!(bounds.unmet("value", got).is_empty(), holds);
     }
 }

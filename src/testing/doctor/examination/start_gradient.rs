@@ -51,11 +51,10 @@ pub(super) fn examine(
         let from_centre = format!("(X - ({:e}))", scene.centre()[0]);
         let mut formulas = vec!["0".to_owned(); kind.0];
         formulas[0] = format!("{:e}*{from_centre}^2", 0.5 * c);
-        scene.extras.keys.push(match by_stress {
-            true => {
-                format!("initial_stress: {{xx: \"{:e}*{from_centre}\"}}", (lambda + 2.0 * mu) * c)
-            }
-            false => format!("initial_displacement: {formulas:?}"),
+        scene.extras.keys.push(if by_stress {
+            format!("initial_stress: {{xx: \"{:e}*{from_centre}\"}}", (lambda + 2.0 * mu) * c)
+        } else {
+            format!("initial_displacement: {formulas:?}")
         });
         scene
     };

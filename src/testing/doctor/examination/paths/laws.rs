@@ -42,7 +42,7 @@ const METAL: fn(&mut BoxScene) = |scene| {
 };
 
 const J2: Laws = Laws {
-    laws: &["j2"],
+    names: &["j2"],
     dimensions: &[2, 3, 1],
     measures: [1.0, 0.5],
     paths: &[
@@ -123,7 +123,7 @@ const fn stretch(strain: f64) -> StrainGradient {
 }
 
 const FLUID: Laws = Laws {
-    laws: &["newtonian", "linear_fluid", "polytropic"],
+    names: &["newtonian", "linear_fluid", "polytropic"],
     dimensions: &[2, 3, 1],
     // An explicit step multiplies the volume by 1 + tr(D) dt, det(I + L dt), exp(tr(D) dt) or
     // 1/(1 - tr(D) dt). These factors differ by at most the square of the strain of the step.
@@ -154,9 +154,8 @@ const FLUID: Laws = Laws {
         (|scene| scene.extras.viscosity *= 0.5, 1.0, VISCOSITY_SCALED),
         (|scene| scene.extras.viscosity *= 2.0, 1.0, VISCOSITY_SCALED),
     ],
-    otherwise: |leg: &Leg, _, _| match leg.scene.extras.viscosity > 0.0 {
-        true => VISCOUS_STRESS,
-        false => PRESSURE_DIFFERS,
+    otherwise: |leg: &Leg, _, _| {
+        if leg.scene.extras.viscosity > 0.0 { VISCOUS_STRESS } else { PRESSURE_DIFFERS }
     },
 };
 
@@ -204,7 +203,7 @@ const VISCOUS_STRESS: LawCause = (
 const PLATE_STRAIN: StrainGradient = [[-0.000_75, 0.000_4, 0.0], [0.0, 0.000_2, 0.0], [0.0; 3]];
 
 const PLATE: Laws = Laws {
-    laws: &["linear_elastic", "neo_hookean", "hencky", SMALL_STRAIN],
+    names: &["linear_elastic", "neo_hookean", "hencky", SMALL_STRAIN],
     dimensions: &[2],
     measures: [1.0, 0.5],
     paths: &[StrainPath::new("stretch and shear", PLATE_STRAIN, |scene| {

@@ -111,7 +111,7 @@ impl StrainPath {
 
 /// Laws that are examined on the same paths.
 struct Laws {
-    laws: &'static [&'static str],
+    names: &'static [&'static str],
     /// Numbers of dimensions. All paths run in the first one that the solver supports.
     dimensions: &'static [usize],
     /// Differences between correct codes, divided by the strain: of the stress measure, relative to
@@ -198,10 +198,10 @@ fn examine(patient: &Patient<'_>, laws: &Laws) -> Result<Examined, Hindrance> {
         let scene = |kind: Kind| laws.paths[0].scene(kind);
         patient.able_with(dimensions, law, &scene, &|needs| needs.columns = vec!["stress"])
     };
-    able(laws.dimensions, laws.laws)?;
+    able(laws.dimensions, laws.names)?;
     let (mut measured, mut findings) = (Vec::new(), Vec::<SolverFinding>::new());
     let mut refused = None;
-    for law in laws.laws {
+    for law in laws.names {
         let mut run: Vec<Leg> = Vec::new();
         for d in laws.dimensions.iter().filter(|d| able(&[**d], &[*law]).is_ok()) {
             match legs(patient, (*d, law), laws, !run.is_empty()) {

@@ -42,7 +42,7 @@ const WITHOUT_FRICTION: fn(&mut BoxScene) = |scene| {
 };
 
 const SOIL: Laws = Laws {
-    laws: &["drucker_prager", "mohr_coulomb"],
+    names: &["drucker_prager", "mohr_coulomb"],
     dimensions: &[2, 3, 1],
     measures: [1.0, 0.5],
     paths: &[
