@@ -245,7 +245,6 @@ fn methods_are_ranked_by_the_cost_of_accuracy() {
 #[case(&["diagnose", "bar.yaml", "--case", "mpm"], "/cases/0/sound", &json!(true))]
 #[case(&["problem", "bar.yaml", "--level", "1"], "/suite", &json!("short-bar"))]
 #[case(&["cost", "bar.yaml"], "/suites/0/suite", &json!("short-bar"))]
-#[case(&["compare", "empty.json", "empty.json"], "/worse", &json!(false))]
 #[case(&["new", "my-suite"], "/file", &json!("my-suite.yaml"))]
 fn every_command_prints_one_document(
     #[case] arguments: &[&str],
@@ -253,7 +252,6 @@ fn every_command_prints_one_document(
     #[case] wanted: &Value,
 ) {
     let folder = Folder::with("bar.yaml", BAR);
-    folder.write("empty.json", r#"{"suites": []}"#);
     let found = folder.call(&[arguments, &["--format", "json"]].concat());
     assert_eq!(found.code, SOUND, "{}", found.errors);
     let document: Value = serde_json::from_str(&found.out).expect("one document");

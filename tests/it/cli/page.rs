@@ -16,7 +16,6 @@ fn page_has_verdicts_figures_reports_and_suites() {
             "<a href=\"#case-short-bar.fem-linear-lumped\">",
             "<tr id=\"case-short-bar.fem-linear-lumped\">",
             "<figure id=\"figure-short-bar.1\">",
-            "<figure id=\"figure-grid-crossing.1\">",
             "<details id=\"yaml-short-bar\"><summary>bar.yaml</summary>",
             "initial_velocity: [&quot;1e-3*sin(pi*X/2)&quot;]",
         ],

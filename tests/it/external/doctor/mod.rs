@@ -124,7 +124,6 @@ fn solver_of_the_example_has_no_defects() {
             "fluids",
             "plane-stress",
             "start",
-            "periodic-ends",
             "hourglass",
             "traction",
             "damping",
@@ -132,6 +131,7 @@ fn solver_of_the_example_has_no_defects() {
             "friction",
             "bodies",
             "contact",
+            "periodic-ends",
             "load-steps"
         ]
     );
