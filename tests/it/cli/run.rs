@@ -93,12 +93,7 @@ fn out_writes_the_report_the_figures_and_the_json() {
     let folder = Folder::with("bar.yaml", BAR);
     let out = folder.accepted(&["run", "bar.yaml", "grid-crossing", "--out", "new/results"]);
     let files = folder.files("new/results");
-    for file in [
-        "report.json",
-        "short-bar.txt",
-        "short-bar.svg",
-        "grid-crossing.txt",
-    ] {
+    for file in ["report.json", "short-bar.txt", "short-bar.svg", "grid-crossing.txt"] {
         assert!(files.iter().any(|found| found == file), "no {file} among {files:?}");
     }
     let report = folder.read("new/results/short-bar.txt");
