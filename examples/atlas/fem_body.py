@@ -75,6 +75,8 @@ class FiniteElements(TotalLagrangian):
         volume = self.load(np.ones_like(self.gauss))
         self.density = problem.materials[0]["density"]
         self.mass = self.density * self.join(volume)
+        # Nodes that periodic axes identify have one velocity.
+        self.v = self.join(self.density * volume * self.v) / self.mass
         self.external, self.a = None, None
         self.v *= self.free
         if self.points == "quadrature":

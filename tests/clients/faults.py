@@ -1816,7 +1816,7 @@ EXPECTED = {
 # Fault -> further names whose text gives the direction, but not the cause.
 HALF = {
     "j2-without-hardening": "j2-not-accumulated",
-    "position-from-mean-velocity-2": "hourglass-mode",
+    "position-from-mean-velocity": "hourglass-mode",
     "step-cut-at-the-start": "start-half-a-step-off",
     "wall-functions-cut": "wall-velocity-missing",
 }

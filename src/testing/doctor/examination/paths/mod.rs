@@ -272,7 +272,8 @@ fn finding(legs: &[Leg], laws: &Laws) -> Result<Option<SolverFinding>, Hindrance
             let is_same = next.path.gradient == leg.path.gradient && leg.path.cause.is_none();
             is_same && leg.path.steps == 1 && next.scene.dimension == leg.scene.dimension
         });
-        if let Some(next) = next.filter(|next| !(leg.distance_from(next) <= leg.bound)) {
+        let differs = |next: &&Leg| !(leg.distance_from(next) <= leg.bound.max(next.bound));
+        if let Some(next) = next.filter(differs) {
             let errors = [leg, next].map(Leg::relative_error);
             if errors[0].min(errors[1]) <= STEP_RATIO * errors[0].max(errors[1]) {
                 let wrong = if errors[0] > errors[1] { leg } else { next };
