@@ -1830,8 +1830,8 @@ UNNAMED = {
                                 "that differs by 1 %",
     "total-force-of-the-step-start": "the force of the start of a step is what explicit schemes use; the order in time "
                                      "of `ramped-load` shows it",
-    "volume-change-of-one-particle": "particles of a cell have equal volume changes in the scenes of `doctor`; "
-                                     "`diagnose` names the number of particles",
+    "volume-change-of-one-particle": "volume changes differ within a cell only next to a wall under gravity; `diagnose` "
+                                     "names the number of particles",
     "position-from-mean-velocity-2": "with quadratic functions and USL, the mean of the old and the new velocity is a "
                                      "consistent update of smooth motions; the alternating mode shows it",
     "step-cut-at-the-start": "after a first step of half the length, all positions are half a step behind",

@@ -6,7 +6,7 @@
 //! the initial first Piola-Kirchhoff stress.
 
 use super::start_gradient;
-use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, sampling_error};
+use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, require_whole_body};
 use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
@@ -137,6 +137,9 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
         scenes.push(stretched((first.dimension, law), placement));
     }
     let courses = patient.run_all(&scenes)?;
+    for (scene, course) in scenes.iter().zip(&courses) {
+        require_whole_body(course, scene)?;
+    }
     let mut all = Examined::default();
     for (scene, course) in scenes.iter().zip(&courses) {
         let forces = Forces::new(course, scene);
@@ -383,8 +386,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
             "`particles.deformation_gradient` of the problem; the initialisation of F",
         ));
     }
-    // Points that are a sample make the force inaccurate.
-    let is_wrong = !(forces.error <= NEAR + sampling_error(course, scene));
+    let is_wrong = !(forces.error <= NEAR);
     if is_wrong && has_initial_stress(course, scene) {
         return Some(force_of_deformed_body(&force, forces));
     }

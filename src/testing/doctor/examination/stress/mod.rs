@@ -231,7 +231,7 @@ fn lost_momentum(
 /// `k` particles with the spacing `p` along one axis, the points are shifted by up to (k - 1) p/2
 /// from the middle of what they represent, over which velocities differ by twice the gain. Zero for
 /// a complete set of points.
-pub(super) fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
+fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
     if is_complete(course, scene) {
         return 0.0;
     }
