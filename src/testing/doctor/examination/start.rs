@@ -296,29 +296,28 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Describes the components of the column `stress` that differ from the initial stress after one
-/// step. Laws in rate form keep a wrong initial stress.
-fn wrong_components_of_column(course: &Course, scene: &BoxScene) -> Option<String> {
+/// Returns the entries of the column `stress` that differ from the initial stress after one step,
+/// and whether the column has a stress. NaN differs. `None` if the solver has no such column.
+fn wrong_entries_of_column(course: &Course, scene: &BoxScene) -> Option<(Vec<usize>, bool)> {
     let d = scene.dimension;
     let sigma = &course.problem.particles.stress[..d * d];
     let scale = sigma.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let column = inside(course, scene, &course.states[1].stress)?;
     let is_wrong = |k: &usize| !((column[*k] - sigma[*k]).abs() <= 0.2 * scale);
     let has_stress = column.iter().any(|x| x.abs() > 0.2 * scale);
-    let axis = ["x", "y", "z"];
+    Some(((0..d * d).filter(is_wrong).collect(), has_stress))
+}
+
+/// Describes the components of the column `stress` that differ from the initial stress after one
+/// step. Laws in rate form keep a wrong initial stress.
+fn wrong_components_of_column(course: &Course, scene: &BoxScene) -> Option<String> {
+    let (wrong, has_stress) = wrong_entries_of_column(course, scene)?;
+    let (d, axis) = (scene.dimension, ["x", "y", "z"]);
     let names: Vec<String> =
-        (0..d * d).filter(is_wrong).map(|k| format!("{}{}", axis[k / d], axis[k % d])).collect();
+        wrong.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d])).collect();
     (has_stress && !names.is_empty()).then(|| {
         format!("after one step, the column `stress` has other components {}", names.join(", "))
     })
-}
-
-/// Whether the column `stress` has the initial stress after one step.
-fn has_initial_stress(course: &Course, scene: &BoxScene) -> bool {
-    let sigma = &course.problem.particles.stress[..scene.dimension * scene.dimension];
-    let scale = sigma.iter().map(|x| x.abs()).fold(0.0, f64::max);
-    let column = inside(course, scene, &course.states[1].stress);
-    column.is_some_and(|column| largest_difference(&column, sigma) <= 0.2 * scale)
 }
 
 fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
@@ -387,7 +386,8 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         ));
     }
     let is_wrong = !(forces.error <= NEAR);
-    if is_wrong && has_initial_stress(course, scene) {
+    let entries = wrong_entries_of_column(course, scene);
+    if is_wrong && entries.is_some_and(|(wrong, _)| wrong.is_empty()) {
         return Some(force_of_deformed_body(&force, forces));
     }
     let wrong = wrong_components_of_column(course, scene);
