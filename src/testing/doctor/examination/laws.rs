@@ -90,11 +90,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         } else if let (Some(column), true) =
             (&stress_column, stress_off.is_some_and(|off| !(off <= NEAR)))
         {
-            let [early, earliest] =
-                [stress_errors(course, scene, EARLY)?, stress_errors(course, scene, EARLY / 2)?];
             // A body that starts deformed has no small strains.
-            let law = scene.displacement.is_zero().then_some(stress_error(column, &stress));
-            let law = law.and_then(|end| of_parameters(&name, end, early, earliest));
+            let law = if scene.displacement.is_zero() {
+                let [early, earliest] = [EARLY, EARLY / 2].map(|k| stress_errors(course, scene, k));
+                of_parameters(&name, stress_error(column, &stress), early?, earliest?)
+            } else {
+                None
+            };
             of_law.push(match law {
                 Some(finding) => finding,
                 None => of_stress(&name, column, &stress, gradient, scene)?,
