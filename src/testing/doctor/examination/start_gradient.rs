@@ -7,18 +7,17 @@ use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
 
-/// Maximum relative error of an acceleration, as of the forces in the examination `start`.
-const NEAR: f64 = 0.12;
-
 /// Gradient (1/m) of an initial strain that varies along the first axis. Strains are at most 0.006.
 const STRAIN_GRADIENT: f64 = 0.008;
 
-/// Velocities at the end of the first step may belong to a time half a step earlier or later. If
-/// the law computes the stress from F, a wrong initial stress acts in the first step only.
+/// Velocities at the end of the first step may belong to a time half a step earlier or later. The
+/// faces move outwards faster than the middle, and a transfer that diffuses momentum over some
+/// cells carries this to the middle: APIC with cubic B-splines and five sub-steps has 1.14. If the
+/// law computes the stress from F, a wrong initial stress acts in the first step only.
 const GRADIENT: Rules<2> = Rules {
     quantities: [
         ("velocity after one step", 1.0, 0.62),
-        ("acceleration in later steps", 1.0, NEAR),
+        ("acceleration in later steps", 1.0, 0.3),
     ],
     findings: &[
         ("initial-stress-uniform", [None, Some(0.0)], UNIFORM),
