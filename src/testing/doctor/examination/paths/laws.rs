@@ -21,7 +21,8 @@ pub(in super::super) const FLUIDS: Examination = Examination {
     name: "fluids",
     expected: "in compression and extension, the column `stress` is the pressure of the equation \
                of state; in shear, it contains the viscous stress",
-    after: AFTER,
+    // The pressure of a gas also depends on the mass, which `start` examines.
+    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws", "start"],
     covers: &["laws: newtonian", "laws: linear_fluid", "laws: polytropic"],
     examine: |patient| examine(patient, &FLUID),
 };

@@ -29,7 +29,8 @@ pub(in crate::testing::doctor) struct MeasuredModuli {
     pub(in crate::testing::doctor) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
-    /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate.
+    /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate; negative if
+    /// the stress follows the strain with a delay.
     pub(super) viscosity: f64,
     /// Ratio of the momentum transferred by averaging to the momentum transferred by stress; at
     /// most 1.
@@ -84,10 +85,10 @@ pub(in crate::testing::doctor) fn moduli_by_momentum(
         ..MeasuredModuli::default()
     };
     // A time shift of the stress by half a step is not viscosity.
-    let viscous = (viscous.abs() - 0.6 * (along * scene.dt).abs()).max(0.0);
+    let excess = (viscous.abs() - 0.6 * (along * scene.dt).abs()).max(0.0);
     let end = course.times[course.last()];
-    measured.viscosity = viscous / STRETCH / scene.density;
-    measured.viscous_share = (2.0 * viscous / (along * end).abs()).min(1.0);
+    measured.viscosity = excess.copysign(viscous / STRETCH) / STRETCH.abs() / scene.density;
+    measured.viscous_share = (2.0 * excess / (along * end).abs()).min(1.0);
     if scene.dimension > 1 {
         measured.across = flux((1, 1))[1] / STRETCH;
         measured.shear = [(0, 1), (1, 0)].map(|way| flux(way)[1] / SHEAR);
