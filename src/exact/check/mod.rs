@@ -34,6 +34,7 @@ impl Problem {
         pointwise::presence(self, survey)?;
         pointwise::uniaxial_strain(self, survey)?;
         pointwise::initial(self, survey)?;
+        pointwise::known_stress(self, survey)?;
         boundary::boundary(self, survey)?;
         boundary::driven(self, survey)?;
         pointwise::tractions_on_rims(self, survey)?;

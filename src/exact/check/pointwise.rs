@@ -189,6 +189,25 @@ pub(crate) fn monotone_loading(problem: &Problem, survey: &Survey) -> Result<(),
     Ok(())
 }
 
+/// Checks that the law has a stress for each strain of the motion. Cam-clay has none where it
+/// yields in extension or softens, and most laws have none for a body that is turned inside out.
+pub(crate) fn known_stress(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
+    for SurveyPoint { event, now, .. } in &survey.points {
+        let piola = problem.piola(&event.label, event.t, now);
+        let Some(found) = piola.iter().flatten().find(|component| !component.is_finite()) else {
+            continue;
+        };
+        let strain = strained_axis(&now.grad).map(|axis| (AXES[axis], now.grad[axis][axis]));
+        let what = strain.map_or("this deformation".to_owned(), |(axis, grad)| {
+            let kind = if grad > 0.0 { "extension" } else { "compression" };
+            format!("the {kind} du_{axis}/d{axis} = {grad:.3e}")
+        });
+        let condition = format!("`{}` has no stress for {what},", problem.equation.name());
+        return Err(event.violation(condition, None, *found, None, "Pa"));
+    }
+    Ok(())
+}
+
 /// Checks for a law with history that its stress is known: the motion is uniaxial strain, and a
 /// body that deforms has equal initial stresses across this axis, without shear.
 pub(crate) fn uniaxial_strain(problem: &Problem, survey: &Survey) -> Result<(), Violation> {

@@ -79,3 +79,18 @@ fn a_disk_that_spins_in_plane_stress(#[case] edits: Edits<'_>) {
     let disk = include_str!("../../../verification/conservation/spinning-disk.yaml");
     refused(disk, edits, &["is violated at X", "this is not a solution"]);
 }
+
+/// Clay yields in extension, or softens in compression from far inside its yield surface. Its
+/// stress is then unknown.
+#[rstest]
+#[case("rate: 0.2", "0.25", "`cam_clay` has no stress for the extension du_X/dX = ")]
+#[case("rate: -0.3", "0", "`cam_clay` has no stress for the compression du_X/dX = -")]
+fn a_strain_without_stress(#[case] rate: &str, #[case] poisson: &str, #[case] words: &str) {
+    let clay = include_str!("../../../verification/soils/path-cam-clay-elastic.yaml");
+    let edits = [
+        ("rate: -0.03", rate),
+        ("poisson: 0.25", &format!("poisson: {poisson}")),
+        ("[\"rate*t*X\"]", "[▸\"rate*t*X\"]"),
+    ];
+    refused(clay, &edits, &[words]);
+}
