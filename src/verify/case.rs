@@ -87,7 +87,12 @@ pub fn judge_case<R: Reruns>(
         Some(expectation) => headline(expectation, &judgement, &measured, &unmet),
         None => plan.explore(&judgement, &measured),
     };
-    let met = gate.as_ref().and_then(|gate| gate.result.as_ref().ok()).copied();
+    let rounding = rounding_without_order(plan, gate.as_ref(), &levels, reruns);
+    let (met, reason) = match (&rounding, &gate) {
+        (Some(remark), _) => (Some(Acceptance::Rounding), remark.clone()),
+        (None, Some(gate)) => (gate.result.as_ref().ok().copied(), reason),
+        (None, None) => (None, reason),
+    };
     let cause = floor.as_ref().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
     let reasons: Vec<String> =
         [Some(reason), cause].into_iter().flatten().chain(remarks.clone()).collect();
@@ -96,8 +101,27 @@ pub fn judge_case<R: Reruns>(
         reason: reasons.join("; "),
         unmet,
         exemption,
-        study: Convergence { remarks, ..plan.study(levels, judgement, floor, gate.as_ref()) },
+        study: Convergence { remarks, ..plan.study(levels, judgement, floor, met, gate.as_ref()) },
     }
+}
+
+/// Describes the errors of a case without requirement, if all are rounding errors. They have no
+/// order, except by chance.
+fn rounding_without_order<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    gate: Option<&GateResult>,
+    levels: &[LevelOutcome],
+    reruns: &R,
+) -> Option<String> {
+    // Levels in single precision have a bound of their own, and advice.
+    let is_double = levels.iter().all(|level| level.rounding_bound.is_none());
+    let is_free = plan.is_compared && plan.expectation.is_none() && gate.is_none() && is_double;
+    let counted: Vec<&LevelOutcome> =
+        levels.iter().filter(|level| level.usable && is_free).collect();
+    let bound = (!counted.is_empty()).then(|| rerun::rounding(plan, levels, reruns))?;
+    let is_within = |level: &&LevelOutcome| level.run.failure.is_none() && level.error <= bound;
+    let (all, is_met) = (counted.len(), bound > 0.0 && counted.iter().all(is_within));
+    is_met.then(|| rounding_remark(bound, all, all))
 }
 
 /// Returns the remarks on a case that meets its requirement: the levels at rounding, an order that
@@ -136,9 +160,9 @@ impl JudgePlan<'_> {
         levels: Vec<LevelOutcome>,
         judgement: Judgement,
         floor: Option<Floor>,
+        accepted: Option<Acceptance>,
         gate: Option<&GateResult>,
     ) -> Convergence {
-        let accepted = gate.and_then(|gate| gate.result.as_ref().ok()).copied();
         let limits = self.expectation.map(|expectation| &expectation.limits);
         Convergence {
             axis: self.axis,

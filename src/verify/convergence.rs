@@ -43,7 +43,8 @@ pub struct Convergence {
     /// Whether the case has bounds on measured values only, and no expected order. Every usable
     /// level then counts.
     pub bounded: bool,
-    /// Reason why an external solver meets the requirement of `run --gate`, if it does.
+    /// Reason why an external solver meets the requirement of `run --gate`, if it does. A case
+    /// without requirement is accepted only if all its errors are rounding errors.
     pub accepted: Option<Acceptance>,
     /// Remarks of `run --gate`: the rounding bound, an order far above the required one, and a
     /// shorter time step that restored the order.

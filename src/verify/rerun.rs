@@ -169,7 +169,11 @@ fn is_step_fixed(plan: &JudgePlan<'_>, levels: &[LevelOutcome]) -> bool {
 /// Estimates the error due to rounding, in the judged norm and relative to the judged scale:
 /// rounding errors of the largest number from which the judged quantity is computed are added like
 /// the steps of a random walk.
-fn rounding<R: Reruns>(plan: &JudgePlan<'_>, levels: &[LevelOutcome], reruns: &R) -> f64 {
+pub(super) fn rounding<R: Reruns>(
+    plan: &JudgePlan<'_>,
+    levels: &[LevelOutcome],
+    reruns: &R,
+) -> f64 {
     let Some(RoundingSizes { value, number, unit }) = reruns.rounding() else { return 0.0 };
     let steps = levels.iter().map(|level| level.run.steps).max().unwrap_or(0);
     let walk = ROUNDINGS * unit * number * libm::sqrt(steps as f64 + 1.0);
