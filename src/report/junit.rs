@@ -2,21 +2,38 @@
 
 use crate::report::suite::text;
 use crate::verify::{CaseOutcome, SuiteOutcome};
+use chrono::{DateTime, Utc};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::collections::BTreeSet;
+use std::time::{Duration, SystemTime};
+
+/// Wall-clock times of a run.
+#[derive(Debug, Clone)]
+pub struct RunTimes {
+    /// Start of the run.
+    pub start: SystemTime,
+    /// Duration of the run.
+    pub whole: Duration,
+    /// Duration of each suite. Suites run at the same time, so the sum can exceed `whole`.
+    pub suites: Vec<Duration>,
+}
 
 /// Converts reports to JUnit XML, with a test suite for each suite and a test case for each case.
 ///
 /// A case that is not applicable, excepted or not gated is skipped with its reason. If its suite is
 /// in `required`, the case fails instead, as with `run --gate`. The text of a failure is the report
-/// of the case. Times are omitted, so that equal results give equal documents.
+/// of the case. `times` has the durations of `outcomes`, the only part of the document that equal
+/// results do not determine.
 ///
 /// # Panics
 /// Never, because writing to memory does not fail.
-pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>) -> String {
+pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>, times: &RunTimes) -> String {
+    let start = DateTime::<Utc>::from(times.start);
     let mut report = Report::new("mpm-verify");
-    for outcome in outcomes {
+    report.set_timestamp(start).set_time(times.whole);
+    for (outcome, time) in outcomes.iter().zip(&times.suites) {
         let mut suite = TestSuite::new(outcome.suite.as_str());
+        suite.set_timestamp(start).set_time(*time);
         let is_required = required.contains(&outcome.suite);
         for case in &outcome.cases {
             let mut test = TestCase::new(case.case.as_str(), status(case, is_required));

@@ -32,7 +32,7 @@ pub use json::diagnosis_json;
 pub use json::schema::report_schema;
 pub use json::timed_json;
 #[cfg(feature = "cli")]
-pub use junit::junit;
+pub use junit::{RunTimes, junit};
 pub use latex::latex;
 pub use suite::json::{json, profile as profile_json};
 pub use suite::overview::{glance, overview};

@@ -3,7 +3,7 @@
 use super::args::ReportArgs;
 use super::printing::labelled;
 use crate::cli::output::CommandError;
-use mpm_verify::report::{self, page};
+use mpm_verify::report::{self, RunTimes, page};
 use mpm_verify::study::{Runner, SeriesError, SeriesFile};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
@@ -60,8 +60,9 @@ pub(super) fn write_junit(
     file: &Path,
     outcomes: &[SuiteOutcome],
     required: &BTreeSet<String>,
+    times: &RunTimes,
 ) -> Result<(), CommandError> {
-    let text = report::junit(outcomes, required);
+    let text = report::junit(outcomes, required, times);
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 

@@ -14,6 +14,7 @@ use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
+use mpm_verify::report::RunTimes;
 use mpm_verify::study::{ResultCache, Runner, StepWarning, unit_seconds};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
@@ -23,6 +24,7 @@ use progress::RunProgress;
 use queue::{Job, JobOutput, in_order};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::time::{Duration, Instant, SystemTime};
 
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
@@ -125,46 +127,14 @@ fn report(
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
     }
-    // Outcomes for each solver, in the order of `judging.solvers`, for the check of its gate.
-    let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
-    let mut outcomes: Vec<SuiteOutcome> = Vec::new();
-    let run = |job: &mut Job<'_, _>| {
-        let parts = runs[job.number()].parts().iter();
-        parts.map(|part| (part.solver, one(part, args, &judging, &bar, job))).collect()
-    };
-    // The speed of an external solver is unknown.
-    let is_long = |runs: &SuiteRuns| {
-        let seconds = |suite| unit_seconds(suite, extent(args)).iter().sum::<f64>();
-        let mut parts = runs.parts().iter();
-        parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
-    };
-    let are_long: Vec<bool> = runs.iter().map(is_long).collect();
-    let threads = WAITING * rayon::current_num_threads();
-    let take = |sent: JobOutput<Vec<(Option<usize>, SuiteOutcome)>>| {
-        let parts = match sent {
-            JobOutput::Message(text) => return bar.suspend(|| output::complain(&text)),
-            JobOutput::Result(parts) => parts,
-        };
-        let mut joined: Option<SuiteOutcome> = None;
-        for (solver, outcome) in parts {
-            if let Some(number) = solver {
-                of_solvers[number].push(outcome.clone());
-            }
-            SuiteOutcome::join(&mut joined, outcome);
-        }
-        if let Some(outcome) = joined {
-            bar.suspend(|| printing.of_suite(&outcome));
-            outcomes.push(outcome);
-        }
-    };
-    in_order(runs.len(), threads, |number| are_long[number], run, take);
+    let RunResults { outcomes, of_solvers, times } = run_all(args, &runs, &judging, &bar, printing);
     let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &sources, &outcomes);
     let written =
         args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
     let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
-    let junit = |file| files::write_junit(file, &outcomes, &judging.required());
+    let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
     let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(series);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
@@ -195,6 +165,70 @@ fn report(
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
     Ok(if passed { Status::Passed } else { Status::Failed })
+}
+
+/// Outcomes and times of all suites.
+struct RunResults {
+    outcomes: Vec<SuiteOutcome>,
+    /// Outcomes for each solver, in the order of [`Judging::solvers`], for the check of its gate.
+    of_solvers: Vec<Vec<SuiteOutcome>>,
+    times: RunTimes,
+}
+
+/// Results of one suite.
+struct JobResult {
+    /// Outcome of each part, with the index of its solver; `None` for the methods of the suite.
+    parts: Vec<(Option<usize>, SuiteOutcome)>,
+    time: Duration,
+}
+
+/// Runs all suites, and prints each report when the suite and all earlier ones have ended.
+fn run_all(
+    args: &ReportArgs,
+    runs: &[SuiteRuns],
+    judging: &Judging,
+    bar: &RunProgress,
+    printing: Printing,
+) -> RunResults {
+    let mut of_solvers: Vec<Vec<SuiteOutcome>> = vec![Vec::new(); judging.solvers.len()];
+    let mut outcomes: Vec<SuiteOutcome> = Vec::new();
+    let mut times =
+        RunTimes { start: SystemTime::now(), whole: Duration::ZERO, suites: Vec::new() };
+    let start = Instant::now();
+    let run = |job: &mut Job<'_, _>| {
+        let (parts, start) = (runs[job.number()].parts().iter(), Instant::now());
+        let parts = parts.map(|part| (part.solver, one(part, args, judging, bar, job))).collect();
+        JobResult { parts, time: start.elapsed() }
+    };
+    // The speed of an external solver is unknown.
+    let is_long = |runs: &SuiteRuns| {
+        let seconds = |suite| unit_seconds(suite, extent(args)).iter().sum::<f64>();
+        let mut parts = runs.parts().iter();
+        parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
+    };
+    let are_long: Vec<bool> = runs.iter().map(is_long).collect();
+    let threads = WAITING * rayon::current_num_threads();
+    let take = |sent: JobOutput<JobResult>| {
+        let JobResult { parts, time } = match sent {
+            JobOutput::Message(text) => return bar.suspend(|| output::complain(&text)),
+            JobOutput::Result(parts) => parts,
+        };
+        let mut joined: Option<SuiteOutcome> = None;
+        for (solver, outcome) in parts {
+            if let Some(number) = solver {
+                of_solvers[number].push(outcome.clone());
+            }
+            SuiteOutcome::join(&mut joined, outcome);
+        }
+        if let Some(outcome) = joined {
+            bar.suspend(|| printing.of_suite(&outcome));
+            outcomes.push(outcome);
+            times.suites.push(time);
+        }
+    };
+    in_order(runs.len(), threads, |number| are_long[number], run, take);
+    times.whole = start.elapsed();
+    RunResults { outcomes, of_solvers, times }
 }
 
 fn threads(jobs: Option<usize>) -> Result<(), CommandError> {

@@ -96,6 +96,27 @@ fn junit_has_one_test_for_each_case() {
     let report = quick_junit::Report::deserialize_from_str(&xml).unwrap();
     assert_eq!((report.tests, report.failures, report.test_suites.len()), (4, 2, 2), "{xml}");
     assert!(xml.contains("with the order within [2.90, 3.10]"), "{xml}");
+    let (start, whole) = (report.timestamp.unwrap(), report.time.unwrap());
+    assert!(!whole.is_zero(), "{xml}");
+    for suite in &report.test_suites {
+        assert!(suite.timestamp == Some(start) && suite.time.unwrap() <= whole, "{xml}");
+    }
+}
+
+/// XML forbids U+FFFE and U+FFFF, which JSON allows in the answer of a solver.
+#[test]
+fn junit_has_no_forbidden_characters() {
+    let folder = Folder::with("bar.yaml", BAR);
+    let script = r#"read -r m; echo '{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}'
+while read -r m; do echo '{"type":"cannot","reason":"no \ufffe, no \uffff, no \u0001"}'; done"#;
+    folder.write("solver.sh", script);
+    let run = ["run", "bar.yaml", "--solver", "sh solver.sh", "--gate", "--junit", "junit.xml"];
+    let answer = folder.call(&run);
+    assert_eq!(answer.code, FAILED, "{}", answer.errors);
+    let xml = folder.read("junit.xml");
+    quick_junit::Report::deserialize_from_str(&xml).unwrap();
+    assert!(xml.contains("no \u{fffd}, no \u{fffd}, no "), "{xml}");
+    assert!(!xml.contains(['\u{1}', '\u{fffe}', '\u{ffff}']), "{xml}");
 }
 
 #[test]
