@@ -90,8 +90,8 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
     let mut all = run.context.solver.map_or(Vec::new(), SolverFactory::settings);
     all.extend(settings);
     CaseOutcome {
-        expected: case.summary.clone(),
-        because: case.because.clone(),
+        expected: case.expectations.summary.clone(),
+        because: case.expectations.because.clone(),
         ..CaseOutcome::new(&case.name, case.method.subject(), all)
     }
 }
@@ -99,6 +99,7 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
 fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
     let unmet: Vec<String> = case
+        .expectations
         .expected
         .iter()
         .zip(&rows)

@@ -94,6 +94,10 @@ pub(crate) struct CriticalSpec {
 pub(crate) struct StabilityExpectSpec {
     /// Names of the cases, with `*` for any text; default: all cases.
     pub(crate) case: Option<OneOrMany<String>>,
+    /// Whether `run --gate` requires this of external solvers. The entry then applies to no case
+    /// of the suite.
+    #[serde(default)]
+    pub(crate) any_method: bool,
     /// Expected verdict of all rows, or a list with one verdict per row.
     pub(crate) verdict: Option<OneOrMany<Stability>>,
     /// Bounds on the stability limit.
@@ -112,7 +116,7 @@ pub(crate) struct StabilityExpectSpec {
 pub(crate) struct FigureSpec {
     /// Expected value, as a formula of the parameters.
     pub(crate) is: Option<NumberText>,
-    /// Maximum deviation from `is`, relative to `is` or to one, whichever is larger.
+    /// Maximum deviation from `is`, relative to `is`, or absolute if `is` is 0.
     pub(crate) within: Option<NumberText>,
     /// Lower bound.
     pub(crate) above: Option<NumberText>,

@@ -25,6 +25,19 @@ pub struct StabilityPlan {
     pub figures: Vec<RunFigure>,
     /// The cases, one for each combination of the lists under the key `methods`, in order.
     pub cases: Vec<StabilityCase>,
+    /// Requirement of `run --gate` on external solvers, if the suite states one.
+    pub any_method: Option<RowExpectations>,
+}
+
+/// Expectations for the rows of a case.
+#[derive(Debug, Clone, Default)]
+pub struct RowExpectations {
+    /// Expectation for each row; empty if the suite states no expectations.
+    pub expected: Vec<StabilityExpectation>,
+    /// Summary of all expectations in one line; `None` if the suite states none.
+    pub summary: Option<String>,
+    /// The reason for the expectations.
+    pub because: String,
 }
 
 /// A suite that can be evaluated for other values of its parameters.
@@ -52,12 +65,8 @@ pub struct StabilityCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Expectation for each row; empty if the suite states no expectations.
-    pub expected: Vec<StabilityExpectation>,
-    /// Summary of all expectations in one line; `None` if the suite states none.
-    pub summary: Option<String>,
-    /// The reason for the expectations.
-    pub because: String,
+    /// What the suite or the gate expects of the rows.
+    pub expectations: RowExpectations,
     /// Role in `run --gate` (required, not gated or excepted), for an external solver.
     pub gating: Option<Gating>,
 }
@@ -68,7 +77,7 @@ impl StudyPlan for StabilityPlan {
     }
 
     fn expectation(&self, case: usize) -> Option<(String, &str)> {
-        let StabilityCase { summary, because, .. } = &self.cases[case];
+        let RowExpectations { summary, because, .. } = &self.cases[case].expectations;
         Some((summary.clone()?, because))
     }
 
@@ -85,12 +94,15 @@ impl StudyPlan for StabilityPlan {
         let case = StabilityCase {
             name: name.to_owned(),
             method: Method::External { formal_order, precision },
-            expected: Vec::new(),
-            summary: None,
-            because: String::new(),
-            gating: terms.map(|terms| match &terms.skip {
-                Some(reason) => Gating::Excepted(reason.clone()),
-                None => Gating::NotGated("a stability study has no order".to_owned()),
+            expectations: terms.and(self.any_method.clone()).unwrap_or_default(),
+            gating: terms.and_then(|terms| match (&terms.skip, &self.any_method) {
+                (Some(reason), _) => Some(Gating::Excepted(reason.clone())),
+                (None, Some(_)) => None,
+                (None, None) => {
+                    let reason = "a stability study has no order, and the suite states no \
+                                  expectation with `any_method`";
+                    Some(Gating::NotGated(reason.to_owned()))
+                }
             }),
         };
         Some(Arc::new(Self { cases: vec![case], ..self.clone() }))

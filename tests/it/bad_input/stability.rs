@@ -90,6 +90,17 @@ use rstest::rstest;
 #[case::with_turns_too_long(
     &[("frozen: true", "frozen: true, alternate: 1, every: ▸1e4")], &["expected at most 1000"]
 )]
+#[case::with_requirements_on_solvers_before_cases(
+    &[("case: \"mpm-linear-apic-*\"", "▸any_method: true")],
+    &["only the last entry can have `any_method`"]
+)]
+#[case::with_requirements_on_solvers_for_cases(
+    &[(
+        "  - case: [\"mpm-*gimp-apic-*\",",
+        "  - any_method: true\n    ▸case: [\"mpm-*gimp-apic-*\",",
+    )],
+    &["an entry with `any_method` applies to no case of the suite"]
+)]
 #[case::with_an_unknown_word(&[("frozen: true", "▸frosen: true")], &["unknown key `frosen`", "did you mean `frozen`?"])]
 fn a_stability_study(#[case] edits: Edits<'_>, #[case] words: &[&str]) {
     refused(SWEPT, edits, words);

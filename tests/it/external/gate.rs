@@ -405,3 +405,44 @@ fn diagnosis_recommends_doctor_for_errors_as_large_as_the_solution() {
     assert!(words.contains("`mpm-verify doctor` with the same `--solver`"), "{words}");
     assert!(!words.contains("not smooth"), "{words}");
 }
+
+/// A stability study is gated if an entry of `expect` has `any_method`. The energy of the exact
+/// motion is constant.
+#[rstest]
+#[case::without_an_entry("", FAILED, "the suite states no expectation with `any_method`")]
+#[case::that_is_met("figures: {energy_kept: {above: 0.99, below: 1.01}}", SOUND, "pass")]
+#[case::that_is_not_met("figures: {energy_kept: {below: 0.9}}", FAILED, "FAIL")]
+fn a_stability_study(#[case] figures: &str, #[case] code: i32, #[case] words: &str) {
+    let folder = folder("0");
+    let stress = r#"w = w (p > 1 ? "," : "") sprintf("%.17g", cos(pi*X[p]/2)*sin(5*pi*t)/100)"#;
+    let edits = [
+        (r#"["free","fixed"]"#, r#"["free","fixed"],"columns":["stress"]"#.to_owned()),
+        (r#"\"velocity\":[%s]}"#, r#"\"velocity\":[%s],\"stress\":[%s]}"#.to_owned()),
+        (r#"\n", u, v"#, r#"\n", u, v, w"#.to_owned()),
+        (
+            "            }\n            printf",
+            format!("{stress}\n            }}\n            printf"),
+        ),
+    ];
+    let script = edits.iter().fold(folder.read("solver.sh"), |script, (from, to)| {
+        assert!(script.contains(from), "no `{from}`");
+        script.replace(from, to)
+    });
+    folder.write("solver.sh", script);
+    let (scene, _) = BAR.split_once("exact:").unwrap();
+    let study = "particles: {cells: 8, ppc: 2}
+run: {dt: 0.01, steps: 40}
+sweep: {a: [1e-3]}
+methods: [{mpm: {basis: linear, transfer: flip, scheme: musl}}]
+expect:
+  - {verdict: stable, because: a test}
+";
+    let entry = format!("  - {{any_method: true, {figures}, because: a test}}\n");
+    let entry = if figures.is_empty() { "" } else { &entry };
+    let scene = scene.replace("omega: \"5*pi\"", "a: 1e-3").replace("1e-3*sin", "a*sin");
+    let scene = scene.replace("source:", "study: stability\nsource:");
+    folder.write("stability.yaml", format!("{scene}{study}{entry}"));
+    let found = gate(&folder, &["stability.yaml"], &[]);
+    assert_eq!(found.code, code, "{}{}", found.out, found.errors);
+    assert!(found.out.contains(words), "{}", found.out);
+}

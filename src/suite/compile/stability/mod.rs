@@ -14,9 +14,11 @@ use crate::mpm::{combine, combine_across, combine_volume};
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::evaluator::{Evaluator, shown, suggestion};
-use crate::suite::grammar::{MethodSpec, StabilitySpec};
+use crate::suite::grammar::{MethodSpec, StabilityExpectSpec, StabilitySpec};
 use crate::suite::model::method::Method;
-use crate::suite::model::stability::{SetupTemplate, StabilityCase, StabilityPlan};
+use crate::suite::model::stability::{
+    RowExpectations, SetupTemplate, StabilityCase, StabilityPlan,
+};
 use crate::suite::yaml::{Diagnostic, Path, Source};
 use setup::{RunSetup, setup};
 
@@ -44,7 +46,8 @@ pub(crate) fn plan(
             template.setup(&with)?;
         }
     }
-    let cases = cases(evaluator, &template, spec, methods, &swept, &values, sought.is_some())?;
+    let (cases, any_method) =
+        cases(evaluator, &template, spec, methods, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
         for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
@@ -54,7 +57,7 @@ pub(crate) fn plan(
         }
     }
     let frozen = spec.run.frozen;
-    Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases })
+    Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases, any_method })
 }
 
 fn sweep(
@@ -175,30 +178,47 @@ fn cases(
     swept: &str,
     values: &[f64],
     seeks: bool,
-) -> Result<Vec<StabilityCase>, Diagnostic> {
+) -> Result<(Vec<StabilityCase>, Option<RowExpectations>), Diagnostic> {
     let names: Vec<&str> = methods.iter().map(|method| method.name.as_str()).collect();
-    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let (of_cases, has_any) = split(evaluator, spec)?;
+    let selectors: Vec<_> = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
-    let expected = spec
-        .expect
-        .iter()
-        .enumerate()
-        .map(|(i, spec)| {
-            let path = Path::top("expect").then(i);
-            Ok((
-                expect::rows(evaluator, template, spec, i, &rows, seeks)?,
-                evaluator.because(&path, "this expectation", &spec.because)?,
-            ))
-        })
-        .collect::<Result<Vec<_>, Diagnostic>>()?;
     let predicted = seeks && spec.run.frozen;
+    let entry = |(i, spec): (usize, &StabilityExpectSpec)| {
+        let path = Path::top("expect").then(i);
+        let expected = expect::rows(evaluator, template, spec, i, &rows, seeks)?;
+        let because = evaluator.because(&path, "this expectation", &spec.because)?;
+        let summary = Some(expect::summary(spec, &expected, &rows, predicted));
+        Ok(RowExpectations { expected, summary, because })
+    };
+    let entries: Vec<RowExpectations> =
+        spec.expect.iter().enumerate().map(entry).collect::<Result<_, Diagnostic>>()?;
     let case = |(named, owner): (NamedMethod, Option<usize>)| {
         let NamedMethod { name, method, .. } = named;
-        let (expected, because) = owner.map(|owner| expected[owner].clone()).unwrap_or_default();
-        let summary =
-            owner.map(|owner| expect::summary(&spec.expect[owner], &expected, &rows, predicted));
-        StabilityCase { name, method, expected, summary, because, gating: None }
+        let expectations = owner.map(|owner| entries[owner].clone()).unwrap_or_default();
+        StabilityCase { name, method, expectations, gating: None }
     };
-    Ok(methods.into_iter().zip(owners).map(case).collect())
+    let cases = methods.into_iter().zip(owners).map(case).collect();
+    Ok((cases, entries.into_iter().last().filter(|_| has_any)))
+}
+
+/// Returns the entries of `expect` for cases, and whether an entry for external solvers follows.
+fn split<'a>(
+    evaluator: &Evaluator<'_>,
+    spec: &'a StabilitySpec,
+) -> Result<(&'a [StabilityExpectSpec], bool), Diagnostic> {
+    let at = |i: usize, key: &str| Path::top("expect").then(i).then(key);
+    let Some(first) = spec.expect.iter().position(|entry| entry.any_method) else {
+        return Ok((&spec.expect, false));
+    };
+    if first + 1 < spec.expect.len() {
+        let message = "only the last entry can have `any_method`";
+        return Err(evaluator.diagnostic_at_key(&at(first, "any_method"), message));
+    }
+    if spec.expect[first].case.is_some() {
+        let message = "an entry with `any_method` applies to no case of the suite";
+        return Err(evaluator.diagnostic_at_key(&at(first, "case"), message));
+    }
+    Ok((&spec.expect[..first], true))
 }
