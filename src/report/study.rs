@@ -8,8 +8,8 @@ use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};
 use crate::verify::{
-    Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, LevelOutcome,
-    Probe, SpectrumRow, SpectrumStudy, StabilityStudy, StudyResults, SuiteOutcome,
+    Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, Probe,
+    SpectrumRow, SpectrumStudy, StabilityStudy, StudyResults, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
@@ -87,10 +87,16 @@ fn remarks(study: &Convergence) -> Vec<String> {
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();
     let too_long = (!too_long.is_empty())
         .then(|| format!("steps are longer than the stable time step: {}", too_long.join(", ")));
-    let failure = |level: &LevelOutcome| {
-        Some(format!("{}: {}", level.name(study.axis), level.run.failure.clone()?))
-    };
-    let failures = study.levels.iter().filter_map(failure);
+    // Equal failures of consecutive levels are one remark.
+    let failures = study.levels.chunk_by(|a, b| a.run.failure == b.run.failure);
+    let failures = failures.filter_map(|levels| {
+        let (first, last) = (levels.first()?, levels.last()?);
+        let (from, failure) = (first.name(study.axis), first.run.failure.as_ref()?);
+        Some(match levels.len() {
+            1 => format!("{from}: {failure}"),
+            count => format!("{from} to {} ({count} levels): {failure}", last.name(study.axis)),
+        })
+    });
     let floor = study.floor.iter().filter(|floor| !floor.probes.is_empty()).map(Floor::sentence);
     let gate = study.remarks.iter().cloned();
     too_long.into_iter().chain(failures).chain(floor).chain(gate).collect()

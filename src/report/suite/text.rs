@@ -10,7 +10,7 @@ use crate::report::text::profile::effects;
 use crate::report::text::prose::{paragraph_lines, row};
 use crate::report::text::table::Table;
 use crate::report::text::table::shared;
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::verify::{CaseOutcome, SuiteOutcome, Verdict};
 
 /// Returns the complete report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
@@ -116,6 +116,11 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
         TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
             Some(match &case.expected {
                 _ if !case.is_tested() => case.reason.clone(),
+                // The cause of a failure is in no other column.
+                expected if case.verdict == Verdict::Failed.name() => {
+                    let expected = expected.as_deref().unwrap_or("nothing");
+                    format!("{expected}; {}", case.reason)
+                }
                 Some(expected) => expected.clone(),
                 None => "nothing".to_owned(),
             })
