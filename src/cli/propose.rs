@@ -15,6 +15,9 @@ use serde_json::json;
 pub(super) struct ProposeArgs {
     #[command(flatten)]
     targets: Targets,
+    /// Propose only for cases whose name contains this text
+    #[arg(long, value_name = "TEXT")]
+    case: Option<String>,
     #[command(flatten)]
     format: FormatArgs,
     #[command(flatten)]
@@ -23,21 +26,22 @@ pub(super) struct ProposeArgs {
 
 /// Runs each suite without its expectations, and prints proposed expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
-    let targets = &args.targets.targets;
+    let (targets, case) = (&args.targets.targets, args.case.as_deref());
     let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
     if args.format.is_json() {
         return Ok(show::json(targets, |source, suite| {
-            Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver)?}))
+            Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver, case)?}))
         }));
     }
-    Ok(show::try_each(targets, |source, suite| of_suite(source, suite, solver)))
+    Ok(show::try_each(targets, |source, suite| of_suite(source, suite, solver, case)))
 }
 
 fn of_suite(
     source: &Source,
     suite: &Suite,
     solver: Option<&dyn SolverFactory>,
+    case: Option<&str>,
 ) -> Result<String, CommandError> {
     let name = &suite.name;
     let looks_inside =
@@ -49,6 +53,12 @@ fn of_suite(
     let exploring = suite.without_expectations().ok_or_else(|| {
         CommandError::about(name, "expectations are proposed for convergence studies only")
     })?;
+    let names = exploring.case_names();
+    let is_chosen = |name: &str| case.is_none_or(|text| name.contains(text));
+    if !names.iter().any(|name| is_chosen(name)) {
+        return Err(CommandError::about(name, "no case name contains the text of `--case`"));
+    }
+    let exploring = exploring.only(&|index| is_chosen(names[index]));
     let runner = Runner::new(&exploring);
     let outcome = match solver {
         Some(solver) => runner.judging(solver),

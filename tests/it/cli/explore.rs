@@ -82,6 +82,17 @@ fn what_is_proposed_passes() {
 }
 
 #[test]
+fn expectations_are_proposed_for_chosen_cases() {
+    let folder = Folder::with("open.yaml", STEPS);
+    let found = folder.call(&["propose", "open.yaml", "--case", "fem"]);
+    assert_eq!(found.code, SOUND, "{}", found.errors);
+    assert!(found.out.contains("order:") && !found.out.contains("mpm-"), "{}", found.out);
+    let found = folder.call(&["propose", "open.yaml", "--case", "fen"]);
+    assert_eq!(found.code, BAD_INPUT, "{}", found.out);
+    insta::assert_snapshot!(found.errors, @"error: steps: no case name contains the text of `--case`");
+}
+
+#[test]
 fn proposals_do_not_depend_on_existing_expectations() {
     let folder = Folder::new();
     let wrong = "expect:\n  - order: [3.9, 4.1]\n    because: a guess\n";
