@@ -7,6 +7,7 @@ The problems are small, and take a few steps in several messages. They need no `
 
 from __future__ import annotations
 
+import io
 import sys
 
 import numpy as np
@@ -14,6 +15,9 @@ import numpy as np
 sys.dont_write_bytecode = True
 import variant
 from faults import FAULTS
+
+sys.path.append(str(variant.SOLVERS))
+import mpm_verify
 
 MESSAGES = [3, 1, 4, 2]  # steps of each message
 ROUNDING = 1e-9  # of the largest value of a column
@@ -225,6 +229,38 @@ def effects():
     return changed
 
 
+def test_forces_at_other_points_have_a_hint():
+    """A client of protocol 1 that names points, and asks for forces without `places`."""
+    sent = []
+
+    class Channel:
+        def __init__(self):
+            self.requests = iter([{"type": "advance"}, {"type": "bye"}])
+
+        def read(self):
+            return next(self.requests)
+
+        def write(self, message):
+            sent.append(message)
+
+    class Session:
+        has_points = True
+
+        def __init__(self, *_):
+            pass
+
+        def answer(self, _):
+            return np.ones((3, 1)) + np.ones((4, 2))
+
+    kept = mpm_verify.Channel, mpm_verify.Session, sys.stderr
+    mpm_verify.Channel, mpm_verify.Session, sys.stderr = Channel, Session, io.StringIO()
+    try:
+        mpm_verify.serve(None)
+    finally:
+        mpm_verify.Channel, mpm_verify.Session, sys.stderr = kept
+    assert "broadcast" in sent[0]["reason"] and "`places=problem.reference_position`" in sent[0]["reason"], sent
+
+
 def test_every_fault_changes_an_answer():
     assert not [name for name, problems in effects().items() if not problems]
 
@@ -246,4 +282,5 @@ if __name__ == "__main__":
     for name, problems in changed_problems.items():
         print(f"{name:40} {', '.join(problems) or 'NO EFFECT'}")
     test_points_in_another_order_have_the_same_answers()
+    test_forces_at_other_points_have_a_hint()
     sys.exit(not all(changed_problems.values()))

@@ -186,6 +186,33 @@ fn heat_has_a_stable_step(#[case] share: f64, #[case] warnings: usize) {
     assert_eq!(of_heat.count(), warnings, "{found:#?}");
 }
 
+/// The grid must end at a held face, so a larger grid is a remedy for a free face only.
+#[rstest]
+#[case::of_a_wall(", right: {velocity: [0.1]}", "", "state a smaller motion: the grid must end")]
+#[case::of_a_free_face("", "grid: {from: [0], to: [1.05]}", "state a larger `grid` in `scene`, or")]
+fn a_motion_out_of_the_grid(#[case] face: &str, #[case] grid: &str, #[case] help: &str) {
+    let text = format!(
+        r#"suite: pulled
+title: Pulled bar
+source: a test
+scene:
+  dimension: 1
+  body: {{box: {{from: [0], to: [1]}}}}
+  {grid}
+  material: {{hencky: {{young: 1, poisson: 0, density: 1}}}}
+  boundary: {{left: fixed{face}}}
+manufactured: {{displacement: ["0.1*t*sin(pi*X/2)"]}}
+run: {{until: 1, dt: "0.2*h"}}
+refine: {{cells: [20, 40, 60, 80], ppc: 2}}
+methods: [{{mpm: {{basis: linear, transfer: flip, scheme: musl}}}}]
+"#
+    );
+    let found = findings(&text, &[]);
+    let beyond = found.iter().find(|found| found.message().contains("the motion extends in x"));
+    let given = beyond.and_then(Diagnostic::help).unwrap_or_default();
+    assert!(given.contains(help), "{found:#?}");
+}
+
 #[test]
 fn an_interface_must_lie_on_a_grid_line() {
     let found = findings(TWO, &[]);
