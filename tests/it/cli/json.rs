@@ -94,13 +94,6 @@ fn a_stability_study_has_rows_and_no_levels() {
 }
 
 #[test]
-fn json_schema_in_documents_is_the_printed_one() {
-    let kept = include_str!("../../../docs/report.schema.json");
-    let written = "`mpm-verify schema json > docs/report.schema.json` writes it anew";
-    assert!(kept == report_schema(), "{written}");
-}
-
-#[test]
 fn document_has_exactly_the_documented_keys() {
     let folder = Folder::with("bar.yaml", BAR);
     let document = document(&folder, &["bar.yaml", "grid-crossing"], SOUND);

@@ -2,7 +2,6 @@
 
 use super::bar;
 use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
-use mpm_verify::external::protocol_schema;
 
 /// First message of a solver of one-dimensional elasticity.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
@@ -207,13 +206,6 @@ done
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let found = run("temperature");
     assert!(found.out.contains("columns: stress_across"), "{}", found.out);
-}
-
-#[test]
-fn stored_schema_is_that_of_the_messages() {
-    let kept = include_str!("../../../docs/protocol.schema.json");
-    let written = "`mpm-verify schema protocol > docs/protocol.schema.json` writes it anew";
-    assert!(protocol_schema() == kept, "{written}");
 }
 
 /// Creates a solver of order 1, on four levels.

@@ -1,6 +1,7 @@
 //! Determines the required keys from the JSON Schema of a suite.
 
 use super::manual::{joined, key_of};
+use mpm_verify::suite::suite_schema;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,8 +27,7 @@ struct Walk<'a> {
 }
 
 pub(super) fn required() -> Required {
-    let schema: Value = serde_json::from_str(include_str!("../../../../docs/suite.schema.json"))
-        .expect("the schema of a suite");
+    let schema: Value = serde_json::from_str(&suite_schema()).expect("the schema of a suite");
     let mut all = Required::new();
     for (study, name) in STUDIES {
         let definitions = &schema["definitions"];
