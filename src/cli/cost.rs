@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mpm_verify::external::{SolverFactory, SolverProgram};
 use mpm_verify::report;
 use mpm_verify::study::cost::{TimedPart, price};
-use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
+use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::TimedSuite;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -58,7 +58,7 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     suite_runs::check_names(&runs)?;
     let mut all: Vec<TimedSuite> = Vec::new();
     let mut code = Status::Passed;
-    let has_levels = |runs: &&SuiteRuns| runs.suite().plan::<ConvergencePlan>().is_some();
+    let has_levels = |runs: &&SuiteRuns| runs.suite().convergence().is_some();
     for timed in runs.iter().filter(has_levels).filter_map(|runs| one(runs, &solvers, args)) {
         if !args.format.is_json() {
             output::print(&format!("{}\n", report::timed(&timed)));
@@ -78,7 +78,7 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
 fn one(runs: &SuiteRuns, solvers: &[SolverProgram], args: &CostArgs) -> Option<TimedSuite> {
     let extent = if args.full { Extent::Full } else { Extent::Usual };
     let levels = |suite: &Suite| {
-        let plan = suite.plan::<ConvergencePlan>();
+        let plan = suite.convergence();
         plan.map_or(0, |plan| plan.cases.len() * plan.refine.levels(extent).len())
     };
     let levels: usize = runs.parts().iter().map(|part| levels(&part.suite)).sum();

@@ -7,7 +7,7 @@ use super::show;
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{ConvergencePlan, Extent, Suite};
+use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::STEP_TOLERANCE;
 use mpm_verify::verify::StepKind;
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ pub(super) fn steps(args: &StepsArgs) -> Status {
         })
     } else {
         show::each(targets, |suite| {
-            let plan = suite.plan::<ConvergencePlan>();
+            let plan = suite.convergence();
             let by_load_steps = plan.is_some_and(|plan| plan.steps == StepKind::Load);
             let row = if by_load_steps { load_steps_row } else { row };
             let rows: String = of_suite(suite).iter().map(row).collect();

@@ -6,7 +6,7 @@ use super::{output, select};
 use clap::Args;
 use mpm_verify::external::ProblemFormat;
 use mpm_verify::study::{exact_state, level_problem};
-use mpm_verify::suite::{ConvergencePlan, Suite};
+use mpm_verify::suite::Suite;
 use std::io::{IsTerminal, stdout};
 use std::path::PathBuf;
 
@@ -56,7 +56,7 @@ pub(super) fn problem(args: &ProblemArgs) -> Result<Status, CommandError> {
 fn of_suite(suite: &Suite, args: &ProblemArgs) -> Result<Vec<u8>, CommandError> {
     let name = &suite.name;
     let plan = suite
-        .plan::<ConvergencePlan>()
+        .convergence()
         .ok_or_else(|| CommandError::about(name, "it is not a convergence study"))?;
     let levels = &plan.refine.levels;
     let number = args.level.unwrap_or(plan.refine.usual);

@@ -1,9 +1,7 @@
 //! The matrix of problems and methods: the result of each basis in each suite.
 
 use crate::report::columns::{distinct, grouped};
-use crate::verify::{
-    Acceptance, CaseOutcome, Convergence, Exemption, StabilityStudy, SuiteOutcome, Verdict,
-};
+use crate::verify::{Acceptance, CaseOutcome, Convergence, Exemption, SuiteOutcome, Verdict};
 
 /// Column headings: the bases of MPM, finite elements (FEM), and all other methods.
 pub(crate) const COLUMNS: [&str; 8] =
@@ -194,8 +192,7 @@ fn of_verdict(study: &Convergence) -> Option<&'static str> {
 }
 
 fn of_other_study(case: &CaseOutcome) -> String {
-    let study: Option<&StabilityStudy> = case.results();
-    match study {
+    match case.stability() {
         Some(study) if study.sought.is_some() => "limit".to_owned(),
         Some(_) if case.fails() => "unstable".to_owned(),
         Some(_) => "stable".to_owned(),

@@ -9,7 +9,7 @@ use crate::report::text::table::Table;
 use crate::report::text::{levels, stability};
 use crate::verify::{
     Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, Probe,
-    SpectrumRow, SpectrumStudy, StabilityStudy, StudyResults, SuiteOutcome,
+    SpectrumRow, SpectrumStudy, StabilityStudy, SuiteOutcome,
 };
 use serde_json::{Map, Value, json};
 
@@ -36,8 +36,11 @@ pub(crate) trait StudyReport: Sync {
 }
 
 /// Returns the studies of one kind, with the names of their cases.
-pub(crate) fn studies<R: StudyResults>(cases: &[CaseOutcome]) -> Vec<(&str, &R)> {
-    cases.iter().filter_map(|case| Some((case.case.as_str(), case.results()?))).collect()
+pub(crate) fn studies<'a, R>(
+    cases: &'a [CaseOutcome],
+    of: fn(&'a CaseOutcome) -> Option<&'a R>,
+) -> Vec<(&'a str, &'a R)> {
+    cases.iter().filter_map(|case| Some((case.case.as_str(), of(case)?))).collect()
 }
 
 /// Returns the members of an object that was created by `json!`.
@@ -52,7 +55,7 @@ pub(crate) struct ConvergenceReport;
 
 impl StudyReport for ConvergenceReport {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        levels::tables(lines, &studies(cases));
+        levels::tables(lines, &studies(cases, CaseOutcome::convergence));
     }
 
     fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
@@ -133,7 +136,7 @@ pub(crate) struct InternalForceReport;
 impl StudyReport for InternalForceReport {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
         for case in cases {
-            if let Some(InternalForce { rows }) = case.results() {
+            if let Some(InternalForce { rows }) = case.internal_force() {
                 lines.extend([String::new(), format!("  {}", case.case)]);
                 lines.extend(Table::new(&force::columns(), rows).lines());
             }
@@ -141,7 +144,7 @@ impl StudyReport for InternalForceReport {
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let study: Option<&InternalForce> = case.results();
+        let study = case.internal_force();
         let columns = force::columns();
         let objects = |study: &InternalForce| -> Value {
             study.rows.iter().map(|row| json_object(&columns, row)).collect()
@@ -154,15 +157,15 @@ pub(crate) struct StabilityReport;
 
 impl StudyReport for StabilityReport {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        stability::tables(lines, &studies(cases));
+        stability::tables(lines, &studies(cases, CaseOutcome::stability));
     }
 
     fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
-        case.results().map_or(Vec::new(), stability::remarks)
+        case.stability().map_or(Vec::new(), stability::remarks)
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        members(json!({"stability": case.results().map(stability_json)}))
+        members(json!({"stability": case.stability().map(stability_json)}))
     }
 
     fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
@@ -188,7 +191,7 @@ pub(crate) struct GradientReport;
 
 impl StudyReport for GradientReport {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        for (name, study) in studies::<GradientStudy>(cases) {
+        for (name, study) in studies(cases, CaseOutcome::gradient) {
             lines.extend([String::new(), format!("  {name}")]);
             lines.extend(Table::new(&gradient::levels(), gradient::level_rows(study)).lines());
             lines.push(String::new());
@@ -197,7 +200,7 @@ impl StudyReport for GradientReport {
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        members(json!({"gradient": case.results().map(gradient_json)}))
+        members(json!({"gradient": case.gradient().map(gradient_json)}))
     }
 }
 
@@ -225,7 +228,7 @@ impl StudyReport for SpectrumReport {
     fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
         let mut waves: Vec<NamedWave> = Vec::new();
         let mut curves: Vec<NamedWave> = Vec::new();
-        for (name, study) in studies::<SpectrumStudy>(cases) {
+        for (name, study) in studies(cases, CaseOutcome::spectrum) {
             for row in &study.rows {
                 let is_known =
                     |(case, known): &NamedWave| case == name && known.courant == row.courant;
@@ -248,7 +251,7 @@ impl StudyReport for SpectrumReport {
             let reason = row.measured.as_ref().err()?;
             Some(format!("{} cells, C = {}: {reason}", row.cells, row.courant))
         };
-        let study: Option<&SpectrumStudy> = case.results();
+        let study = case.spectrum();
         study.map_or(Vec::new(), |study| study.rows.iter().filter_map(remark).collect())
     }
 
@@ -257,7 +260,7 @@ impl StudyReport for SpectrumReport {
         let objects = |study: &SpectrumStudy| -> Value {
             study.rows.iter().map(|row| json_object(&columns, row)).collect()
         };
-        members(json!({"spectrum": case.results().map(objects)}))
+        members(json!({"spectrum": case.spectrum().map(objects)}))
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::exact::{Derivatives, Problem, Survey};
 use crate::suite::NormName;
 use crate::suite::evaluator::shown;
-use crate::suite::model::{ConvergencePlan, Suite};
+use crate::suite::model::Suite;
 
 /// Describes the largest displacement and displacement gradient of the exact solution, at regular
 /// points of the body and the run.
@@ -167,7 +167,7 @@ impl Linearisation {
 
 /// Computes residual and error over the run of a suite, if its exact solution is linearised.
 pub fn linearisation(suite: &Suite) -> Option<Linearisation> {
-    let plan = suite.plan::<ConvergencePlan>()?;
+    let plan = suite.convergence()?;
     let problem = plan.exact.as_ref()?;
     Linearisation::of(problem, &Extremes::of(problem), problem.until, plan.norm)
 }

@@ -7,7 +7,7 @@ use crate::suite::compile::internal_force;
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::scene::numbers::with_unit;
 use crate::verify;
-use crate::verify::{CaseOutcome, ForceRow, InternalForce};
+use crate::verify::{CaseOutcome, ForceRow, InternalForce, StudyResults};
 use std::sync::Arc;
 
 impl Study for ForcePlan {
@@ -65,7 +65,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
         verdict: verdict.to_owned(),
         reason,
         unmet,
-        study: Some(Arc::new(InternalForce { rows })),
+        study: Some(StudyResults::InternalForce(Arc::new(InternalForce { rows }))),
         ..CaseOutcome::new(&case.name, "mpm", settings)
     }
 }

@@ -7,21 +7,17 @@ use super::time_series::{SeriesError, ShownRun};
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::{Profile, SubjectError};
 use crate::suite::model::StudyPlan;
-use crate::suite::model::gradient::GradientPlan;
+use crate::suite::model::Suite;
 use crate::suite::model::refine_plan::Extent;
-use crate::suite::model::spectrum::SpectrumPlan;
-use crate::suite::model::stability::StabilityPlan;
-use crate::suite::model::{ConvergencePlan, ForcePlan, Suite};
 use crate::verify::CaseOutcome;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use std::any::Any;
 
 /// Callback that is called after each finished unit of work: a level, a row or a case.
 pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
 /// A plan whose cases can be described and run.
-pub(crate) trait Study: StudyPlan {
+pub(crate) trait Study {
     /// Returns the rows of name and value that describe the study.
     fn statement(&self) -> Rows;
 
@@ -125,30 +121,15 @@ impl RunContext<'_> {
     }
 }
 
-/// Function that downcasts a plan to one kind of study.
-type AsStudy = for<'a> fn(&'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study>;
-
-/// All kinds of study, as functions that downcast a plan.
-const KINDS: [AsStudy; 5] = [
-    of::<ConvergencePlan>,
-    of::<ForcePlan>,
-    of::<StabilityPlan>,
-    of::<GradientPlan>,
-    of::<SpectrumPlan>,
-];
-
-fn of<'a, P: Study>(plan: &'a (dyn StudyPlan + 'static)) -> Option<&'a dyn Study> {
-    let plan: &dyn Any = plan;
-    plan.downcast_ref::<P>().map(|plan| plan as &dyn Study)
-}
-
 /// Returns the study of a suite.
-///
-/// # Panics
-/// If the kind of the plan is not in [`KINDS`].
 pub(crate) fn study(suite: &Suite) -> &dyn Study {
-    let found = KINDS.iter().find_map(|kind| kind(suite.study.as_ref()));
-    found.unwrap_or_else(|| panic!("`{}` is of a kind of study that is not listed", suite.name))
+    match &suite.study {
+        StudyPlan::Convergence(plan) => plan.as_ref(),
+        StudyPlan::InternalForce(plan) => plan.as_ref(),
+        StudyPlan::Stability(plan) => plan.as_ref(),
+        StudyPlan::Gradient(plan) => plan.as_ref(),
+        StudyPlan::Spectrum(plan) => plan.as_ref(),
+    }
 }
 
 /// Returns the rows of name and value that describe the problem of a suite, for reports.

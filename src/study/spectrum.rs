@@ -15,7 +15,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::verify::{
     AMPLITUDE, CaseOutcome, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumRow,
-    SpectrumStudy, WaveFigures, run_wave, steps_of_run,
+    SpectrumStudy, StudyResults, WaveFigures, run_wave, steps_of_run,
 };
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -201,7 +201,7 @@ impl CaseRunner for SpectrumRunner<'_> {
         show: ShowRun<'_>,
     ) -> Result<(), SeriesError> {
         let (plan, case) = (self.plan, &self.plan.cases[case]);
-        let study: &SpectrumStudy = outcome.results().ok_or("it could not be run")?;
+        let study = outcome.spectrum().ok_or("it could not be run")?;
         let failed = study.rows.iter().position(|row| row.measured.is_err());
         let wave = plan.waves.get(failed.unwrap_or(plan.waves.len().saturating_sub(1)));
         let run = WaveRun { plan, case, context: self.context };
@@ -238,7 +238,7 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
         verdict: verdict.to_owned(),
         reason: study.reason(),
         unmet,
-        study: Some(Arc::new(study)),
+        study: Some(StudyResults::Spectrum(Arc::new(study))),
         ..described
     }
 }

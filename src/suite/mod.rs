@@ -23,7 +23,6 @@ pub mod yaml;
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
 pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
-pub use model::StudyPlan;
 pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
@@ -33,4 +32,5 @@ pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,
     SameMethod, Suite,
 };
+pub use model::{StudyCases, StudyPlan};
 pub use scene::{EffectName, Scene, SceneFace, SceneHeat};

@@ -12,7 +12,6 @@ use super::expectation::gate::Acceptance;
 use super::order::format_number::format_number;
 use super::order::level::{Axis, Level};
 use super::order::limit_estimate::{EstimateRefusal, LimitEstimate};
-use super::study_results::StudyResults;
 use super::verdict::floor::Floor;
 use super::verdict::judge::Judgement;
 use super::verdict::name::Verdict;
@@ -101,8 +100,9 @@ pub struct LevelOutcome {
     pub stable_time_step: Option<f64>,
 }
 
-impl StudyResults for Convergence {
-    fn fails(&self) -> bool {
+impl Convergence {
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
         use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
         let failures = [TooLow, AtFloor, Oscillatory, Divergent, Failed];
         !self.bounded && self.accepted.is_none() && failures.contains(&self.judgement.verdict)

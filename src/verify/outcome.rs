@@ -3,10 +3,12 @@
 use super::case::CaseJudgement;
 use super::convergence::Convergence;
 use super::expectation::gate::Gating;
-use super::study_results::StudyResults;
+use super::gradient::GradientStudy;
+use super::spectrum::SpectrumStudy;
+use super::stability::StabilityStudy;
+use super::study_results::{InternalForce, StudyResults};
 use super::verdict::name::Verdict;
 use crate::subject::{Profile, SubjectError};
-use std::any::Any;
 use std::sync::Arc;
 
 /// Results of one suite.
@@ -70,7 +72,7 @@ pub struct CaseOutcome {
     pub exemption: Option<Exemption>,
     /// Results of the study. `None` if the case could not be set up; `reason` then has the
     /// explanation.
-    pub study: Option<Arc<dyn StudyResults>>,
+    pub study: Option<StudyResults>,
 }
 
 /// Reason why `run --gate` has no requirement for a case. The explanation is in
@@ -89,10 +91,13 @@ impl SuiteOutcome {
         self.cases.iter().all(CaseOutcome::passed)
     }
 
-    /// Returns the results of all studies of type `R`, with the names of their cases.
-    pub fn results<'a, R: StudyResults>(&'a self) -> impl Iterator<Item = (&'a str, &'a R)> {
-        let study = |case: &'a CaseOutcome| Some((case.case.as_str(), case.results()?));
-        self.cases.iter().filter_map(study)
+    /// Returns the results of one kind of study with the names of their cases. `of` is an accessor,
+    /// such as [`CaseOutcome::stability`].
+    pub fn results<'a, R: 'a>(
+        &'a self,
+        of: fn(&'a CaseOutcome) -> Option<&'a R>,
+    ) -> impl Iterator<Item = (&'a str, &'a R)> {
+        self.cases.iter().filter_map(move |case| Some((case.case.as_str(), of(case)?)))
     }
 }
 
@@ -133,7 +138,7 @@ impl CaseOutcome {
 
     /// Whether the method fails at the problem. Such a failure may be expected.
     pub fn fails(&self) -> bool {
-        self.study.as_deref().is_some_and(StudyResults::fails)
+        self.study.as_ref().is_some_and(StudyResults::fails)
     }
 
     /// All values of [`CaseOutcome::result`].
@@ -218,7 +223,13 @@ impl CaseOutcome {
     #[must_use]
     pub(crate) fn judged(self, judgement: CaseJudgement) -> Self {
         let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;
-        let outcome = Self { verdict, reason, unmet, study: Some(Arc::new(study)), ..self };
+        let outcome = Self {
+            verdict,
+            reason,
+            unmet,
+            study: Some(StudyResults::Convergence(Arc::new(study))),
+            ..self
+        };
         match exemption {
             Some(reason) => outcome.not_gated(&reason),
             None => outcome,
@@ -244,12 +255,41 @@ impl CaseOutcome {
 
     /// Returns the convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
-        self.results()
+        match self.study.as_ref()? {
+            StudyResults::Convergence(study) => Some(study),
+            _ => None,
+        }
     }
 
-    /// Returns the results of the study, if they have the type `R`.
-    pub fn results<R: StudyResults>(&self) -> Option<&R> {
-        let results: &dyn Any = self.study.as_deref()?;
-        results.downcast_ref()
+    /// Returns the internal-force study; `None` for other kinds of study.
+    pub fn internal_force(&self) -> Option<&InternalForce> {
+        match self.study.as_ref()? {
+            StudyResults::InternalForce(study) => Some(study),
+            _ => None,
+        }
+    }
+
+    /// Returns the stability study; `None` for other kinds of study.
+    pub fn stability(&self) -> Option<&StabilityStudy> {
+        match self.study.as_ref()? {
+            StudyResults::Stability(study) => Some(study),
+            _ => None,
+        }
+    }
+
+    /// Returns the gradient study; `None` for other kinds of study.
+    pub fn gradient(&self) -> Option<&GradientStudy> {
+        match self.study.as_ref()? {
+            StudyResults::Gradient(study) => Some(study),
+            _ => None,
+        }
+    }
+
+    /// Returns the spectrum study; `None` for other kinds of study.
+    pub fn spectrum(&self) -> Option<&SpectrumStudy> {
+        match self.study.as_ref()? {
+            StudyResults::Spectrum(study) => Some(study),
+            _ => None,
+        }
     }
 }

@@ -1,17 +1,38 @@
-//! The interface for the results of a study, and the results of an internal-force study.
+//! The results of a study of any kind, and the results of an internal-force study.
 
-use std::any::Any;
-use std::fmt::Debug;
+use super::convergence::Convergence;
+use super::gradient::GradientStudy;
+use super::spectrum::SpectrumStudy;
+use super::stability::StabilityStudy;
+use std::sync::Arc;
 
-/// Results of one kind of study. The functions that report them are listed in `report::study`.
-pub trait StudyResults: Any + Debug + Send + Sync {
-    /// Whether the method fails at the problem. Such a failure may be expected.
-    fn fails(&self) -> bool {
-        false
-    }
+/// Results of a study, by its kind. The functions that report them are listed in `report::study`.
+#[derive(Debug, Clone)]
+pub enum StudyResults {
+    /// Errors on several levels of refinement.
+    Convergence(Arc<Convergence>),
+    /// The internal force on a node while a particle moves.
+    InternalForce(Arc<InternalForce>),
+    /// Growth of energy in runs.
+    Stability(Arc<StabilityStudy>),
+    /// Derivatives that a solver reports.
+    Gradient(Arc<GradientStudy>),
+    /// Phase speed and damping of waves.
+    Spectrum(Arc<SpectrumStudy>),
 }
 
-impl StudyResults for InternalForce {}
+impl StudyResults {
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
+        match self {
+            Self::Convergence(study) => study.fails(),
+            Self::InternalForce(_) => false,
+            Self::Stability(study) => study.fails(),
+            Self::Gradient(study) => study.fails(),
+            Self::Spectrum(study) => study.fails(),
+        }
+    }
+}
 
 /// Results of an internal-force study.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! Name of the gate that reports an unmet expectation.
 
-use mpm_verify::verify::{CaseOutcome, InternalForce, SpectrumStudy, StabilityStudy};
+use mpm_verify::verify::CaseOutcome;
 
 /// Gates of convergence studies by the beginning of their messages; the first match applies.
 const GATES: [(&str, &str); 12] = [
@@ -23,14 +23,14 @@ pub(crate) fn gate(case: &CaseOutcome, line: &str) -> &'static str {
     if case.study.is_none() {
         return "verdict";
     }
-    if case.results::<StabilityStudy>().is_some() {
+    if case.stability().is_some() {
         return "stability";
     }
-    if case.results::<InternalForce>().is_some() {
+    if case.internal_force().is_some() {
         return "force";
     }
     // Deviations from the closed form are bounded.
-    if case.results::<SpectrumStudy>().is_some() {
+    if case.spectrum().is_some() {
         return "bound";
     }
     let of_order = ["got `too low`", "got `too good`", "got `converging`"];

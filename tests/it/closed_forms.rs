@@ -3,7 +3,7 @@
 
 use approx::assert_abs_diff_eq;
 use mpm_verify::exact::Truth;
-use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
+use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -16,7 +16,7 @@ fn displacement(name: &str, x: f64, t: f64) -> f64 {
 fn displacements<const D: usize>(name: &str, place: [f64; D], t: f64) -> [f64; D] {
     let source = embedded::source(name).expect("an embedded suite").expect("a sound text");
     let suite = Suite::load(&source).expect("a sound suite");
-    let plan: &ConvergencePlan = suite.plan().expect("a convergence study");
+    let plan = suite.convergence().expect("a convergence study");
     let mut u = [0.0; D];
     plan.exact.as_ref().expect("an exact solution").motion.displacement(&place, t, &mut u);
     u

@@ -12,7 +12,7 @@ use mpm_verify::mpm::{
 };
 use mpm_verify::study;
 use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
-use mpm_verify::suite::{ConvergencePlan, EffectName, Suite, embedded};
+use mpm_verify::suite::{EffectName, Suite, embedded};
 use rstest::rstest;
 
 /// Returns every column of the particles as bits. 0 and -0 have equal bits, because `f + 0` changes
@@ -190,7 +190,7 @@ fn lists(suite: &str, effect: EffectName) -> bool {
 /// Whether a suite has a wall with this name.
 fn has_wall(suite: &str, name: &str) -> bool {
     let suite = load(suite);
-    let Some(plan) = suite.plan::<ConvergencePlan>() else { return false };
+    let Some(plan) = suite.convergence() else { return false };
     plan.scene.faces.iter().any(|face| face.condition() == name)
 }
 
@@ -245,7 +245,7 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 fn page_lists_columns_and_suites_of_contact() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
     let has_contact = |suite: &str, _: &str| {
-        load(suite).plan::<ConvergencePlan>().is_some_and(|plan| plan.scene.contact.is_some())
+        load(suite).convergence().is_some_and(|plan| plan.scene.contact.is_some())
     };
     are_on_the_page(&[("contact", row)], has_contact);
 }

@@ -3,11 +3,13 @@
 use super::Figure;
 use super::map::{column_head, merged_fields};
 use super::{Map, MapField};
-use crate::verify::{RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome};
+use crate::verify::{
+    CaseOutcome, RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome,
+};
 
 /// Returns the studies that do not search for a stability limit, with the names of their cases.
 fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_none()).collect()
+    outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_none()).collect()
 }
 
 /// Draws a map of each reported quantity, if there are several runs to compare.

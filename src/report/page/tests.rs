@@ -1,7 +1,7 @@
 use super::*;
 use crate::report::figure::plot::style::contrast;
 use crate::report::{svg, text};
-use crate::verify::{ForceRow, InternalForce, SuiteOutcome};
+use crate::verify::{ForceRow, InternalForce, StudyResults, SuiteOutcome};
 use rstest::rstest;
 use std::collections::BTreeSet;
 
@@ -23,7 +23,9 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         unmet: unmet.iter().map(|unmet| format!("{unmet}{words}")).collect(),
         lacks: Vec::new(),
         exemption: None,
-        study: Some(std::sync::Arc::new(InternalForce { rows: vec![row(0.0), row(1.0)] })),
+        study: Some(StudyResults::InternalForce(std::sync::Arc::new(InternalForce {
+            rows: vec![row(0.0), row(1.0)],
+        }))),
     };
     SuiteOutcome {
         suite: suite.to_owned(),

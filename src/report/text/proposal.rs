@@ -1,7 +1,7 @@
 //! Proposed expectations, in the notation of suites.
 
 use super::prose::wrap;
-use crate::verify::{Convergence, Proposal, ProposedKey, SuiteOutcome, propose};
+use crate::verify::{CaseOutcome, Proposal, ProposedKey, SuiteOutcome, propose};
 
 /// Maximum line width of a suite file.
 const WIDTH: usize = 96;
@@ -21,7 +21,7 @@ struct Group<'a> {
 /// with `remarks` about the suite.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let mut groups: Vec<Group<'_>> = Vec::new();
-    for (case, study) in outcome.results::<Convergence>() {
+    for (case, study) in outcome.results(CaseOutcome::convergence) {
         let proposal = propose(study);
         let seen = (case, proposal.seen.clone());
         let same = |group: &&mut Group<'_>| {

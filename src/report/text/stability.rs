@@ -6,11 +6,11 @@ use crate::report::columns::stability::{self, ledger_text, limit_of, limit_text}
 use crate::report::figure::map::{column_head, merged_fields};
 use crate::report::figure::{Map, MapField};
 use crate::subject::{EnergyBalance, LedgerStage};
-use crate::verify::{StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
+use crate::verify::{CaseOutcome, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
 
 /// Returns the studies of a suite that search for a stability limit, with the names of their cases.
 fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
-    outcome.results().filter(|(_, study): &(_, &StabilityStudy)| study.sought.is_some()).collect()
+    outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_some()).collect()
 }
 
 /// Returns the map of the stability limits of all cases of a suite; `None` if no study searches for

@@ -20,8 +20,8 @@ use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify;
 use crate::verify::{
-    Axis, CaseOutcome, Comparison, Convergence, Expectation, Gating, LevelOutcome, LevelRun,
-    LevelSizes, Reruns, RoundingSizes, RunResult, judge_case,
+    Axis, CaseOutcome, Comparison, Expectation, Gating, LevelOutcome, LevelRun, LevelSizes, Reruns,
+    RoundingSizes, RunResult, judge_case,
 };
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -88,7 +88,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
         show: ShowRun<'_>,
     ) -> Result<(), SeriesError> {
         let (plan, case) = (&self.plan, &self.plan.cases[case]);
-        let study: &Convergence = outcome.results().ok_or("it could not be run")?;
+        let study = outcome.convergence().ok_or("it could not be run")?;
         let broke = study.levels.iter().position(|level| level.run.failure.is_some());
         let index = broke.unwrap_or(study.levels.len().saturating_sub(1));
         let levels = plan.refine.levels(self.context.extent);

@@ -41,7 +41,7 @@ impl TimeStep {
 /// Computes the time steps of all cases and levels of `suite`; empty unless it is a convergence
 /// study. Levels whose set-up fails are excluded, because the run reports the reason.
 pub fn time_steps(suite: &Suite, extent: Extent) -> Vec<TimeStep> {
-    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
+    let Some(plan) = suite.convergence() else { return Vec::new() };
     let steps = StableSteps::default();
     let mut found = Vec::new();
     for case in &plan.cases {
@@ -80,7 +80,7 @@ pub struct PlannedLevel {
 
 /// Returns the levels of each case, in order; empty for a study without levels.
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
-    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
+    let Some(plan) = suite.convergence() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
     let mut all: Vec<(String, Vec<PlannedLevel>)> = Vec::new();
     for TimeStep { case, level, clock, .. } in time_steps(suite, Extent::Usual) {

@@ -106,7 +106,7 @@ pub fn price(
     let mut outcome: Option<SuiteOutcome> = None;
     for TimedPart { suite, solver } in parts.iter().copied() {
         let before = outcome.as_ref().map_or(0, |outcome| outcome.cases.len());
-        if let Some(plan) = suite.plan::<ConvergencePlan>() {
+        if let Some(plan) = suite.convergence() {
             for (index, case) in plan.cases.iter().enumerate() {
                 let levels = plan.refine.levels(extent).iter().enumerate();
                 jobs.extend(levels.map(|(k, level)| {
@@ -185,7 +185,7 @@ pub struct Goal<'a> {
 /// size of the solution must be at most `target`. Methods that do not reach the target are
 /// excluded.
 pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
-    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
+    let Some(plan) = suite.convergence() else { return Vec::new() };
     let ranked = by_transfers(&Runner::new(suite).run(&|| ()).cases);
     let goal = |row: &Ranked| {
         let case = plan.cases.iter().find(|case| case.name == row.method.name)?;

@@ -6,8 +6,7 @@ use crate::study::setup::dispatch;
 use crate::subject::{PlaneState, Profile};
 use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
-use crate::suite::model::stability::StabilityPlan;
-use crate::suite::model::{Case, ConvergencePlan, Scene, Suite};
+use crate::suite::model::{Case, ConvergencePlan, Scene, StudyPlan, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::{sources, unit_after};
 use crate::verify::{rounded, tuple};
@@ -38,7 +37,7 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
 /// parameter and the parameter whose limit is searched for, each with the name of its row, and the
 /// parameters that depend on these two.
 fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
-    let Some(plan) = suite.plan::<StabilityPlan>() else { return Vec::new() };
+    let StudyPlan::Stability(plan) = &suite.study else { return Vec::new() };
     let mut varied = vec![(plan.swept.clone(), Some("sweep"))];
     varied.extend(plan.sought.iter().map(|(name, ..)| (name.clone(), Some("search"))));
     for (name, text, _) in &suite.parameters {

@@ -86,7 +86,7 @@ pub fn diagnose(
     solver: Option<&dyn SolverFactory>,
 ) -> Result<Option<Diagnosis>, String> {
     let Some(exploring) = suite.without_expectations() else { return Ok(None) };
-    let Some(plan) = exploring.plan::<ConvergencePlan>() else { return Ok(None) };
+    let Some(plan) = exploring.convergence() else { return Ok(None) };
     let case = &plan.cases[index];
     if case.against == Against::Nothing || plan.refine.usual < FEWEST_LEVELS {
         return Ok(None);
@@ -188,7 +188,7 @@ fn changed_plans(
     let mut changed: Vec<_> = PROBES.into_iter().filter_map(planned).collect();
     let has_motion = finest.exact.is_some() && finest.refine.axis != Axis::Particles;
     let smaller = has_motion.then(|| with_amplitude(session.source, SMALLER).ok()).flatten();
-    let plan = smaller.as_ref().and_then(Suite::plan::<ConvergencePlan>);
+    let plan = smaller.as_ref().and_then(Suite::convergence);
     changed.extend(plan.map(|plan| {
         let plan = only(plan, session.case, &finest.refine.levels);
         let size = size_factor(finest, &plan);

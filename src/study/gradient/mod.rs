@@ -11,7 +11,7 @@ use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;
 use crate::suite::evaluator::shown;
 use crate::suite::model::gradient::{GradientCase, GradientPlan};
-use crate::verify::{CaseOutcome, FIRST_LEVEL, GradientStudy, LAST_LEVEL};
+use crate::verify::{CaseOutcome, FIRST_LEVEL, GradientStudy, LAST_LEVEL, StudyResults};
 use std::sync::Arc;
 
 impl Study for GradientPlan {
@@ -115,7 +115,7 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
         verdict: state.name().replace('_', " "),
         reason: format!("{reason}; order of the derivative {:.2}", study.order()),
         unmet,
-        study: Some(Arc::new(study)),
+        study: Some(StudyResults::Gradient(Arc::new(study))),
         ..described
     }
 }

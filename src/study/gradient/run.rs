@@ -10,7 +10,7 @@ use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, 
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::verify::{
     FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientStudy, LAST_LEVEL,
-    Perturbed, StudyResults, Sweep, SweepPoint, Taylor, ValueCheck,
+    Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

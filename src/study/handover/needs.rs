@@ -10,7 +10,7 @@ use crate::study::setup::dispatch::subject;
 use crate::subject::{PlaneState, Subject, SubjectError};
 use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
+use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, StudyPlan, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{StepKind, SumNeed};
 use std::sync::Arc;
@@ -89,9 +89,9 @@ pub fn under_on(
     let (name, formal_order) = (solver.name(), solver.formal_order());
     let method = ExternalMethod { name, formal_order, precision: solver.precision() };
     let under = suite.of_external_on(method, terms)?;
-    let plan = under.plan::<ConvergencePlan>().and_then(|plan| with_law_of(solver, plan));
+    let plan = under.convergence().and_then(|plan| with_law_of(solver, plan));
     Some(match plan {
-        Some(plan) => Suite { study: Arc::new(plan), ..under },
+        Some(plan) => Suite { study: StudyPlan::Convergence(Arc::new(plan)), ..under },
         None => under,
     })
 }

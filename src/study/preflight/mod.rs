@@ -65,7 +65,7 @@ fn with_name(finding: Diagnostic, name: WarningName) -> Diagnostic {
 /// Returns warnings and notes about `suite`, which was read from `source`. Acknowledged warnings
 /// are excluded. The list is empty for studies without refinement levels.
 pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
-    let Some(plan) = suite.plan::<ConvergencePlan>() else { return Vec::new() };
+    let Some(plan) = suite.convergence() else { return Vec::new() };
     let preflight = Preflight::new(plan, source);
     let of_order = RULES_OF_ORDER.iter().filter(|_| preflight.claims_an_order());
     let (mut findings, mut used) = (Vec::new(), Vec::new());
@@ -187,12 +187,12 @@ pub struct Estimate {
 
 /// Estimates the cost of a convergence study without `--full`; `None` for other studies.
 pub fn estimate(suite: &Suite) -> Option<Estimate> {
-    suite.plan().map(estimate_of)
+    suite.convergence().map(estimate_of)
 }
 
 /// Estimates the cost of each case of a suite; `None` for studies without refinement.
 pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
-    match suite.plan::<ConvergencePlan>() {
+    match suite.convergence() {
         Some(plan) => plan.cases.iter().map(|case| Some(of_case(plan, case, extent))).collect(),
         None => vec![None; suite.case_names().len()],
     }
@@ -212,7 +212,7 @@ pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
 /// Predicts the time (s) on one thread for each progress unit of a run. A unit is a level or, in a
 /// study without refinement, a case with a default time.
 pub fn unit_seconds(suite: &Suite, extent: Extent) -> Vec<f64> {
-    let Some(plan) = suite.plan::<ConvergencePlan>() else {
+    let Some(plan) = suite.convergence() else {
         return vec![UNKNOWN; suite.case_names().len()];
     };
     let index = plan.scene.dimension().clamp(1, 3) - 1;

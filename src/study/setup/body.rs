@@ -148,7 +148,7 @@ pub fn effects<const D: usize>(
     basis: BasisName,
     particles: &mut Particles<D>,
 ) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
-    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is not a convergence study")?;
+    let plan = suite.convergence().ok_or("the suite is not a convergence study")?;
     let site = BodySite { grid, basis, heat: plan.heat_problem(), particles };
     built(&plan.scene.loads, site)
 }

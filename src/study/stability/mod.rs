@@ -11,7 +11,7 @@ use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Scene;
 use crate::suite::model::stability::StabilityPlan;
-use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy};
+use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy, StudyResults};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -68,7 +68,7 @@ impl CaseRunner for StabilityRunner<'_> {
         show: ShowRun<'_>,
     ) -> Result<(), SeriesError> {
         let (plan, case) = (self.plan, &self.plan.cases[case]);
-        let study: &StabilityStudy = outcome.results().ok_or("it could not be run")?;
+        let study = outcome.stability().ok_or("it could not be run")?;
         if study.sought.is_some() {
             return Err("it searches for a limit with many runs".into());
         }
@@ -118,7 +118,7 @@ fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -
         verdict: study.verdict(),
         reason: study.reason(),
         unmet,
-        study: Some(Arc::new(study)),
+        study: Some(StudyResults::Stability(Arc::new(study))),
         ..described
     }
 }

@@ -1,7 +1,7 @@
 //! Replaces the methods of a suite by an external solver.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::{Against, Case, ConvergencePlan, Suite};
+use super::{Against, Case, ConvergencePlan, StudyPlan, Suite};
 use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement, format_number};
 use std::sync::Arc;
 
@@ -22,17 +22,17 @@ impl Suite {
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
     ) -> Option<Self> {
-        let study = self.study.of_external(solver, terms)?;
+        let study = self.study.cases().of_external(solver, terms)?;
         Some(Self { study, ..self.clone() })
     }
 
     /// Returns the convergence study without expectations; `None` for another kind of study.
     pub fn without_expectations(&self) -> Option<Self> {
-        let mut plan = self.plan::<ConvergencePlan>()?.clone();
+        let mut plan = self.convergence()?.clone();
         for case in &mut plan.cases {
             (case.expectation, case.expectation_in_full) = (None, None);
         }
-        Some(Self { study: Arc::new(plan), ..self.clone() })
+        Some(Self { study: StudyPlan::Convergence(Arc::new(plan)), ..self.clone() })
     }
 }
 

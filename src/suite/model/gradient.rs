@@ -2,7 +2,7 @@
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};
-use super::{StudyPlan, kept};
+use super::{StudyCases, StudyPlan, kept};
 use crate::exact::ParametricMotion;
 use crate::subject::{Functional, GradientParameter};
 use crate::verify::{Gating, GradientTerms};
@@ -79,8 +79,8 @@ impl GradientPlan {
     }
 }
 
-impl StudyPlan for GradientPlan {
-    fn case_names(&self) -> Vec<&str> {
+impl StudyCases for GradientPlan {
+    fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
@@ -89,15 +89,16 @@ impl StudyPlan for GradientPlan {
         Some((terms.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
-        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
+        let cases = kept(&self.cases, keep);
+        StudyPlan::Gradient(Arc::new(Self { cases, ..self.clone() }))
     }
 
     fn of_external(
         &self,
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
-    ) -> Option<Arc<dyn StudyPlan>> {
+    ) -> Option<StudyPlan> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let mut plan = self.clone();
         let is_stated = |case: &GradientCase| case.solver.solver.as_deref() == Some(name);
@@ -123,6 +124,6 @@ impl StudyPlan for GradientPlan {
             };
             case.expected = Some((GradientTerms::of_gate(order), because));
         }
-        Some(Arc::new(plan))
+        Some(StudyPlan::Gradient(Arc::new(plan)))
     }
 }

@@ -1,6 +1,6 @@
 //! An internal-force study whose suite has passed all checks.
 
-use super::{StudyPlan, kept};
+use super::{StudyCases, StudyPlan, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
 use std::sync::Arc;
@@ -46,8 +46,8 @@ pub enum ForceExpectation {
     StepsBelow(f64),
 }
 
-impl StudyPlan for ForcePlan {
-    fn case_names(&self) -> Vec<&str> {
+impl StudyCases for ForcePlan {
+    fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
@@ -56,8 +56,9 @@ impl StudyPlan for ForcePlan {
         Some((expected.as_ref()?.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
-        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
+        let cases = kept(&self.cases, keep);
+        StudyPlan::InternalForce(Arc::new(Self { cases, ..self.clone() }))
     }
 }
 

@@ -13,8 +13,11 @@ pub(crate) use super::scene::{Scene, SceneFace};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use refine_plan::SameMethod;
 
+use self::gradient::GradientPlan;
 use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
+use self::spectrum::SpectrumPlan;
+use self::stability::StabilityPlan;
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
 use super::scene::lattice::LatticeOffsets;
 use crate::exact::Problem;
@@ -22,8 +25,6 @@ use crate::exact::formula::Formula;
 use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
 use crate::verify::{Clock, Expectation, Gating, JudgedBox, JudgedSum, Quantity, StepKind};
-use std::any::Any;
-use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A suite, ready to run.
@@ -44,7 +45,7 @@ pub struct Suite {
     /// Head (such as `s(tau)`) and formula of each declared function.
     pub functions: Vec<(String, String)>,
     /// The study plan.
-    pub study: Arc<dyn StudyPlan>,
+    pub study: StudyPlan,
     /// Hash of the text of the file.
     pub(crate) fingerprint: u64,
 }
@@ -196,29 +197,32 @@ impl Case {
 impl Suite {
     /// Returns the case names, in order.
     pub fn case_names(&self) -> Vec<&str> {
-        self.study.case_names()
+        self.study.cases().names()
     }
 
     /// Returns the suite with only those cases for whose index `keep` returns true.
     #[must_use]
     pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { study: self.study.only(keep), ..self.clone() }
+        Self { study: self.study.cases().only(keep), ..self.clone() }
     }
 
     /// Whether the suite has no expectations, so its cases neither pass nor fail.
     pub fn explores(&self) -> bool {
-        (0..self.case_names().len()).all(|case| self.study.expectation(case).is_none())
+        let cases = self.study.cases();
+        (0..cases.names().len()).all(|case| cases.expectation(case).is_none())
     }
 
-    /// Returns the plan, if the study is of kind `P`.
-    pub fn plan<P: StudyPlan>(&self) -> Option<&P> {
-        let plan: &dyn Any = self.study.as_ref();
-        plan.downcast_ref()
+    /// Returns the convergence study; `None` for other kinds of study.
+    pub fn convergence(&self) -> Option<&ConvergencePlan> {
+        match &self.study {
+            StudyPlan::Convergence(plan) => Some(plan),
+            _ => None,
+        }
     }
 }
 
-impl StudyPlan for ConvergencePlan {
-    fn case_names(&self) -> Vec<&str> {
+impl StudyCases for ConvergencePlan {
+    fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
@@ -226,16 +230,17 @@ impl StudyPlan for ConvergencePlan {
         self.cases[case].expected()
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
-        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
+        let cases = kept(&self.cases, keep);
+        StudyPlan::Convergence(Arc::new(Self { cases, ..self.clone() }))
     }
 
     fn of_external(
         &self,
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
-    ) -> Option<Arc<dyn StudyPlan>> {
-        Some(Arc::new(self.under(solver, terms)))
+    ) -> Option<StudyPlan> {
+        Some(StudyPlan::Convergence(Arc::new(self.under(solver, terms))))
     }
 }
 
@@ -263,10 +268,38 @@ impl ConvergencePlan {
     }
 }
 
-/// Checked values of a study.
-pub trait StudyPlan: Any + Debug + Send + Sync {
+/// Checked values of a study, by its kind.
+#[derive(Debug, Clone)]
+pub enum StudyPlan {
+    /// Errors on several levels of refinement.
+    Convergence(Arc<ConvergencePlan>),
+    /// The internal force on a node while a particle moves.
+    InternalForce(Arc<ForcePlan>),
+    /// Growth of energy in runs.
+    Stability(Arc<StabilityPlan>),
+    /// Derivatives that a solver reports.
+    Gradient(Arc<GradientPlan>),
+    /// Phase speed and damping of waves.
+    Spectrum(Arc<SpectrumPlan>),
+}
+
+impl StudyPlan {
+    /// Returns the cases of the study.
+    pub fn cases(&self) -> &dyn StudyCases {
+        match self {
+            Self::Convergence(plan) => plan.as_ref(),
+            Self::InternalForce(plan) => plan.as_ref(),
+            Self::Stability(plan) => plan.as_ref(),
+            Self::Gradient(plan) => plan.as_ref(),
+            Self::Spectrum(plan) => plan.as_ref(),
+        }
+    }
+}
+
+/// The cases of a study of any kind.
+pub trait StudyCases {
     /// Returns the case names, in order.
-    fn case_names(&self) -> Vec<&str>;
+    fn names(&self) -> Vec<&str>;
 
     /// Returns summary and reason of the expectation of the case with this index; `None` if the
     /// suite states no expectations.
@@ -276,7 +309,7 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
     fn expectation(&self, case: usize) -> Option<(String, &str)>;
 
     /// Returns the study with only those cases for whose index `keep` returns true.
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan>;
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan;
 
     /// Returns the study with an external solver in place of its methods. The solver must meet the
     /// requirements `terms`, if any. `None` if the study examines the internals of a method.
@@ -284,7 +317,7 @@ pub trait StudyPlan: Any + Debug + Send + Sync {
         &self,
         _solver: ExternalMethod<'_>,
         _terms: Option<&GateTerms>,
-    ) -> Option<Arc<dyn StudyPlan>> {
+    ) -> Option<StudyPlan> {
         None
     }
 }

@@ -4,7 +4,7 @@ use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::refine_plan::LevelPlan;
 use super::stability::LatticeEdits;
-use super::{StudyPlan, kept};
+use super::{StudyCases, StudyPlan, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::WaveMethod;
 use crate::verify::{Gating, SpectrumExpectation};
@@ -84,8 +84,8 @@ impl SpectrumPlan {
     }
 }
 
-impl StudyPlan for SpectrumPlan {
-    fn case_names(&self) -> Vec<&str> {
+impl StudyCases for SpectrumPlan {
+    fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
@@ -94,15 +94,16 @@ impl StudyPlan for SpectrumPlan {
         Some((expected.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
-        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
+        let cases = kept(&self.cases, keep);
+        StudyPlan::Spectrum(Arc::new(Self { cases, ..self.clone() }))
     }
 
     fn of_external(
         &self,
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
-    ) -> Option<Arc<dyn StudyPlan>> {
+    ) -> Option<StudyPlan> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let same = self.case_of(name);
         let unknown = || {
@@ -122,6 +123,6 @@ impl StudyPlan for SpectrumPlan {
             expected: same.and_then(|case| case.expected.clone()),
             gating,
         };
-        Some(Arc::new(Self { cases: vec![case], ..self.clone() }))
+        Some(StudyPlan::Spectrum(Arc::new(Self { cases: vec![case], ..self.clone() })))
     }
 }

@@ -1,7 +1,7 @@
 //! A stability study whose suite has passed all checks.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::{StudyPlan, kept};
+use super::{StudyCases, StudyPlan, kept};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::yaml::Source;
@@ -71,8 +71,8 @@ pub struct StabilityCase {
     pub gating: Option<Gating>,
 }
 
-impl StudyPlan for StabilityPlan {
-    fn case_names(&self) -> Vec<&str> {
+impl StudyCases for StabilityPlan {
+    fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
@@ -81,15 +81,16 @@ impl StudyPlan for StabilityPlan {
         Some((summary.clone()?, because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Arc<dyn StudyPlan> {
-        Arc::new(Self { cases: kept(&self.cases, keep), ..self.clone() })
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
+        let cases = kept(&self.cases, keep);
+        StudyPlan::Stability(Arc::new(Self { cases, ..self.clone() }))
     }
 
     fn of_external(
         &self,
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
-    ) -> Option<Arc<dyn StudyPlan>> {
+    ) -> Option<StudyPlan> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let case = StabilityCase {
             name: name.to_owned(),
@@ -105,6 +106,6 @@ impl StudyPlan for StabilityPlan {
                 }
             }),
         };
-        Some(Arc::new(Self { cases: vec![case], ..self.clone() }))
+        Some(StudyPlan::Stability(Arc::new(Self { cases: vec![case], ..self.clone() })))
     }
 }

@@ -15,7 +15,7 @@ pub use record::Breach;
 use crate::external::{LevelProblem, SolverFactory};
 use crate::study::{lacking, level_problem};
 use crate::subject::SubjectError;
-use crate::suite::{ConvergencePlan, Suite, embedded};
+use crate::suite::{Suite, embedded};
 use record::{RunState, record};
 
 const STEPS: usize = 6;
@@ -72,7 +72,7 @@ pub(crate) fn examined(
 
 /// Returns the coarsest level of a suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
-    let plan = suite.plan::<ConvergencePlan>().ok_or("the suite is not a convergence study")?;
+    let plan = suite.convergence().ok_or("the suite is not a convergence study")?;
     let lacks = lacking(suite, solver);
     if !lacks.is_empty() {
         return Err(format!("the solver lacks {}", lacks.join(", ")).into());

@@ -4,8 +4,8 @@ use super::course::{AffineField, Course};
 use crate::external::{LevelProblem, ProblemNeeds, SMALL_STRAIN};
 use crate::study::{level_problem, needs, subject};
 use crate::subject::SubjectError;
+use crate::suite::Suite;
 use crate::suite::yaml::Source;
-use crate::suite::{ConvergencePlan, Suite};
 
 pub(super) type Kind = (usize, &'static str);
 
@@ -344,7 +344,7 @@ impl BoxScene {
         } else {
             "basis: linear, transfer: flip, scheme: musl"
         })?;
-        let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
+        let plan = suite.convergence().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;
         let mut problem = level_problem(&suite.name, plan, case, *level)?;
@@ -372,7 +372,7 @@ impl BoxScene {
     /// Runs the built-in MPM with `method`, in suite notation.
     pub(super) fn built_in(&self, method: &str) -> Result<Course, SubjectError> {
         let suite = self.suite(method)?;
-        let plan = suite.plan::<ConvergencePlan>().ok_or("not a convergence study")?;
+        let plan = suite.convergence().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;
         let mut subject = subject(plan, case.method, *level)?;

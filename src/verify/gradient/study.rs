@@ -1,7 +1,6 @@
 //! All checks of the derivative with respect to one parameter.
 
 use super::{GradientEvidence, GradientState, Sweep, SweepPoint, Taylor, ValueCheck};
-use crate::verify::StudyResults;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
@@ -59,8 +58,9 @@ pub struct GradientStudy {
     pub evidence: Option<GradientEvidence>,
 }
 
-impl StudyResults for GradientStudy {
-    fn fails(&self) -> bool {
+impl GradientStudy {
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
         self.state().0 == GradientState::Wrong
     }
 }

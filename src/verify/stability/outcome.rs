@@ -5,7 +5,6 @@ use super::trial_result::{Stability, Trial};
 use crate::subject::SubjectError;
 use crate::verify::figure::RunFigure;
 use crate::verify::order::format_number::format_number;
-use crate::verify::study_results::StudyResults;
 
 /// Results of a stability study: one row for each value of the swept parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,8 +62,9 @@ impl Critical {
     }
 }
 
-impl StudyResults for StabilityStudy {
-    fn fails(&self) -> bool {
+impl StabilityStudy {
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
         let is_stable = |trial: &Trial| trial.verdict == Stability::Stable;
         self.sought.is_none()
             && !self.rows.iter().all(|row| row.trial.as_ref().is_some_and(is_stable))

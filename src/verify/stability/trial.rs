@@ -244,7 +244,6 @@ pub(super) fn checkerboard(samples: &Samples) -> f64 {
 mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
-    use crate::verify::StudyResults;
     use crate::verify::figure::RunFigure;
     use crate::verify::stability::expectation::StabilityExpectation;
     use crate::verify::stability::limit::StabilityLimit;

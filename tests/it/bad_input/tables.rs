@@ -2,7 +2,7 @@
 
 use super::samples::BAR;
 use super::{load, refused};
-use mpm_verify::suite::{ConvergencePlan, Extent};
+use mpm_verify::suite::Extent;
 use rstest::rstest;
 
 /// Creates a bar whose amplitude is a table instead of a number.
@@ -43,7 +43,7 @@ fn a_table_has_a_value(#[case] table: &str, #[case] value: Option<f64>) {
 fn a_table_gives_each_level_its_step() {
     let table = "0.1\n  pace: {by: h, table: [[0, 0], [5, 5e-3]]}";
     let suite = load(&edited(table).replace("dt: 1e-3", "dt: pace")).unwrap();
-    let plan = suite.plan::<ConvergencePlan>().unwrap();
+    let plan = suite.convergence().unwrap();
     for level in plan.refine.levels(Extent::Usual) {
         assert!((level.dt / (1e-3 * level.h) - 1.0).abs() < 1e-12, "{level:?}");
     }

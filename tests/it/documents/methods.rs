@@ -1,7 +1,7 @@
 //! The tables of docs/methods.md show in which folders of suites each method converges.
 
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{ConvergencePlan, Suite};
 use mpm_verify::verify::Verdict;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -34,7 +34,7 @@ fn asked() -> Vec<Asked> {
     let of_file = |file: &std::path::PathBuf| -> Vec<Asked> {
         let source = Source::read(file).expect("a readable suite");
         let suite = Suite::load(&source).unwrap_or_else(|found| panic!("{found}"));
-        let cases = suite.plan::<ConvergencePlan>().map(|plan| plan.cases.as_slice());
+        let cases = suite.convergence().map(|plan| plan.cases.as_slice());
         let asked = cases.unwrap_or_default().iter().filter_map(|case| {
             let expectation = case.expectation.as_ref()?;
             let verdict = expectation.verdict?;

@@ -10,7 +10,7 @@ use mpm_verify::subject::{
     Failure, Functional, GradientParameter, Precision, RunCounters, Samples, Subject, SubjectError,
 };
 use mpm_verify::suite::{ExternalMethod, GateTerms, Suite};
-use mpm_verify::verify::{CaseOutcome, GradientState, GradientStudy};
+use mpm_verify::verify::{CaseOutcome, GradientState};
 use rstest::rstest;
 
 const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.yaml");
@@ -182,7 +182,7 @@ fn cases(solver: &Differentiable) -> Vec<CaseOutcome> {
 }
 
 fn states(cases: &[CaseOutcome]) -> Vec<GradientState> {
-    let state = |case: &CaseOutcome| case.results::<GradientStudy>().expect("results").state().0;
+    let state = |case: &CaseOutcome| case.gradient().expect("results").state().0;
     cases.iter().map(state).collect()
 }
 
@@ -194,12 +194,12 @@ fn correct_solver_meets_the_gate() {
     for case in &cases {
         assert_eq!(case.unmet, [""; 0], "{}", case.case);
         assert_eq!(case.result(), "pass");
-        let study: &GradientStudy = case.results().expect("results");
+        let study = case.gradient().expect("results");
         assert!((study.order() - 2.0).abs() < 0.02, "{}", study.order());
     }
     let (smooth, linear) = (GradientState::Smooth, GradientState::Linear);
     assert_eq!(states(&cases), [smooth, smooth, linear]);
-    let young: &GradientStudy = cases[0].results().expect("results");
+    let young = cases[0].gradient().expect("results");
     let sweep = young.sweep.as_ref().expect("a sweep");
     assert!((sweep.share - 1.0).abs() < 1e-6 && sweep.jumps.is_empty(), "{sweep:?}");
 }
@@ -215,7 +215,7 @@ fn exact_sensitivities_match_the_closed_form() {
         let suite = loaded(&SUITE.replace("until: 1.3", &format!("until: {until}")));
         let cases = run(&suite, &Differentiable::sound(), false);
         let exact = |case: &CaseOutcome| {
-            let study: &GradientStudy = case.results().expect("results");
+            let study = case.gradient().expect("results");
             study.levels[0].exact
         };
         let expected = [by_young, -by_young, displacement];
@@ -275,7 +275,7 @@ fn a_value_of_another_step_is_wrong() {
 fn a_jump_of_the_function_is_named(#[case] at: f64) {
     let cases = cases(&Differentiable { jump: Some(at), ..Differentiable::sound() });
     assert_eq!(states(&cases)[0], GradientState::Jumps, "{}", cases[0].reason);
-    let study: &GradientStudy = cases[0].results().expect("results");
+    let study = cases[0].gradient().expect("results");
     assert_eq!(study.sweep.as_ref().expect("a sweep").jumps.len(), 1);
 }
 

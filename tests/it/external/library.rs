@@ -5,7 +5,7 @@ use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, level_problem};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{ConvergencePlan, Extent, ExternalMethod, Suite, embedded};
+use mpm_verify::suite::{Extent, ExternalMethod, Suite, embedded};
 use mpm_verify::verify::CaseOutcome;
 
 /// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.
@@ -134,7 +134,7 @@ fn a_placed_body_force_is_the_body_force() {
     for name in ["mms-axis-aligned-2d", "geostatic-slope", "falling-block"] {
         let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
         let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
-        let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+        let plan = suite.convergence().expect("a study of an order");
         let (case, level) = (&plan.cases[0], plan.refine.levels[0]);
         let problem = level_problem(name, plan, case, level).expect("a problem");
         let force = problem.body_force.expect("a body force");

@@ -5,7 +5,7 @@ use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Suite, embedded};
-use mpm_verify::verify::{CaseOutcome, SpectrumStudy};
+use mpm_verify::verify::CaseOutcome;
 use std::f64::consts::TAU;
 
 /// A subject with a standing wave, whose amplitude has a given angle and modulus per step.
@@ -89,7 +89,7 @@ fn waves(name: &'static str, factor: f64) -> Waves {
 fn solver_with_an_unknown_method_is_measured() {
     let found = outcome(&waves("mine", 1.0), false);
     assert_eq!((found.result(), found.verdict.as_str()), ("explored", "measured"));
-    let study: &SpectrumStudy = found.results().expect("a study");
+    let study = found.spectrum().expect("a study");
     let errors: Vec<f64> = study
         .rows
         .iter()

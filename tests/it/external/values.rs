@@ -9,7 +9,7 @@ use mpm_verify::external::{
 use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{ConvergencePlan, Suite, embedded};
+use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 use serde_json::{Value, json};
 
@@ -213,7 +213,7 @@ fn the_initial_state_is_known_at_any_place_of_the_body() {
 fn problem_of(name: &str) -> LevelProblem {
     let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
     let suite = Suite::load(&source.expect("a text")).expect("a sound suite");
-    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    let plan = suite.convergence().expect("a study of an order");
     level_problem(name, plan, &plan.cases[0], plan.refine.levels[0]).expect("a problem")
 }
 
@@ -222,7 +222,7 @@ fn problem_of(name: &str) -> LevelProblem {
 fn load_steps_are_passed_to_solvers_that_list_them() {
     let source = embedded::source("load-steps-hencky").expect("a suite").expect("a text");
     let suite = Suite::load(&source).expect("a sound suite");
-    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    let plan = suite.convergence().expect("a study of an order");
     for case in &plan.cases {
         let steps = if case.name.ends_with("-20") { 20 } else { 1 };
         let problem = level_problem("load-steps-hencky", plan, case, plan.refine.levels[0]);
@@ -332,7 +332,7 @@ fn pressure_on_a_rim_is_passed_to_solvers() {
     let text = text.replace("value: p}", "value: \"p*(X^2 + Y^2)/a^2\"}");
     let source = Source::from_text("suite.yaml", &text).expect("a text");
     let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
-    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    let plan = suite.convergence().expect("a study of an order");
     assert!(needs(plan).loaded_rims);
     let case = &plan.cases[0];
     let tube = level_problem(name, plan, case, plan.refine.levels[0]).expect("a problem");
@@ -358,7 +358,7 @@ fn points_start_in_the_initial_state() {
     let program = SolverProgram::greet(&command, ProgramLimits::default()).expect("a hello");
     let source = Source::from_text("suite.yaml", STRETCHED).expect("a text");
     let suite = Suite::load(&source).expect("a sound suite");
-    let plan = suite.plan::<ConvergencePlan>().expect("a study of an order");
+    let plan = suite.convergence().expect("a study of an order");
     let problem = level_problem("stretched", plan, &plan.cases[0], plan.refine.levels[0]);
     let subject = program.subject(problem.expect("a problem")).expect("a subject");
     let mut samples = Samples::default();

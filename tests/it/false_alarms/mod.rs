@@ -11,7 +11,7 @@ use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking};
 use mpm_verify::subject::{Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Case, ConvergencePlan, Extent, Suite, embedded};
+use mpm_verify::suite::{Case, Extent, StudyPlan, Suite, embedded};
 use mpm_verify::testing::{
     ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor, page,
 };
@@ -27,7 +27,7 @@ fn suite(name: &str) -> Suite {
 
 /// Runs the case with this index under a change; `None` if the change is not possible.
 fn changed(suite: &Suite, case: usize, change: Change) -> Option<CaseOutcome> {
-    let plan = suite.plan::<ConvergencePlan>()?;
+    let plan = suite.convergence()?;
     let solver = ChangedSolver { method: plan.cases[case].method, change };
     if !is_known(solver.method) || !lacking(suite, &solver).is_empty() {
         return None;
@@ -40,7 +40,7 @@ fn changed(suite: &Suite, case: usize, change: Change) -> Option<CaseOutcome> {
 /// remains so, and their ratios from level to level are kept: a claimed order requires dt in
 /// proportion to h.
 fn stepped(suite: &Suite, case: usize, longer: bool) -> Option<Suite> {
-    let mut plan = suite.plan::<ConvergencePlan>()?.clone();
+    let mut plan = suite.convergence()?.clone();
     let until = plan.cases[case].until;
     let counts = plan.refine.levels(Extent::Usual).iter().map(|level| until / level.dt);
     let whole = |count: f64| (count - libm::round(count)).abs() < 1e-6;
@@ -56,7 +56,7 @@ fn stepped(suite: &Suite, case: usize, longer: bool) -> Option<Suite> {
     }
     plan.refine.rule = plan.refine.rule.map(|share| share * factor);
     let mut stepped = suite.clone();
-    stepped.study = Arc::new(plan);
+    stepped.study = StudyPlan::Convergence(Arc::new(plan));
     Some(stepped)
 }
 
@@ -122,7 +122,7 @@ fn cases(methods: &str) -> Vec<Case> {
     );
     let source = Source::from_text("methods.yaml", text).expect("a text");
     let suite = Suite::load(&source).unwrap_or_else(|error| panic!("{error}"));
-    suite.plan::<ConvergencePlan>().expect("a convergence study").cases.clone()
+    suite.convergence().expect("a convergence study").cases.clone()
 }
 
 fn built_in(dimension: usize, method: &str) -> BuiltIn {
@@ -190,7 +190,7 @@ fn what_must_not_matter_fails_no_gate() {
     let suites: Vec<Suite> = embedded::names()
         .filter(|name| name.contains(&only))
         .map(suite)
-        .filter(|suite| suite.plan::<ConvergencePlan>().is_some() && !suite.explores())
+        .filter(|suite| suite.convergence().is_some() && !suite.explores())
         .collect();
     let mut alarms = Vec::new();
     let mut report = |name: &str, found: Vec<(String, CaseOutcome)>| {

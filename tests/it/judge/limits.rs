@@ -202,7 +202,7 @@ fn limits_cover_the_exact_value_in_93_per_cent_of_the_test_suites() {
     names.par_iter().for_each(|name| {
         let Some(Ok(source)) = embedded::source(name) else { return };
         let Ok(suite) = Suite::load(&source) else { return };
-        let Some(plan) = suite.plan::<ConvergencePlan>() else { return };
+        let Some(plan) = suite.convergence() else { return };
         let steps = time_steps(&suite, Extent::Usual);
         let exact = plan.cases.par_iter().filter(|case| case.against == Against::Exact);
         exact.for_each(|case| {

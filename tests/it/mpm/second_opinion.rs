@@ -172,7 +172,7 @@ fn hold_level(plan: &ConvergencePlan, level: &Level) {
 fn independent_implementation_agrees(#[files("tests/second_opinion/*.txt")] file: PathBuf) {
     let name = file.file_stem().and_then(|stem| stem.to_str()).expect("a name");
     let suite = Suite::load(&embedded::source(name).expect("a suite").expect("its text")).unwrap();
-    let plan = suite.plan::<ConvergencePlan>().expect("a convergence study");
+    let plan = suite.convergence().expect("a convergence study");
     let levels = read(&fs::read_to_string(&file).expect("a file"));
     assert!(levels.len() >= 6, "linear, contiguous GIMP and cubic functions, USL and MUSL");
     for level in &levels {

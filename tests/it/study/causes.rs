@@ -6,7 +6,7 @@ use mpm_verify::report;
 use mpm_verify::study::{self, diagnose, preflight, under};
 use mpm_verify::subject::{Subject, SubjectError};
 use mpm_verify::suite::yaml::{Severity, Source};
-use mpm_verify::suite::{ConvergencePlan, LevelPlan, Suite};
+use mpm_verify::suite::{LevelPlan, Suite};
 use mpm_verify::verify::{Diagnosis, KnownCauseKind};
 use rstest::rstest;
 
@@ -96,7 +96,7 @@ impl SolverFactory for External {
     }
 
     fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let plan = self.0.plan::<ConvergencePlan>().expect("a convergence study");
+        let plan = self.0.convergence().expect("a convergence study");
         let (first, h) = (plan.refine.levels[0], problem.grid.h);
         let cells = (first.cells as f64 * first.h / h).round() as u64;
         let level = LevelPlan { cells, h, dt: problem.dt, ppc: problem.particles_per_cell };

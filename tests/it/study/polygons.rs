@@ -2,8 +2,8 @@
 
 use mpm_verify::study::level_problem;
 use mpm_verify::subject::PlaneState;
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{ConvergencePlan, Suite};
 use rstest::rstest;
 
 /// Mass and centre of mass must equal those of the body, by Green's theorem. For a body of
@@ -15,7 +15,7 @@ use rstest::rstest;
 fn mass_and_centre_of_mass_are_exact(#[case] text: &str) {
     let suite = Suite::load(&Source::from_text("suite.yaml", text).unwrap());
     let suite = suite.unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let plan = suite.plan::<ConvergencePlan>().unwrap();
+    let plan = suite.convergence().unwrap();
     let corners = plan.scene.outline.as_ref().unwrap().trace();
     let next = corners.iter().cycle().skip(1);
     let exact = corners.iter().zip(next).fold([0.0; 3], |sums, (a, b)| {

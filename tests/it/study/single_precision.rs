@@ -98,7 +98,7 @@ struct Row {
 }
 
 fn row(suite: &Suite) -> Option<Row> {
-    let plan = suite.plan::<ConvergencePlan>()?;
+    let plan = suite.convergence()?;
     if plan.exact.as_ref().is_none_or(|exact| exact.at_rest) || plan.scene.bodies.len() > 1 {
         return None;
     }
@@ -174,7 +174,7 @@ fn rounding_errors_of_suites_lie_within_the_predicted_range() {
 fn state_is_rounded_only_if_single_precision_is_stated() {
     let source = embedded::source("single-precision-bar").expect("a suite").expect("text");
     let suite = Suite::load(&source).expect("a suite");
-    let plan = suite.plan::<ConvergencePlan>().expect("a convergence study");
+    let plan = suite.convergence().expect("a convergence study");
     let is_rounded = |index: usize| {
         let case = &plan.cases[index];
         let mut subject = subject(plan, case.method, plan.refine.levels[1]).expect("a solver");

@@ -4,7 +4,7 @@
 use super::own_solver::{OwnSolver, SWINGING_BAR, suite};
 use mpm_verify::prelude::*;
 use mpm_verify::study;
-use mpm_verify::suite::{ConvergencePlan, embedded};
+use mpm_verify::suite::embedded;
 use mpm_verify::testing::conformance_on;
 use rstest::rstest;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -160,7 +160,7 @@ impl SolverFactory for OurSolver {
     }
 
     fn subject(&self, _: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
-        let plan = self.suite.plan::<ConvergencePlan>().expect("a convergence study");
+        let plan = self.suite.convergence().expect("a convergence study");
         let sound = study::subject(plan, plan.cases[0].method, plan.refine.levels[0])?;
         let number = self.made.fetch_add(1, Ordering::Relaxed);
         Ok(Box::new(FaultySubject { sound, fault: self.fault, steps: 0, number }))

@@ -4,7 +4,7 @@ use super::own_solver::solver::Bar;
 use super::own_solver::{OwnSolver, suite};
 use mpm_verify::prelude::*;
 use mpm_verify::study::lacking;
-use mpm_verify::verify::{StabilityRow, StabilityStudy};
+use mpm_verify::verify::StabilityRow;
 use rstest::rstest;
 
 /// A bar whose particles move through cells and start with random velocities and stresses. It uses
@@ -110,8 +110,7 @@ fn judged(text: &str, solver: &dyn SolverFactory) -> CaseOutcome {
 }
 
 fn rows(outcome: &CaseOutcome) -> &[StabilityRow] {
-    let study: &dyn std::any::Any = outcome.study.as_deref().expect("results");
-    &study.downcast_ref::<StabilityStudy>().expect("a stability study").rows
+    &outcome.stability().expect("a stability study").rows
 }
 
 #[test]
