@@ -184,13 +184,13 @@ fn in_space(d: usize, stress: &[f64], across: Option<f64>) -> SpaceStress {
 }
 
 /// Returns the mean stress `p = -tr(sigma)/3` (Pa), positive in compression (Muir Wood 1990, Soil
-/// Behaviour and Critical State Soil Mechanics, section 1.4).
+/// Behaviour and Critical State Soil Mechanics).
 fn mean_stress(s: &SpaceStress) -> f64 {
     -(s[0][0] + s[1][1] + s[2][2]) / 3.0
 }
 
-/// Returns the deviatoric stress `q = sqrt(3/2 s:s)` (Pa) with `s = sigma + p I` (Muir Wood 1990,
-/// section 1.4). It is the axial stress in uniaxial stress.
+/// Returns the deviatoric stress `q = sqrt(3/2 s:s)` (Pa) with `s = sigma + p I` (Muir Wood 1990).
+/// It is the magnitude of the axial stress in uniaxial stress.
 fn deviatoric_stress(s: &SpaceStress) -> f64 {
     let p = mean_stress(s);
     let deviator = |k: usize| s[k / 3][k % 3] + if k.is_multiple_of(4) { p } else { 0.0 };
