@@ -71,7 +71,7 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     }
     for (i, case) in suite.case_names().into_iter().enumerate() {
         page += &format!("\n{case}\n");
-        page += &match suite.study.cases().expectation(i) {
+        page += &match suite.study.expectation(i) {
             Some((expected, because)) => format!("  expected: {expected}\n  because: {because}\n"),
             None => "  expected: nothing, so the suite is not a gate\n".to_owned(),
         };
@@ -125,7 +125,7 @@ fn explained(suite: &Suite, without: Option<Dispensable>) -> Value {
         study::profile(suite, case, without).map(|profile| report::profile_json(&profile))
     };
     let cases = suite.case_names().into_iter().enumerate().map(|(i, case)| {
-        let (expected, because) = suite.study.cases().expectation(i).unzip();
+        let (expected, because) = suite.study.expectation(i).unzip();
         let planned = planned.iter().find(|(name, _)| *name == case);
         json!({
             "case": case,

@@ -10,10 +10,9 @@ use crate::study::setup::dispatch::subject;
 use crate::subject::{PlaneState, Subject, SubjectError};
 use crate::suite::model::method::{ExternalMethod, GateTerms};
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, StudyPlan, Suite};
+use crate::suite::model::{Case, ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::verify::{StepKind, SumNeed};
-use std::sync::Arc;
 
 /// Returns the capabilities that a convergence study requires.
 pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
@@ -91,7 +90,7 @@ pub fn under_on(
     let under = suite.of_external_on(method, terms)?;
     let plan = under.convergence().and_then(|plan| with_law_of(solver, plan));
     Some(match plan {
-        Some(plan) => Suite { study: StudyPlan::Convergence(Arc::new(plan)), ..under },
+        Some(plan) => Suite { study: plan.into(), ..under },
         None => under,
     })
 }

@@ -7,8 +7,8 @@ use crate::study::handover::{HandedRun, is_deformed, of_scene, problem, start, u
 use crate::study::setup::body::Body;
 use crate::study::setup::initial_state::Initial;
 use crate::subject::{Perturbable, Samples, Subject, SubjectError};
-use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::model::Scene;
+use crate::suite::model::stability::RunSetup;
 use crate::verify::is_looked_at;
 
 pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {

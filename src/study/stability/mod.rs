@@ -7,10 +7,9 @@ use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::{Rows, push, scene, stated};
 use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::time_series::SeriesError;
-use crate::suite::compile::stability::setup::RunSetup;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Scene;
-use crate::suite::model::stability::StabilityPlan;
+use crate::suite::model::stability::{RunSetup, StabilityPlan};
 use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy, StudyResults};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -21,7 +20,7 @@ impl Study for StabilityPlan {
     }
 
     fn needs(&self) -> Option<ProblemNeeds> {
-        let setup = self.template.setup(&[(&self.swept, *self.values.first()?)]);
+        let setup = self.setup.with(&[(&self.swept, *self.values.first()?)]);
         Some(handed::needs(&setup.ok()?))
     }
 
@@ -126,7 +125,7 @@ fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -
 /// Returns the rows that describe the study, with the set-up of the first row.
 pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
     let mut rows = Rows::new();
-    let first = |value: &f64| plan.template.setup(&[(&plan.swept, *value)]).ok();
+    let first = |value: &f64| plan.setup.with(&[(&plan.swept, *value)]).ok();
     if let Some(first) = plan.values.first().and_then(first) {
         scene(&first.scene, &mut rows);
         of_setup(plan, &first, &mut rows);
@@ -138,7 +137,7 @@ pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
 fn common_step(plan: &StabilityPlan, setup: &RunSetup) -> Option<f64> {
     let [dt] = setup.dt[..] else { return None };
     let is_equal = |value: &f64| {
-        let other = plan.template.setup(&[(&plan.swept, *value)]);
+        let other = plan.setup.with(&[(&plan.swept, *value)]);
         other.is_ok_and(|other| other.dt == setup.dt)
     };
     let is_given = setup.rule.is_none() && plan.sought.is_none();

@@ -8,10 +8,9 @@ use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::{perturbable, stable_time_step_of, with_ledger};
 use crate::study::time_series::ShownRun;
 use crate::subject::{Perturbable, Subject, SubjectError};
-use crate::suite::compile::stability::setup::{ParameterValues, RunSetup};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::Extent;
-use crate::suite::model::stability::{StabilityCase, StabilityPlan};
+use crate::suite::model::stability::{ParameterValues, RunSetup, StabilityCase, StabilityPlan};
 use crate::verify::{
     Critical, Prediction, Scales, Stability, StabilityLimit, StabilityRow, Trial, amplification,
     spectral_radius, stability_limit, trial,
@@ -56,7 +55,7 @@ impl CaseRun<'_> {
     }
 
     pub(super) fn setup(&self, values: &ParameterValues<'_>) -> Result<RunSetup, SubjectError> {
-        let setup = self.plan.template.setup(values);
+        let setup = self.plan.setup.with(values);
         let mut setup = setup.map_err(|diagnostic| diagnostic.one_line())?;
         if self.context.extent == Extent::Full {
             setup.steps = setup.full_steps;

@@ -5,14 +5,13 @@ use super::{gradient, internal_force, scene, spectrum, stability};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, SuiteSpec};
 use crate::suite::model::fingerprint::fingerprint;
-use crate::suite::model::{Scene, StudyPlan, Suite};
+use crate::suite::model::{Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
-use std::sync::Arc;
 
-/// Creates a suite from its keys and the study of this kind that an expression compiles. Group and fingerprint
+/// Creates a suite from its keys and the study that an expression compiles. Group and fingerprint
 /// are set by [`Suite::load`] only: changed copies of a study have none.
 macro_rules! compile_suite {
-    ($kind:ident, $source:ident, $spec:ident, |$evaluator:ident| $plan:expr) => {{
+    ($source:ident, $spec:ident, |$evaluator:ident| $plan:expr) => {{
         let (evaluator, parameters) = Evaluator::new($source, &$spec.parameters, &$spec.functions)?;
         refuse_unusable_name(&evaluator, &$spec.suite)?;
         let $evaluator = &evaluator;
@@ -27,7 +26,7 @@ macro_rules! compile_suite {
             about: $spec.about,
             parameters,
             functions,
-            study: StudyPlan::$kind(Arc::new(plan)),
+            study: plan.into(),
             fingerprint: 0,
         }
     }};
@@ -42,22 +41,16 @@ impl Suite {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec)?,
             SuiteSpec::InternalForce(spec) => {
-                compile_suite!(InternalForce, source, spec, |evaluator| internal_force::plan(
-                    evaluator, &spec
-                ))
+                compile_suite!(source, spec, |evaluator| internal_force::plan(evaluator, &spec))
             }
             SuiteSpec::Stability(spec) => {
-                compile_suite!(Stability, source, spec, |evaluator| stability::plan(
-                    evaluator, source, &spec
-                ))
+                compile_suite!(source, spec, |evaluator| stability::plan(evaluator, source, &spec))
             }
             SuiteSpec::Gradient(spec) => {
-                compile_suite!(Gradient, source, spec, |evaluator| gradient::plan(
-                    evaluator, source, &spec
-                ))
+                compile_suite!(source, spec, |evaluator| gradient::plan(evaluator, source, &spec))
             }
             SuiteSpec::Spectrum(spec) => {
-                compile_suite!(Spectrum, source, spec, |evaluator| spectrum::plan(evaluator, &spec))
+                compile_suite!(source, spec, |evaluator| spectrum::plan(evaluator, &spec))
             }
         };
         let fingerprint = fingerprint(source.text().as_bytes());
@@ -112,7 +105,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    Ok(compile_suite!(Convergence, source, spec, |evaluator| convergence_plan(evaluator, &spec)))
+    Ok(compile_suite!(source, spec, |evaluator| convergence_plan(evaluator, &spec)))
 }
 
 /// Refuses a suite name that cannot be used in names of tests and files.

@@ -1,9 +1,9 @@
 //! Replaces the methods of a suite by an external solver.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::{Against, Case, ConvergencePlan, StudyPlan, Suite};
+use super::plan::Suite;
+use super::{Against, Case, ConvergencePlan};
 use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement, format_number};
-use std::sync::Arc;
 
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
@@ -22,7 +22,7 @@ impl Suite {
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
     ) -> Option<Self> {
-        let study = self.study.cases().of_external(solver, terms)?;
+        let study = self.study.of_external(solver, terms)?;
         Some(Self { study, ..self.clone() })
     }
 
@@ -32,7 +32,7 @@ impl Suite {
         for case in &mut plan.cases {
             (case.expectation, case.expectation_in_full) = (None, None);
         }
-        Some(Self { study: StudyPlan::Convergence(Arc::new(plan)), ..self.clone() })
+        Some(Self { study: plan.into(), ..self.clone() })
     }
 }
 

@@ -2,11 +2,10 @@
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};
-use super::{StudyCases, StudyPlan, kept};
+use super::{StudyCases, kept};
 use crate::exact::ParametricMotion;
 use crate::subject::{Functional, GradientParameter};
 use crate::verify::{Gating, GradientTerms};
-use std::sync::Arc;
 
 /// A study of the derivatives that a differentiable solver reports.
 #[derive(Debug, Clone)]
@@ -89,16 +88,11 @@ impl StudyCases for GradientPlan {
         Some((terms.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
-        let cases = kept(&self.cases, keep);
-        StudyPlan::Gradient(Arc::new(Self { cases, ..self.clone() }))
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 
-    fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<StudyPlan> {
+    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let mut plan = self.clone();
         let is_stated = |case: &GradientCase| case.solver.solver.as_deref() == Some(name);
@@ -124,6 +118,6 @@ impl StudyCases for GradientPlan {
             };
             case.expected = Some((GradientTerms::of_gate(order), because));
         }
-        Some(StudyPlan::Gradient(Arc::new(plan)))
+        Some(plan)
     }
 }

@@ -1,9 +1,8 @@
 //! An internal-force study whose suite has passed all checks.
 
-use super::{StudyCases, StudyPlan, kept};
+use super::{StudyCases, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
-use std::sync::Arc;
 
 /// A study of the internal force on a node that a particle crosses.
 #[derive(Debug, Clone)]
@@ -56,9 +55,8 @@ impl StudyCases for ForcePlan {
         Some((expected.as_ref()?.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
-        let cases = kept(&self.cases, keep);
-        StudyPlan::InternalForce(Arc::new(Self { cases, ..self.clone() }))
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 }
 

@@ -5,19 +5,18 @@ pub(crate) mod fingerprint;
 pub(crate) mod gradient;
 pub(crate) mod internal_force;
 pub(crate) mod method;
+pub(crate) mod plan;
 pub(crate) mod refine_plan;
 pub(crate) mod spectrum;
 pub(crate) mod stability;
 
 pub(crate) use super::scene::{Scene, SceneFace};
 pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
+pub use plan::{StudyPlan, Suite};
 pub use refine_plan::SameMethod;
 
-use self::gradient::GradientPlan;
 use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
-use self::spectrum::SpectrumPlan;
-use self::stability::StabilityPlan;
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
 use super::scene::lattice::LatticeOffsets;
 use crate::exact::Problem;
@@ -26,29 +25,6 @@ use crate::exact::heat::Conduction;
 use crate::fem::{Element, Mass};
 use crate::verify::{Clock, Expectation, Gating, JudgedBox, JudgedSum, Quantity, StepKind};
 use std::sync::Arc;
-
-/// A suite, ready to run.
-#[derive(Debug, Clone)]
-pub struct Suite {
-    /// Suite name, unique among all suites.
-    pub name: String,
-    /// Name of the folder that contains the suite file.
-    pub group: String,
-    /// Headline of the report.
-    pub title: String,
-    /// Source of the problem, such as a textbook.
-    pub source: String,
-    /// The author's remarks for readers.
-    pub about: String,
-    /// Name and text of every parameter, and its value unless it is a table.
-    pub parameters: Vec<(String, String, Option<f64>)>,
-    /// Head (such as `s(tau)`) and formula of each declared function.
-    pub functions: Vec<(String, String)>,
-    /// The study plan.
-    pub study: StudyPlan,
-    /// Hash of the text of the file.
-    pub(crate) fingerprint: u64,
-}
 
 /// A convergence study.
 #[derive(Debug, Clone)]
@@ -194,33 +170,6 @@ impl Case {
     }
 }
 
-impl Suite {
-    /// Returns the case names, in order.
-    pub fn case_names(&self) -> Vec<&str> {
-        self.study.cases().names()
-    }
-
-    /// Returns the suite with only those cases for whose index `keep` returns true.
-    #[must_use]
-    pub fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { study: self.study.cases().only(keep), ..self.clone() }
-    }
-
-    /// Whether the suite has no expectations, so its cases neither pass nor fail.
-    pub fn explores(&self) -> bool {
-        let cases = self.study.cases();
-        (0..cases.names().len()).all(|case| cases.expectation(case).is_none())
-    }
-
-    /// Returns the convergence study; `None` for other kinds of study.
-    pub fn convergence(&self) -> Option<&ConvergencePlan> {
-        match &self.study {
-            StudyPlan::Convergence(plan) => Some(plan),
-            _ => None,
-        }
-    }
-}
-
 impl StudyCases for ConvergencePlan {
     fn names(&self) -> Vec<&str> {
         self.cases.iter().map(|case| case.name.as_str()).collect()
@@ -230,17 +179,12 @@ impl StudyCases for ConvergencePlan {
         self.cases[case].expected()
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
-        let cases = kept(&self.cases, keep);
-        StudyPlan::Convergence(Arc::new(Self { cases, ..self.clone() }))
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 
-    fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<StudyPlan> {
-        Some(StudyPlan::Convergence(Arc::new(self.under(solver, terms))))
+    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
+        Some(self.under(solver, terms))
     }
 }
 
@@ -268,36 +212,8 @@ impl ConvergencePlan {
     }
 }
 
-/// Checked values of a study, by its kind.
-#[derive(Debug, Clone)]
-pub enum StudyPlan {
-    /// Errors on several levels of refinement.
-    Convergence(Arc<ConvergencePlan>),
-    /// The internal force on a node while a particle moves.
-    InternalForce(Arc<ForcePlan>),
-    /// Growth of energy in runs.
-    Stability(Arc<StabilityPlan>),
-    /// Derivatives that a solver reports.
-    Gradient(Arc<GradientPlan>),
-    /// Phase speed and damping of waves.
-    Spectrum(Arc<SpectrumPlan>),
-}
-
-impl StudyPlan {
-    /// Returns the cases of the study.
-    pub fn cases(&self) -> &dyn StudyCases {
-        match self {
-            Self::Convergence(plan) => plan.as_ref(),
-            Self::InternalForce(plan) => plan.as_ref(),
-            Self::Stability(plan) => plan.as_ref(),
-            Self::Gradient(plan) => plan.as_ref(),
-            Self::Spectrum(plan) => plan.as_ref(),
-        }
-    }
-}
-
 /// The cases of a study of any kind.
-pub trait StudyCases {
+pub trait StudyCases: Sized {
     /// Returns the case names, in order.
     fn names(&self) -> Vec<&str>;
 
@@ -309,15 +225,12 @@ pub trait StudyCases {
     fn expectation(&self, case: usize) -> Option<(String, &str)>;
 
     /// Returns the study with only those cases for whose index `keep` returns true.
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan;
+    #[must_use]
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self;
 
     /// Returns the study with an external solver in place of its methods. The solver must meet the
     /// requirements `terms`, if any. `None` if the study examines the internals of a method.
-    fn of_external(
-        &self,
-        _solver: ExternalMethod<'_>,
-        _terms: Option<&GateTerms>,
-    ) -> Option<StudyPlan> {
+    fn of_external(&self, _solver: ExternalMethod<'_>, _terms: Option<&GateTerms>) -> Option<Self> {
         None
     }
 }

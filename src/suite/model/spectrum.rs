@@ -4,11 +4,10 @@ use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::refine_plan::LevelPlan;
 use super::stability::LatticeEdits;
-use super::{StudyCases, StudyPlan, kept};
+use super::{StudyCases, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::WaveMethod;
 use crate::verify::{Gating, SpectrumExpectation};
-use std::sync::Arc;
 
 /// A study of the phase speed and damping of waves.
 #[derive(Debug, Clone)]
@@ -94,16 +93,11 @@ impl StudyCases for SpectrumPlan {
         Some((expected.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
-        let cases = kept(&self.cases, keep);
-        StudyPlan::Spectrum(Arc::new(Self { cases, ..self.clone() }))
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 
-    fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<StudyPlan> {
+    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let same = self.case_of(name);
         let unknown = || {
@@ -123,6 +117,6 @@ impl StudyCases for SpectrumPlan {
             expected: same.and_then(|case| case.expected.clone()),
             gating,
         };
-        Some(StudyPlan::Spectrum(Arc::new(Self { cases: vec![case], ..self.clone() })))
+        Some(Self { cases: vec![case], ..self.clone() })
     }
 }

@@ -1,17 +1,19 @@
 //! A stability study whose suite has passed all checks.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::{StudyCases, StudyPlan, kept};
-use crate::suite::grammar::StabilitySpec;
+use super::refine_plan::LevelPlan;
+use super::{Scene, StudyCases, kept};
 use crate::suite::scene::lattice::LatticeOffsets;
-use crate::suite::yaml::Source;
-use crate::verify::{Gating, RunFigure, StabilityExpectation};
+use crate::suite::yaml::Diagnostic;
+use crate::verify::{Gating, RunFigure, Scales, StabilityExpectation};
+use std::fmt;
 use std::sync::Arc;
 
 /// A study of the growth of energy in runs, for several values of one parameter.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    pub(crate) template: SetupTemplate,
+    /// Compiles the set-up of a run.
+    pub(crate) setup: CompileSetup,
     /// Name of the swept parameter.
     pub swept: String,
     /// Values of the swept parameter, one for each row of the report.
@@ -40,11 +42,45 @@ pub struct RowExpectations {
     pub because: String,
 }
 
-/// A suite that can be evaluated for other values of its parameters.
+/// Values that replace those of parameters in the suite, by name.
+pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
+
+type SetupFunction = dyn Fn(&ParameterValues<'_>) -> Result<RunSetup, Diagnostic> + Send + Sync;
+
+/// A function from values of parameters to the set-up of a run. Any parameter can be swept.
+#[derive(Clone)]
+pub(crate) struct CompileSetup(pub(crate) Arc<SetupFunction>);
+
+impl CompileSetup {
+    /// Returns the set-up of a run with `values`.
+    pub(crate) fn with(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
+        (self.0)(values)
+    }
+}
+
+impl fmt::Debug for CompileSetup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("CompileSetup")
+    }
+}
+
+/// Set-up of a run for one set of parameter values.
 #[derive(Debug, Clone)]
-pub(crate) struct SetupTemplate {
-    pub(crate) source: Source,
-    pub(crate) spec: StabilitySpec,
+pub(crate) struct RunSetup {
+    pub(crate) scene: Scene,
+    pub(crate) lattice: LatticeEdits,
+    pub(crate) level: LevelPlan,
+    /// Step lengths (s), repeated cyclically.
+    pub(crate) dt: Vec<f64>,
+    /// Share of the stable time step for an automatic `dt`, which is computed once the particles
+    /// exist.
+    pub(crate) rule: Option<f64>,
+    pub(crate) steps: u64,
+    pub(crate) full_steps: u64,
+    pub(crate) frozen: bool,
+    pub(crate) ledger: bool,
+    pub(crate) perturb: f64,
+    pub(crate) scales: Scales,
 }
 
 #[derive(Debug, Clone, Default)]
@@ -65,7 +101,7 @@ pub struct StabilityCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// What the suite or the gate expects of the rows.
+    /// Expectations of the suite, or of the gate for an external solver.
     pub expectations: RowExpectations,
     /// Role in `run --gate` (required, not gated or excepted), for an external solver.
     pub gating: Option<Gating>,
@@ -81,16 +117,11 @@ impl StudyCases for StabilityPlan {
         Some((summary.clone()?, because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> StudyPlan {
-        let cases = kept(&self.cases, keep);
-        StudyPlan::Stability(Arc::new(Self { cases, ..self.clone() }))
+    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
+        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 
-    fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<StudyPlan> {
+    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let case = StabilityCase {
             name: name.to_owned(),
@@ -106,6 +137,6 @@ impl StudyCases for StabilityPlan {
                 }
             }),
         };
-        Some(StudyPlan::Stability(Arc::new(Self { cases: vec![case], ..self.clone() })))
+        Some(Self { cases: vec![case], ..self.clone() })
     }
 }

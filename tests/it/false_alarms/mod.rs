@@ -11,14 +11,13 @@ use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking};
 use mpm_verify::subject::{Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Case, Extent, StudyPlan, Suite, embedded};
+use mpm_verify::suite::{Case, Extent, Suite, embedded};
 use mpm_verify::testing::{
     ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor, page,
 };
 use mpm_verify::verify::CaseOutcome;
 use rayon::prelude::*;
 use rstest::rstest;
-use std::sync::Arc;
 
 fn suite(name: &str) -> Suite {
     let Some(source) = embedded::source(name) else { panic!("no suite `{name}`") };
@@ -56,7 +55,7 @@ fn stepped(suite: &Suite, case: usize, longer: bool) -> Option<Suite> {
     }
     plan.refine.rule = plan.refine.rule.map(|share| share * factor);
     let mut stepped = suite.clone();
-    stepped.study = StudyPlan::Convergence(Arc::new(plan));
+    stepped.study = plan.into();
     Some(stepped)
 }
 

@@ -1,8 +1,8 @@
 //! Compiles the expectations for the rows of a stability study.
 
+use super::setup::SetupTemplate;
 use crate::suite::evaluator::{Evaluator, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
-use crate::suite::model::stability::SetupTemplate;
 use crate::suite::yaml::{Diagnostic, NumberText, Path};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation, format_number};
 

@@ -17,10 +17,11 @@ use crate::suite::evaluator::{Evaluator, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilityExpectSpec, StabilitySpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::stability::{
-    RowExpectations, SetupTemplate, StabilityCase, StabilityPlan,
+    CompileSetup, RowExpectations, RunSetup, StabilityCase, StabilityPlan,
 };
 use crate::suite::yaml::{Diagnostic, Path, Source};
-use setup::{RunSetup, setup};
+use setup::{SetupTemplate, setup};
+use std::sync::Arc;
 
 const MOST: usize = 500;
 
@@ -57,7 +58,8 @@ pub(crate) fn plan(
         }
     }
     let frozen = spec.run.frozen;
-    Ok(StabilityPlan { template, swept, values, sought, frozen, figures, cases, any_method })
+    let setup = CompileSetup(Arc::new(move |values| template.setup(values)));
+    Ok(StabilityPlan { setup, swept, values, sought, frozen, figures, cases, any_method })
 }
 
 fn sweep(

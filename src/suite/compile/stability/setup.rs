@@ -10,32 +10,19 @@ use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ParameterSpec, StabilitySpec};
 use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::stability::{LatticeEdits, SetupTemplate};
+use crate::suite::model::stability::{LatticeEdits, ParameterValues, RunSetup};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
 use crate::verify::Scales;
 
 /// Default initial perturbation amplitude for a run in which the particles do not move.
 const PERTURBATION: f64 = 1e-9;
 
-pub(crate) type ParameterValues<'a> = [(&'a str, f64)];
-
-#[derive(Debug, Clone)]
-pub(crate) struct RunSetup {
-    pub(crate) scene: Scene,
-    pub(crate) lattice: LatticeEdits,
-    pub(crate) level: LevelPlan,
-    /// Step lengths (s), repeated cyclically.
-    pub(crate) dt: Vec<f64>,
-    /// Share of the stable time step for an automatic `dt`, which is computed once the particles
-    /// exist.
-    pub(crate) rule: Option<f64>,
-    pub(crate) steps: u64,
-    pub(crate) full_steps: u64,
-    pub(crate) frozen: bool,
-    pub(crate) ledger: bool,
-    pub(crate) perturb: f64,
-    pub(crate) scales: Scales,
+/// A suite that can be evaluated for other values of its parameters.
+#[derive(Clone)]
+pub(crate) struct SetupTemplate {
+    pub(crate) source: Source,
+    pub(crate) spec: StabilitySpec,
 }
 
 impl SetupTemplate {
