@@ -15,10 +15,7 @@ const STRAIN_GRADIENT: f64 = 0.008;
 /// cells carries this to the middle: APIC with cubic B-splines and five sub-steps has 1.14. If the
 /// law computes the stress from F, a wrong initial stress acts in the first step only.
 const GRADIENT: Rules<2> = Rules {
-    quantities: [
-        ("velocity after one step", 1.0, 0.62),
-        ("acceleration in later steps", 1.0, 0.3),
-    ],
+    quantities: [("velocity after one step", 1.0, 0.62), ("acceleration in later steps", 1.0, 0.3)],
     findings: &[
         ("initial-stress-uniform", [None, Some(0.0)], UNIFORM),
         ("initial-stress-uniform", [Some(0.0), Some(1.0)], UNIFORM),
