@@ -31,9 +31,9 @@ pub fn junit(outcomes: &[SuiteOutcome], required: &BTreeSet<String>, times: &Run
     let start = DateTime::<Utc>::from(times.start);
     let mut report = Report::new("mpm-verify");
     report.set_timestamp(start).set_time(times.whole);
-    for (outcome, time) in outcomes.iter().zip(&times.suites) {
+    for (k, outcome) in outcomes.iter().enumerate() {
         let mut suite = TestSuite::new(outcome.suite.as_str());
-        suite.set_timestamp(start).set_time(*time);
+        suite.set_timestamp(start).set_time(times.suites.get(k).copied().unwrap_or_default());
         let is_required = required.contains(&outcome.suite);
         for case in &outcome.cases {
             let mut test = TestCase::new(case.case.as_str(), status(case, is_required));
