@@ -28,7 +28,7 @@ pub use finding::{
 
 use crate::external::SolverFactory;
 use examination::ALL;
-use patient::{Examination, Hindrance, Patient};
+use patient::{Examination, Examined, Hindrance, Patient};
 
 /// Runs all examinations of a solver, starting with the simplest. An examination is skipped if an
 /// examination on which it depends reports defects. `progress` is called with the name of each
@@ -46,15 +46,25 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         #[cfg(test)]
         built_in: None,
     };
+    // Names of examinations whose quantity the method masks.
+    let mut masked: Vec<&str> = Vec::new();
     for examination in ALL {
         // A solver of load steps refuses all problems in time.
         if report.silent.is_some() && !examination.covers.contains(&"load_steps") {
             continue;
         }
         progress(examination.name);
-        let result = match ground(examination, &report) {
-            Some(after) => ExaminationResult::LeftOut { after },
-            None => examined(examination, &patient),
+        let source = masked.iter().find(|name| examination.after.contains(name));
+        let result = if let Some(after) = ground(examination, &report) {
+            ExaminationResult::LeftOut { after }
+        } else if let Some(name) = source {
+            ExaminationResult::NotApplicable { lacks: format!("a result of `{name}`") }
+        } else {
+            let outcome = (examination.examine)(&patient);
+            if matches!(outcome, Err(Hindrance::Masked(_))) {
+                masked.push(examination.name);
+            }
+            examined(outcome)
         };
         let is_examined = matches!(result, ExaminationResult::Examined { .. });
         let Examination { name, expected, .. } = *examination;
@@ -94,13 +104,15 @@ fn silent(first: &ExaminationResult) -> Option<String> {
 /// Name of the finding for a run that did not complete.
 const BROKE: &str = "does-not-get-through";
 
-fn examined(examination: &Examination, patient: &Patient<'_>) -> ExaminationResult {
-    match (examination.examine)(patient) {
+fn examined(outcome: Result<Examined, Hindrance>) -> ExaminationResult {
+    match outcome {
         Ok(examined) => {
             let (measured, findings) = (examined.measured, examined.findings);
             ExaminationResult::Examined { measured, findings }
         }
-        Err(Hindrance::Lacks(lacks)) => ExaminationResult::NotApplicable { lacks },
+        Err(Hindrance::Lacks(lacks) | Hindrance::Masked(lacks)) => {
+            ExaminationResult::NotApplicable { lacks }
+        }
         Err(Hindrance::Broke(seen)) => ExaminationResult::Examined {
             measured: "nothing, because the run did not complete".to_owned(),
             findings: vec![broke(seen)],

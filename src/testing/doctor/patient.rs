@@ -17,6 +17,9 @@ pub(super) struct Examined {
 pub(super) enum Hindrance {
     /// The solver lacks these capabilities, or refuses the problem for this reason.
     Lacks(String),
+    /// An effect of the method masks the examined quantity, also from the examinations that depend
+    /// on this one. The text completes "the solver lacks ...".
+    Masked(String),
     /// The solver did not complete a run, and gave this message.
     Broke(String),
 }

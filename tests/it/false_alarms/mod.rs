@@ -9,7 +9,7 @@ use change::{CHANGES, Change, gcd};
 use changed_solver::{ChangedSolver, is_known};
 use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking};
-use mpm_verify::subject::{Subject, SubjectError};
+use mpm_verify::subject::{BodyFields, Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Case, Extent, Suite, embedded};
 use mpm_verify::testing::{
@@ -153,6 +153,61 @@ fn doctor_finds_no_defect_in_the_built_in_solver(#[case] dimension: usize, #[cas
             || beyond.contains(&made.examination)
     };
     assert!(report.examinations.iter().all(is_examined), "{}", page(&report));
+}
+
+/// The built-in PIC solver in one dimension, with three shorter steps for each requested step.
+struct InThreeSteps;
+
+impl SolverFactory for InThreeSteps {
+    fn name(&self) -> &'static str {
+        "in-three-steps"
+    }
+
+    fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        built_in(1, PIC).lacks(needs)
+    }
+
+    fn subject(&self, problem: LevelProblem) -> Result<Box<dyn Subject>, SubjectError> {
+        Ok(Box::new(Divided(built_in(1, PIC).subject(problem)?)))
+    }
+}
+
+const PIC: &str = "basis: quadratic_bspline, transfer: pic, scheme: usl";
+
+struct Divided(Box<dyn Subject>);
+
+impl Subject for Divided {
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        (0..3).try_for_each(|_| self.0.step(dt / 3.0))
+    }
+
+    fn sample(&self, samples: &mut Samples) {
+        self.0.sample(samples);
+    }
+
+    fn counters(&self) -> RunCounters {
+        self.0.counters()
+    }
+
+    fn fields(&self) -> Vec<BodyFields> {
+        self.0.fields()
+    }
+}
+
+/// Averaging in each of the shorter steps transfers almost four times the momentum of the stress.
+#[test]
+fn doctor_does_not_examine_a_stress_that_averaging_hides() {
+    let report = doctor(&InThreeSteps, &|_| ());
+    assert_eq!(report.defects(), 0, "{}", page(&report));
+    let lacks = |name: &str| {
+        let mut examinations = report.examinations.iter();
+        match &examinations.find(|made| made.examination == name).expect("an examination").result {
+            ExaminationResult::NotApplicable { lacks } => lacks.clone(),
+            _ => panic!("{}", page(&report)),
+        }
+    };
+    assert!(lacks("stress").starts_with("a visible stress: in 1-D, averaging"));
+    assert_eq!(lacks("walls"), "a result of `stress`");
 }
 
 /// The motion of a solver that averages velocities is not a path of the examination.

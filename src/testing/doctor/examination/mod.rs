@@ -101,7 +101,9 @@ mod tests {
             match (examination.examine)(&patient) {
                 Ok(made) => assert!(made.findings.is_empty(), "{}", made.findings[0].seen),
                 Err(Hindrance::Lacks(why)) => assert_eq!((dimension, &*why), (1, "dimension")),
-                Err(Hindrance::Broke(why)) => panic!("{}: {why}", examination.name),
+                Err(Hindrance::Masked(why) | Hindrance::Broke(why)) => {
+                    panic!("{}: {why}", examination.name)
+                }
             }
         }
     }

@@ -97,7 +97,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let seen = match &first {
         Ok(examined) => examined.findings.first().map(|finding| finding.seen.clone()),
         Err(Hindrance::Broke(failure)) => Some(failure.clone()),
-        Err(Hindrance::Lacks(_)) => None,
+        Err(Hindrance::Lacks(_) | Hindrance::Masked(_)) => None,
     };
     let Some(seen) = seen else {
         let (mut all, graded) = (first?, start_gradient::examine(patient, &undeformed)?);

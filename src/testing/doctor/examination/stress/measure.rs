@@ -35,6 +35,8 @@ pub(in crate::testing::doctor) struct MeasuredModuli {
     /// Ratio of the momentum transferred by averaging to the momentum transferred by stress; at
     /// most 1.
     pub(super) averaged_share: f64,
+    /// Ratio of the momentum transferred by averaging to that transferred by the stress of the law.
+    pub(super) averaging: f64,
     /// Ratio of the momentum transferred by viscosity to the momentum transferred by stress; at
     /// most 1.
     pub(super) viscous_share: f64,
@@ -76,17 +78,18 @@ pub(in crate::testing::doctor) fn moduli_by_momentum(
     };
     let [viscous, along] = flux((0, 0));
     let last = course.last();
-    let averaged = soft.map_or(0.0, |soft| {
-        impulses(soft, scene, 0, 0)[last] / impulses(course, scene, 0, 0)[last]
-    });
+    let end = course.times[last];
+    let (lambda, mu) = scene.lame();
+    let averaged = soft.map_or(0.0, |soft| impulses(soft, scene, 0, 0)[last]);
+    let share = averaged / impulses(course, scene, 0, 0)[last];
     let mut measured = MeasuredModuli {
         along: along / STRETCH,
-        averaged_share: averaged.abs().min(1.0),
+        averaged_share: share.abs().min(1.0),
+        averaging: averaged / (0.5 * (lambda + 2.0 * mu) * STRETCH * end * end),
         ..MeasuredModuli::default()
     };
     // A time shift of the stress by half a step is not viscosity.
     let excess = (viscous.abs() - 0.6 * (along * scene.dt).abs()).max(0.0);
-    let end = course.times[course.last()];
     measured.viscosity = excess.copysign(viscous / STRETCH) / STRETCH.abs() / scene.density;
     measured.viscous_share = (2.0 * excess / (along * end).abs()).min(1.0);
     if scene.dimension > 1 {
