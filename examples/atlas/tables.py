@@ -1,29 +1,54 @@
-"""The tables of docs/atlas.md, from the reports."""
+"""The tables of docs/atlas.md, from results.csv."""
 
 from __future__ import annotations
 
-import json
+import csv
 from pathlib import Path
 
 from plan import CODES, EXACT, LAGRANGIAN, PLANE, SPACE, own_cases
 
-PAGE = Path(__file__).resolve().parent.parent.parent / "docs" / "atlas.md"
+HERE = Path(__file__).resolve().parent
+PAGE = HERE.parent.parent / "docs" / "atlas.md"
+RESULTS = HERE / "results.csv"
+
+# The columns of results.csv, one row for each case. `cells`, `failed` (cells of the levels that fail), `errors` and
+# `momentum` (relative drift) have one entry for each level. The columns from `value_difference` to `sweep` are checks
+# of a derivative.
+COLUMNS = ["code", "variant", "suite", "case", "derivative_by", "verdict", "order", "order_low", "order_high", "cells",
+           "failed", "errors", "momentum", "lacks", "value_difference", "taylor_orders", "derivative_error", "sweep",
+           "seconds", "reason"]
 
 
-def cell(run: dict) -> str:
+def read() -> list[dict[str, str]]:
+    """Returns the rows of results.csv; none if there is no such file."""
+    if not RESULTS.exists():
+        return []
+    with RESULTS.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def store(rows: list[dict[str, str]]) -> None:
+    """Writes results.csv, code by code."""
+    names = [code.name for code in CODES] + ["own"]
+    with RESULTS.open("w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted(rows, key=lambda row: names.index(row["code"])))
+
+
+def cell(run: dict[str, str]) -> str:
     """Order with its interval and the verdict; for a translation, the largest error."""
     if run["lacks"]:
-        return "not applicable (" + "; ".join(run["lacks"]) + ")"
-    errors = [float(level["error"]) for level in run["levels"]]
+        return f"not applicable ({run['lacks']})"
     if run["verdict"] == "failed":
-        broken = [str(level["cells"]) for level in run["levels"] if level["failure"]]
-        return f"failed with {' and '.join(broken)} cells"
+        return f"failed with {' and '.join(run['failed'].split())} cells"
+    errors = [float(error) for error in run["errors"].split()]
     if run["suite"].startswith("translating-block"):
         return f"error {max(errors):.1e}"
     if max(errors) < 1e-12:
         return f"error {max(errors):.0e}"
-    order = run["observed_order"]
-    interval = order and f"{order['value']:.2f} [{order['low']:.2f}, {order['high']:.2f}] "
+    order = [float(run[key]) for key in ("order", "order_low", "order_high") if run[key]]
+    interval = order and "{:.2f} [{:.2f}, {:.2f}] ".format(*order)
     return f"{interval or ''}{run['verdict']}; {errors[-1]:.1e}"
 
 
@@ -84,35 +109,31 @@ def gradients(reports: dict[str, list[dict]]) -> str:
             first = [code.title, run["variant"], f"`{run['suite']}`"]
             rest = derivative(run)
             if rows and rows[-1][:3] + rows[-1][4:] == first + rest:
-                rows[-1][3] += f", {run['parameter']}"
+                rows[-1][3] += f", {run['derivative_by']}"
             else:
-                rows.append([*first, run["parameter"], *rest])
+                rows.append([*first, run["derivative_by"], *rest])
     return table(["code", "run", "suite", "derivative by", "difference of the value",
                   "orders of the Taylor remainder", "error of the derivative", "sweep", "verdict"],
                  rows)
 
 
-def derivative(run: dict) -> list[str]:
+def derivative(run: dict[str, str]) -> list[str]:
     """The checks of one derivative."""
-    found = run["gradient"]
-    if not found:
+    if not run["value_difference"]:
         return ["", "", "", "", f"{run['verdict']}: {run['reason']}"]
-    value = abs(found["reported_value"] / found["value"] - 1)
-    orders = [level["order"] for level in found["taylor"] if level["order"] is not None]
+    orders = [float(order) for order in run["taylor_orders"].split()]
     taylor = f"{min(orders):.2f} to {max(orders):.2f} ({len(orders)})" if orders else "none"
-    last = found["levels"][-1]
-    error = abs(last["error"] / last["exact"])
-    order = "" if error > 1 else f"order {found['order']:.2f}; "
-    sweep = found["sweep"]
-    swept = sweep and f"share {sweep['share']:.4g}, {len(sweep['jumps']) or 'no'} jumps"
-    return [f"{value:.0e}", taylor, f"{order}{error:.1e}", swept or "", run["verdict"]]
+    error = float(run["derivative_error"])
+    order = "" if error > 1 else f"order {float(run['order']):.2f}; "
+    return [f"{float(run['value_difference']):.0e}", taylor, f"{order}{error:.1e}", run["sweep"], run["verdict"]]
 
 
-def write(folder: Path) -> None:
+def write(rows: list[dict[str, str]]) -> None:
     """Puts the tables between their markers."""
-    files = {file.stem: json.loads(file.read_text()) for file in folder.glob("*.json")}
-    reports = {name: file["runs"] for name, file in files.items()}
-    of_gradients = {name: file.get("gradients", []) for name, file in files.items()}
+    reports: dict[str, list[dict]] = {"own": []}
+    of_gradients: dict[str, list[dict]] = {}
+    for row in rows:
+        (of_gradients if row["derivative_by"] else reports).setdefault(row["code"], []).append(row)
     page = PAGE.read_text()
     for name, text in [("plane", matrix(PLANE, reports)), ("space", matrix(SPACE, reports)),
                        ("lagrangian", matrix(LAGRANGIAN, reports)),
