@@ -1,5 +1,4 @@
-//! Checks the drawings in documents that can be created quickly; `ci/check` compares the others
-//! with those of its run of all suites.
+//! Checks the drawings in documents that can be created quickly; `ci/check` compares the other.
 
 use super::whole_suites;
 use crate::common::folder::Folder;
