@@ -2,7 +2,7 @@
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::{CommandError, Status};
-use super::show;
+use super::{select, show};
 use clap::Args;
 use mpm_verify::study::describe::Dispensable;
 use mpm_verify::study::{self, Estimate, PlannedLevel, planned_levels};
@@ -23,11 +23,11 @@ pub(super) struct ExplainArgs {
 
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
-    let targets = &args.targets.targets;
+    let suites = select::with_sources(&args.targets.targets);
     if args.format.is_json() {
-        return Ok(show::json(targets, |_, suite| Ok(explained(suite, without))));
+        return Ok(show::json(suites, |_, suite| Ok(explained(suite, without))));
     }
-    Ok(show::each(targets, |suite| explanation(suite, without)))
+    Ok(show::each(suites, |suite| explanation(suite, without)))
 }
 
 fn named(name: &str) -> Result<Dispensable, CommandError> {

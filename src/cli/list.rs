@@ -3,7 +3,7 @@
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::Status;
-use super::show;
+use super::{select, show};
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
@@ -22,11 +22,11 @@ pub(super) struct ListArgs {
 }
 
 pub(super) fn list(args: &ListArgs) -> Status {
-    let targets = &args.targets.targets;
+    let suites = select::unchecked(&args.targets.targets);
     if args.format.is_json() {
-        return show::json(targets, |source, suite| Ok(listed(source, suite)));
+        return show::json(suites, |source, suite| Ok(listed(source, suite)));
     }
-    show::each(targets, |suite| {
+    show::each(suites, |suite| {
         let cases = suite.case_names().join("\n  ");
         format!("{}: {}\n  {cases}\n", suite.name, suite.title)
     })
@@ -68,14 +68,14 @@ pub(super) fn steps(args: &StepsArgs) -> Status {
         is_off.set(is_off.get() || steps.iter().any(beyond));
         steps
     };
-    let targets = &args.targets.targets;
+    let suites = select::unchecked(&args.targets.targets);
     let code = if args.format.is_json() {
-        show::json(targets, |_, suite| {
+        show::json(suites, |_, suite| {
             let levels: Vec<Value> = of_suite(suite).iter().map(level).collect();
             Ok(json!({"suite": suite.name, "levels": levels}))
         })
     } else {
-        show::each(targets, |suite| {
+        show::each(suites, |suite| {
             let plan = suite.convergence();
             let by_load_steps = plan.is_some_and(|plan| plan.steps == StepKind::Load);
             let row = if by_load_steps { load_steps_row } else { row };

@@ -2,7 +2,7 @@
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::output::{CommandError, Status};
-use super::{show, solver};
+use super::{select, show, solver};
 use clap::Args;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
@@ -26,15 +26,16 @@ pub(super) struct ProposeArgs {
 
 /// Runs each suite without its expectations, and prints proposed expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
-    let (targets, case) = (&args.targets.targets, args.case.as_deref());
+    let case = args.case.as_deref();
     let solver = solver::greeted(&args.solver)?;
+    let suites = select::with_sources(&args.targets.targets);
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
     if args.format.is_json() {
-        return Ok(show::json(targets, |source, suite| {
+        return Ok(show::json(suites, |source, suite| {
             Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver, case)?}))
         }));
     }
-    Ok(show::try_each(targets, |source, suite| of_suite(source, suite, solver, case)))
+    Ok(show::try_each(suites, |source, suite| of_suite(source, suite, solver, case)))
 }
 
 fn of_suite(

@@ -23,16 +23,29 @@ pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
 
-pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Result<(Source, Suite), Diagnostic>> {
-    let sources = if targets.is_empty() {
+pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Found> {
+    // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
+    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
+    selected(targets).into_par_iter().map(|source| source.and_then(load)).collect()
+}
+
+/// Loads the suites as [`with_sources`], without checking their solutions.
+pub(super) fn unchecked(targets: &[PathBuf]) -> Vec<Found> {
+    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
+    let sources = selected(targets).into_par_iter();
+    sources.map(|source| source.map(Source::trusted).and_then(load)).collect()
+}
+
+fn selected(targets: &[PathBuf]) -> Sources {
+    if targets.is_empty() {
         everything()
     } else {
         targets.iter().flat_map(|target| sources(target)).collect()
-    };
-    // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
-    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
-    sources.into_par_iter().map(|source| source.and_then(load)).collect()
+    }
 }
+
+/// A suite with its text, or the error in the text.
+pub(super) type Found = Result<(Source, Suite), Diagnostic>;
 
 type Sources = Vec<Result<Source, Diagnostic>>;
 

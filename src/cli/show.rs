@@ -1,25 +1,25 @@
 //! Prints information about suites, as one text page for each suite or as one JSON document.
 
+use super::output;
 use super::output::{CommandError, Status};
-use super::{output, select};
+use super::select::Found;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
 use serde_json::{Value, json};
 use std::cell::RefCell;
-use std::path::PathBuf;
 
 /// Prints a page for each suite that can be loaded, and diagnostics for the others.
-pub(super) fn each(targets: &[PathBuf], page: impl Fn(&Suite) -> String) -> Status {
-    try_each(targets, |_, suite| Ok(page(suite)))
+pub(super) fn each(suites: Vec<Found>, page: impl Fn(&Suite) -> String) -> Status {
+    try_each(suites, |_, suite| Ok(page(suite)))
 }
 
 /// Prints a page for each suite, or the error if the suite cannot be loaded or `page` fails.
 pub(super) fn try_each(
-    targets: &[PathBuf],
+    suites: Vec<Found>,
     page: impl Fn(&Source, &Suite) -> Result<String, CommandError>,
 ) -> Status {
     let mut code = Status::Passed;
-    for found in select::with_sources(targets) {
+    for found in suites {
         let found = found.map_err(CommandError::from);
         match found.and_then(|(source, suite)| page(&source, &suite)) {
             Ok(page) => output::print(&page),
@@ -34,14 +34,14 @@ pub(super) fn try_each(
 
 /// Prints one JSON document with all suites that can be loaded, and diagnostics for the others.
 pub(super) fn json(
-    targets: &[PathBuf],
+    suites: Vec<Found>,
     value: impl Fn(&Source, &Suite) -> Result<Value, CommandError>,
 ) -> Status {
-    let suites = RefCell::new(Vec::new());
-    let code = try_each(targets, |source, suite| {
-        suites.borrow_mut().push(value(source, suite)?);
+    let values = RefCell::new(Vec::new());
+    let code = try_each(suites, |source, suite| {
+        values.borrow_mut().push(value(source, suite)?);
         Ok(String::new())
     });
-    output::print(&format!("{:#}\n", json!({"suites": suites.into_inner()})));
+    output::print(&format!("{:#}\n", json!({"suites": values.into_inner()})));
     code
 }

@@ -56,6 +56,11 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
+    /// Returns the text of the suite.
+    pub(crate) fn source(&self) -> &'a Source {
+        self.source
+    }
+
     /// Declares the functions of a suite, then its parameters in file order. Also returns the name,
     /// text and value of each parameter.
     pub(crate) fn new(

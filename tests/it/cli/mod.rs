@@ -116,6 +116,15 @@ fn folder_of_suites_replaces_the_built_in_ones() {
     assert!(folder.call(&["list", "oedometer"]).out.starts_with("oedometer: "));
 }
 
+/// A list does not check solutions, which takes ten times as long.
+#[test]
+fn suite_with_a_wrong_solution_is_listed() {
+    let wrong = BAR.replace("omega: \"5*pi\"", "omega: \"6*pi\"");
+    let folder = Folder::with("verification/short-bar.yaml", &wrong);
+    assert!(folder.accepted(&["list"]).starts_with("short-bar: Short bar\n"));
+    assert!(folder.refused(&["explain"]).contains("not a solution"));
+}
+
 #[test]
 fn suite_may_be_in_any_folder() {
     let folder = Folder::new();

@@ -130,9 +130,11 @@ fn built_in(dimension: usize, method: &str) -> BuiltIn {
 }
 
 #[rstest]
-#[case::exact_motion(2, "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian")]
 #[case::quadratic(2, "basis: quadratic_bspline, transfer: flip, scheme: usl")]
 #[case::slightly_averaged_motion(2, "basis: linear, transfer: flip_99, scheme: usl")]
+#[ignore = "ci/nightly runs it"]
+#[case::exact_motion(2, "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian")]
+#[ignore = "ci/nightly runs it"]
 #[case::three_dimensions(3, "basis: linear, transfer: flip, scheme: usl")]
 fn doctor_finds_no_defect_in_the_built_in_solver(#[case] dimension: usize, #[case] method: &str) {
     let report = doctor(&built_in(dimension, method), &|_| ());
