@@ -40,7 +40,7 @@ mod step;
 mod transfer;
 
 pub use analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer};
-pub use analysis::energy_ledger::{EnergyLedger, LedgerSolver, kinetic_energy};
+pub use analysis::energy_ledger::kinetic_energy;
 pub use analysis::stable_time_step::simplest_with_same_response;
 pub use analysis::wave_symbols::{Spline, WaveSymbols};
 pub use basis::*;
@@ -73,7 +73,6 @@ pub use step::combination::{
 pub use step::heat_solver::HeatSolver;
 pub use step::initial::complete_start;
 pub use step::setup::Setup;
-pub use step::single_precision::SinglePrecision;
 pub use step::solver::Solver;
 pub use step::volume_average::VolumeName;
 pub use transfer::{

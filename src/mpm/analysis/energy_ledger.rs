@@ -33,18 +33,14 @@ use crate::mpm::foundation::algebra::{self, Matrix, Vector, dyad};
 use crate::mpm::kernel::contract::Affine;
 use crate::mpm::scheme::Stage;
 use crate::mpm::step::schedule::Pass;
-use crate::mpm::step::solver::Solver;
-use crate::subject::{
-    BodyFields, EnergyBalance, Failure, LedgerStage, Perturbable, Reaction, RunCounters, Samples,
-    Subject, Totals,
-};
+use crate::mpm::step::solver::{CustomStep, Solver};
+use crate::subject::{EnergyBalance, Failure, LedgerStage, Subject};
 
 /// Largest second moment of weights along an axis (squared cell sizes) that counts as zero.
 const SMALLEST_MOMENT: f64 = 1e-13;
 
 /// Energy changes of one body, summed over its steps.
-#[derive(Debug, Clone)]
-pub struct EnergyLedger {
+struct EnergyLedger {
     basis: BasisName,
     /// `None` before the first step.
     balance: Option<EnergyBalance>,
@@ -267,18 +263,18 @@ impl<const D: usize> Recorder<D> {
     }
 }
 
-impl EnergyLedger {
-    /// Creates an empty ledger for a solver with this basis.
-    pub fn new(basis: BasisName) -> Self {
-        Self { basis, balance: None, stored: 0.0 }
+impl<const D: usize> Solver<D> {
+    /// Adds an empty energy ledger for the steps of this solver, whose basis is `basis`
+    /// ([`Subject::energy_balance`]). Steps with a ledger are bit-identical to those without.
+    #[must_use]
+    pub fn with_ledger(self, basis: BasisName) -> Self {
+        let ledger = EnergyLedger { basis, balance: None, stored: 0.0 };
+        Self { custom_step: Some(Box::new(ledger)), ..self }
     }
+}
 
-    /// Advances `solver` by one step of length `dt` (s) and adds the entries of the step. The
-    /// resulting state is bit-identical to that of [`Subject::step`].
-    ///
-    /// # Errors
-    /// The errors of [`Subject::step`].
-    pub fn step<const D: usize>(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
+impl<const D: usize> CustomStep<D> for EnergyLedger {
+    fn step(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
         solver.begin(dt, &mut |_, _| {})?;
         let old = stored(solver);
         let mut recorder = Recorder::new(self.basis, solver, dt);
@@ -304,9 +300,8 @@ impl EnergyLedger {
         Ok(())
     }
 
-    /// Returns the entries so far; `None` before the first step.
-    pub fn balance(&self) -> Option<&EnergyBalance> {
-        self.balance.as_ref()
+    fn energy_balance(&self) -> Option<EnergyBalance> {
+        self.balance
     }
 }
 
@@ -318,79 +313,4 @@ pub fn kinetic_energy<const D: usize>(basis: BasisName, solver: &Solver<D>) -> f
 
 fn stored<const D: usize>(solver: &Solver<D>) -> f64 {
     solver.totals().and_then(|totals| totals.strain_energy).unwrap_or(0.0)
-}
-
-/// A [`Solver`] with an [`EnergyLedger`]. The steps are bit-identical to those of the solver
-/// without a ledger.
-pub struct LedgerSolver<const D: usize> {
-    solver: Solver<D>,
-    ledger: EnergyLedger,
-}
-
-impl<const D: usize> LedgerSolver<D> {
-    /// Adds an empty ledger to `solver`, whose basis is `basis`.
-    pub fn new(basis: BasisName, solver: Solver<D>) -> Self {
-        Self { solver, ledger: EnergyLedger::new(basis) }
-    }
-}
-
-// Not inlined, so that tests and other crates link to the code compiled here.
-impl<const D: usize> Subject for LedgerSolver<D> {
-    #[inline(never)]
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.ledger.step(&mut self.solver, dt)
-    }
-
-    fn energy_balance(&self) -> Option<EnergyBalance> {
-        self.ledger.balance().copied()
-    }
-
-    #[inline(never)]
-    fn sample(&self, samples: &mut Samples) {
-        self.solver.sample(samples);
-    }
-
-    fn counters(&self) -> RunCounters {
-        self.solver.counters()
-    }
-
-    fn passes(&self) -> Vec<String> {
-        self.solver.passes()
-    }
-
-    #[inline(never)]
-    fn fields(&self) -> Vec<BodyFields> {
-        self.solver.fields()
-    }
-
-    #[inline(never)]
-    fn totals(&self) -> Option<Totals> {
-        self.solver.totals()
-    }
-
-    fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
-        Subject::reaction(&self.solver, face)
-    }
-
-    fn null_space_energy(&self) -> Option<f64> {
-        Subject::null_space_energy(&self.solver)
-    }
-}
-
-impl<const D: usize> Perturbable for LedgerSolver<D> {
-    fn fix_configuration(&mut self) {
-        self.solver.fix_configuration();
-    }
-
-    fn state(&self, state: &mut Vec<f64>) {
-        self.solver.state(state);
-    }
-
-    fn set_state(&mut self, state: &[f64]) {
-        self.solver.set_state(state);
-    }
-
-    fn sizes(&self, speed: f64, modulus: f64, sizes: &mut Vec<f64>) {
-        self.solver.sizes(speed, modulus, sizes);
-    }
 }

@@ -7,91 +7,58 @@
 //! state of effects and conditions, and reference positions remain in double precision.
 
 use super::setup::Setup;
-use super::solver::Solver;
+use super::solver::{CustomStep, Solver};
 use super::subject::affine_state_mut;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::step::schedule::{Pass, StepSchedule};
-use crate::subject::{BodyFields, Failure, Reaction, RunCounters, Samples, Subject, Totals};
+use crate::subject::Failure;
 
-/// A single-precision solver for one body.
-pub struct SinglePrecision<const D: usize>(Solver<D>);
-
-impl<const D: usize> SinglePrecision<D> {
-    /// Creates a solver at t = 0 with a rounded initial state.
+impl<const D: usize> Solver<D> {
+    /// Creates a solver at t = 0 whose state is rounded to single precision, initially and after
+    /// each pass.
     ///
     /// # Errors
     /// The errors of [`Solver::new`].
     #[inline(never)]
-    pub fn new(mut setup: Setup<D>) -> Result<Self, Failure> {
+    pub fn in_single_precision(mut setup: Setup<D>) -> Result<Self, Failure> {
         round_particles(&mut setup.particles);
-        let mut solver = Solver::new(setup)?;
+        let mut solver = Self { custom_step: Some(Box::new(RoundedStep)), ..Self::new(setup)? };
         round_state(&mut solver);
-        Ok(Self(solver))
+        Ok(solver)
     }
+}
 
-    /// Returns the particles in their current state.
-    pub fn particles(&self) -> &Particles<D> {
-        self.0.particles()
-    }
+/// A step that rounds the state after each pass.
+struct RoundedStep;
 
-    fn run_each(&mut self, passes: &[Pass], dt: f64) -> Result<(), Failure> {
-        for pass in passes {
-            self.0.run(*pass, dt)?;
-            round_state(&mut self.0);
+impl<const D: usize> CustomStep<D> for RoundedStep {
+    fn step(&mut self, solver: &mut Solver<D>, dt: f64) -> Result<(), Failure> {
+        let StepSchedule { opening, passes } = solver.schedule.clone();
+        if !solver.started {
+            solver.open(dt);
+            round_state(solver);
+            run_each(solver, &opening, dt)?;
+            solver.opened(dt);
+            round_state(solver);
         }
+        run_each(solver, &passes, dt)?;
+        solver.time += dt;
         Ok(())
     }
 }
 
-// Not inlined, so that tests and other crates link to the code compiled here.
-impl<const D: usize> Subject for SinglePrecision<D> {
-    #[inline(never)]
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        let StepSchedule { opening, passes } = self.0.schedule.clone();
-        if !self.0.started {
-            self.0.open(dt);
-            round_state(&mut self.0);
-            self.run_each(&opening, dt)?;
-            self.0.opened(dt);
-            round_state(&mut self.0);
-        }
-        self.run_each(&passes, dt)?;
-        self.0.time += dt;
-        Ok(())
+fn run_each<const D: usize>(
+    solver: &mut Solver<D>,
+    passes: &[Pass],
+    dt: f64,
+) -> Result<(), Failure> {
+    for pass in passes {
+        solver.run(*pass, dt)?;
+        round_state(solver);
     }
-
-    #[inline(never)]
-    fn sample(&self, samples: &mut Samples) {
-        self.0.sample(samples);
-    }
-
-    fn counters(&self) -> RunCounters {
-        self.0.counters()
-    }
-
-    fn passes(&self) -> Vec<String> {
-        self.0.passes()
-    }
-
-    #[inline(never)]
-    fn fields(&self) -> Vec<BodyFields> {
-        self.0.fields()
-    }
-
-    #[inline(never)]
-    fn totals(&self) -> Option<Totals> {
-        self.0.totals()
-    }
-
-    fn reaction(&self, face: Option<(usize, bool)>) -> Option<Reaction> {
-        Subject::reaction(&self.0, face)
-    }
-
-    fn null_space_energy(&self) -> Option<f64> {
-        Subject::null_space_energy(&self.0)
-    }
+    Ok(())
 }
 
 /// Rounds the state of particles, nodes and transfer.

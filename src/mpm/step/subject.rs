@@ -15,7 +15,8 @@ use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{Affine, G2pRequest};
 use crate::mpm::transfer::{Transfer, kick};
 use crate::subject::{
-    BodyFields, Failure, Perturbable, Reaction, RunCounters, Samples, Start, Subject, Totals,
+    BodyFields, EnergyBalance, Failure, Perturbable, Reaction, RunCounters, Samples, Start,
+    Subject, Totals,
 };
 
 impl<const D: usize> Solver<D> {
@@ -114,6 +115,11 @@ impl<const D: usize> Solver<D> {
 impl<const D: usize> Subject for Solver<D> {
     #[inline(never)]
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        if let Some(mut step) = self.custom_step.take() {
+            let result = step.step(self, dt);
+            self.custom_step = Some(step);
+            return result;
+        }
         self.begin(dt, &mut |_, _| {})?;
         self.finish(dt, &mut |_, _| {})
     }
@@ -145,6 +151,10 @@ impl<const D: usize> Subject for Solver<D> {
 
     fn null_space_energy(&self) -> Option<f64> {
         Some(Self::null_space_energy(self))
+    }
+
+    fn energy_balance(&self) -> Option<EnergyBalance> {
+        self.custom_step.as_ref()?.energy_balance()
     }
 
     fn counters(&self) -> RunCounters {

@@ -4,7 +4,7 @@
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
-use crate::mpm::{BasisName, Bodies, LedgerSolver, Setup, SinglePrecision, Solver, Vector};
+use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
 use crate::subject::{Perturbable, Profile, Subject, SubjectError};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
@@ -155,7 +155,7 @@ pub(crate) fn with_ledger(
         return Err("an energy ledger is that of one body with an MPM method".into());
     };
     with_dimension!(one.scene.dimension(), D => {
-        Ok(Box::new(LedgerSolver::new(basis, solver::<D>(one, method, level)?)))
+        Ok(Box::new(solver::<D>(one, method, level)?.with_ledger(basis)))
     })
 }
 
@@ -175,7 +175,7 @@ fn mpm<const D: usize>(
     let mut setups = setups::<D>(plan, method, level)?;
     Ok(match (setups.pop(), setups.is_empty(), plan.scene.contact) {
         (Some(one), true, None) if method.is_single_precision() => {
-            Box::new(SinglePrecision::new(one)?)
+            Box::new(Solver::in_single_precision(one)?)
         }
         (Some(one), true, None) => Box::new(Solver::new(one)?),
         (last, _, contact) => {

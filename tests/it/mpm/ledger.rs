@@ -3,8 +3,8 @@
 
 use crate::common::{DT, free_body, pairs};
 use mpm_verify::mpm::{
-    BasisName, EnergyLedger, FrameName, LedgerSolver, NeoHookean, ParticleField, Particles,
-    SchemeName, Setup, Solver, TransferName, Vector, kernel, kinetic_energy,
+    BasisName, FrameName, NeoHookean, ParticleField, Particles, SchemeName, Setup, Solver,
+    TransferName, Vector, kernel, kinetic_energy,
 };
 use mpm_verify::subject::{EnergyBalance, LedgerStage, Perturbable, Subject};
 use rstest::rstest;
@@ -35,13 +35,12 @@ fn balanced<const D: usize>(
     frame: FrameName,
 ) {
     let setup = Setup { frame, ..scattered::<D>(method, scheme) };
-    let mut solver = Solver::new(setup).expect("a solver");
+    let mut solver = Solver::new(setup).expect("a solver").with_ledger(method.0);
     let stored = |solver: &Solver<D>| solver.totals().and_then(|totals| totals.strain_energy);
     let start = kinetic_energy(method.0, &solver) + stored(&solver).expect("an energy");
-    let mut ledger = EnergyLedger::new(method.0);
     for step in 1..=5 {
-        ledger.step(&mut solver, DT).expect("a step");
-        let balance = ledger.balance().expect("a balance");
+        solver.step(DT).expect("a step");
+        let balance = solver.energy_balance().expect("a balance");
         let change = balance.energy() - start;
         let error = (balance.change() - change).abs();
         // An energy is a sum with a term for each node of each particle, which rounds each of its
@@ -50,7 +49,7 @@ fn balanced<const D: usize>(
         let allowed = TOLERANCE * balance.size() + terms * f64::EPSILON * start;
         assert!(error <= allowed, "{method:?} {scheme:?} step {step}: {error:e} of {change:e}");
     }
-    let size = ledger.balance().map(EnergyBalance::size);
+    let size = solver.energy_balance().as_ref().map(EnergyBalance::size);
     assert!(size > Some(1e-6 * start), "{method:?}: nothing happens");
 }
 
@@ -125,9 +124,9 @@ fn classical_transfers_have_closed_forms(
     // The stress is non-zero from the second step.
     solver.step(DT).unwrap();
     let particles = solver.particles().clone();
-    let mut ledger = EnergyLedger::new(basis);
-    ledger.step(&mut solver, DT).unwrap();
-    let balance = ledger.balance().unwrap();
+    let mut solver = solver.with_ledger(basis);
+    solver.step(DT).unwrap();
+    let balance = solver.energy_balance().unwrap();
     let maps = Maps { basis, particles: &particles, solver: &solver };
     let near = |found: f64, expected: f64| {
         let error = (found - expected).abs();
@@ -154,10 +153,10 @@ fn entry_of_replaced_velocities_is_zero(
     #[values(TransferName::Pic, TransferName::Apic)] transfer: TransferName,
 ) {
     let basis = BasisName::CubicBSpline;
-    let mut solver = Solver::new(scattered::<2>((basis, transfer), SchemeName::Musl)).unwrap();
-    let mut ledger = EnergyLedger::new(basis);
-    ledger.step(&mut solver, DT).unwrap();
-    let (size, balance) = (kinetic_energy(basis, &solver), ledger.balance().unwrap());
+    let setup = scattered::<2>((basis, transfer), SchemeName::Musl);
+    let mut solver = Solver::new(setup).unwrap().with_ledger(basis);
+    solver.step(DT).unwrap();
+    let (size, balance) = (kinetic_energy(basis, &solver), solver.energy_balance().unwrap());
     assert!(balance.entry(LedgerStage::ParticleVelocity).abs() <= TOLERANCE * size);
     assert!(balance.entry(LedgerStage::GridToParticle) < -1e-9 * size);
 }
@@ -167,11 +166,10 @@ fn entry_of_replaced_velocities_is_zero(
 fn step_with_a_ledger_is_bit_identical() {
     let method = (BasisName::QuadraticBSpline, TransferName::Apic);
     for scheme in SchemeName::ALL {
-        let [mut with, mut without] =
-            [(); 2].map(|()| Solver::new(scattered::<2>(method, *scheme)).expect("a solver"));
-        let mut ledger = EnergyLedger::new(method.0);
+        let solver = || Solver::new(scattered::<2>(method, *scheme)).expect("a solver");
+        let (mut with, mut without) = (solver().with_ledger(method.0), solver());
         for _ in 0..3 {
-            ledger.step(&mut with, DT).unwrap();
+            with.step(DT).unwrap();
             without.step(DT).unwrap();
         }
         assert_eq!(with.particles().x, without.particles().x);
@@ -189,7 +187,7 @@ fn solver_with_a_ledger_has_the_same_state() {
         subject.state(&mut state);
         state
     };
-    let (mut with, mut without) = (LedgerSolver::new(method.0, solver()), solver());
+    let (mut with, mut without) = (solver().with_ledger(method.0), solver());
     assert_eq!(with.energy_balance(), None);
     for subject in [&mut with as &mut dyn Perturbable, &mut without] {
         subject.fix_configuration();
@@ -210,10 +208,10 @@ fn solver_with_a_ledger_has_the_same_state() {
 fn the_error_of_the_stress_work_has_order_two_in_the_step() {
     let error = |dt: f64, steps: usize| {
         let method = (BasisName::CubicBSpline, TransferName::Flip);
-        let mut solver = Solver::new(scattered::<1>(method, SchemeName::Musl)).unwrap();
-        let mut ledger = EnergyLedger::new(method.0);
-        (0..steps).for_each(|_| ledger.step(&mut solver, dt).unwrap());
-        let balance = ledger.balance().unwrap();
+        let solver = Solver::new(scattered::<1>(method, SchemeName::Musl)).unwrap();
+        let mut solver = solver.with_ledger(method.0);
+        (0..steps).for_each(|_| solver.step(dt).unwrap());
+        let balance = solver.energy_balance().unwrap();
         balance.stress_work_error().abs() / balance.entry(LedgerStage::Stored).abs()
     };
     let (coarse, fine) = (error(4e-3, 50), error(2e-3, 100));
