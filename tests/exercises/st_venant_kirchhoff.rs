@@ -89,10 +89,4 @@ impl crate::mpm::material::contract::ClosedForms for StVenantKirchhoff {
         let across = self.lambda * strain;
         Some([stretch * (across + 2.0 * self.mu * strain), across / stretch])
     }
-
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        let strain = (f.transpose() * f - Matrix::identity()) * 0.5;
-        let (trace, square) = (strain.trace(), (strain * strain).trace());
-        Some(0.5 * self.lambda * trace * trace + self.mu * square)
-    }
 }

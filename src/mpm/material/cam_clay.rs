@@ -413,10 +413,6 @@ impl super::contract::ClosedForms for CamClay {
         None
     }
 
-    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
-        None
-    }
-
     fn pressure_at_rest(&self) -> f64 {
         self.initial_pressure()
     }

@@ -134,8 +134,8 @@ impl YieldFunction {
     }
 }
 
-/// Closed forms of stress and energy, for tests of all materials. The values apply to one
-/// infinitely slow step from rest, in which viscous stresses vanish.
+/// Closed forms of the stress, for tests of all materials. The values apply to one infinitely slow
+/// step from rest, in which viscous stresses vanish.
 #[cfg(test)]
 pub(super) trait ClosedForms {
     /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
@@ -145,10 +145,6 @@ pub(super) trait ClosedForms {
     /// fixed. `None` if the law depends on the history.
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
 
-    /// Returns the energy density (J/m3), up to a constant. The derivative of this energy is the
-    /// stress without plastic flow. `None` for a law in rate form.
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64>;
-
     /// Returns the stress (Pa) caused by rounding of J in a step of zero length.
     fn rounding(&self) -> f64 {
         0.0
@@ -156,11 +152,6 @@ pub(super) trait ClosedForms {
 
     /// Returns the mean stress (Pa) of a specimen at rest, positive in compression.
     fn pressure_at_rest(&self) -> f64 {
-        0.0
-    }
-
-    /// Returns the stored energy (J/m3) of a specimen at rest.
-    fn energy_at_rest(&self) -> f64 {
         0.0
     }
 }

@@ -85,10 +85,4 @@ impl super::contract::ClosedForms for Corotated {
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
         Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
     }
-
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        let stretches = (f.transpose() * f).symmetric_eigenvalues().map(f64::sqrt);
-        let (dilation, excess) = (det(f) - 1.0, stretches.map(|stretch| stretch - 1.0));
-        Some(0.5 * self.lambda * dilation * dilation + self.mu * excess.norm_squared())
-    }
 }

@@ -178,8 +178,4 @@ impl super::contract::ClosedForms for GreenNaghdi {
         let strain = libm::log(stretch);
         Some([(lambda + 2.0 * mu) * strain / stretch, lambda * strain / stretch])
     }
-
-    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
-        None
-    }
 }

@@ -129,11 +129,4 @@ impl super::contract::ClosedForms for Hencky {
         let log = libm::log(stretch);
         Some([(self.lambda + 2.0 * self.mu) * log / stretch, self.lambda * log / stretch])
     }
-
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        let squares = (f.transpose() * f).symmetric_eigenvalues();
-        let (log, strain) =
-            (libm::log(crate::mpm::det(f)), squares.map(|square| 0.5 * libm::log(square)));
-        Some(0.5 * self.lambda * log * log + self.mu * strain.norm_squared())
-    }
 }

@@ -89,10 +89,6 @@ impl super::contract::ClosedForms for Jaumann {
         Some([(lambda + 2.0 * mu) * strain / stretch, lambda * strain / stretch])
     }
 
-    fn energy_density(&self, _: &crate::mpm::Matrix<3>) -> Option<f64> {
-        None
-    }
-
     /// Returns the stress caused by the rounding error of the stretch.
     fn rounding(&self) -> f64 {
         4.0 * f64::EPSILON * self.wave_modulus(1.0)

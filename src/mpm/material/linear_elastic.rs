@@ -181,10 +181,6 @@ impl super::contract::ClosedForms for LinearElastic {
     fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
         Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
     }
-
-    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
-        None
-    }
 }
 
 #[cfg(test)]

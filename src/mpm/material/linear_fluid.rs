@@ -80,11 +80,6 @@ impl super::contract::ClosedForms for LinearFluid {
         Some([self.bulk * (stretch - 1.0); 2])
     }
 
-    fn energy_density(&self, f: &crate::mpm::Matrix<3>) -> Option<f64> {
-        let dilation = det(f) - 1.0;
-        Some(0.5 * self.bulk * dilation * dilation)
-    }
-
     fn rounding(&self) -> f64 {
         4.0 * f64::EPSILON * self.bulk
     }

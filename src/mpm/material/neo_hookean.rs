@@ -172,12 +172,6 @@ impl super::contract::ClosedForms for NeoHookean {
         let across = self.lambda * libm::log(stretch) / stretch;
         Some([across + self.mu * (stretch - 1.0 / stretch), across])
     }
-
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        let (log, squares) = (libm::log(det(f)), f.transpose() * f);
-        let shear = 0.5 * self.mu * (squares.trace() - 3.0) - self.mu * log;
-        Some(0.5 * self.lambda * log * log + shear)
-    }
 }
 
 #[cfg(test)]

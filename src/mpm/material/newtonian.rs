@@ -106,11 +106,6 @@ impl super::contract::ClosedForms for Newtonian {
         let pressure = self.bulk / 7.0 * (libm::pow(stretch, -7.0) - 1.0);
         Some([-pressure; 2])
     }
-
-    fn energy_density(&self, f: &crate::mpm::Matrix<3>) -> Option<f64> {
-        let j = det(f);
-        Some(self.bulk / 7.0 * (libm::pow(j, -6.0) / 6.0 + j))
-    }
 }
 
 #[cfg(test)]

@@ -446,13 +446,6 @@ impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
     fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
         None
     }
-
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        let LogElasticity { lambda, mu, .. } = self.surface.elasticity();
-        let squares = (f.transpose() * f).symmetric_eigenvalues();
-        let (log, strain) = (libm::log(det(f)), squares.map(|square| 0.5 * libm::log(square)));
-        Some(0.5 * lambda * log * log + mu * strain.norm_squared())
-    }
 }
 
 #[cfg(test)]

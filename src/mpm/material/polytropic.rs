@@ -97,10 +97,6 @@ impl super::contract::ClosedForms for Polytropic {
         Some([-self.pressure_at_rest() * libm::pow(stretch, -self.exponent); 2])
     }
 
-    fn energy_density(&self, f: &Matrix<3>) -> Option<f64> {
-        Some(self.energy_at_rest() * libm::pow(det(f), 1.0 - self.exponent))
-    }
-
     fn rounding(&self) -> f64 {
         8.0 * f64::EPSILON * self.pressure_at_rest()
     }
@@ -108,10 +104,6 @@ impl super::contract::ClosedForms for Polytropic {
     fn pressure_at_rest(&self) -> f64 {
         let rest = super::specimen::DENSITY;
         self.stiffness * libm::exp(self.exponent * libm::log(rest))
-    }
-
-    fn energy_at_rest(&self) -> f64 {
-        self.pressure_at_rest() / (self.exponent - 1.0)
     }
 }
 

@@ -2,8 +2,6 @@
 
 use super::contract::{Material, MaterialProperties};
 use super::stress_update::StressUpdate;
-#[cfg(test)]
-use crate::mpm::foundation::algebra::Matrix;
 
 /// A rigid body at rest. The solver computes no motion and never reads the stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,9 +45,5 @@ impl super::contract::ClosedForms for Rigid {
 
     fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
         Some([0.0; 2])
-    }
-
-    fn energy_density(&self, _: &Matrix<3>) -> Option<f64> {
-        Some(0.0)
     }
 }
