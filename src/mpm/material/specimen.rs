@@ -7,10 +7,9 @@ use super::{
     FRICTION_ANGLE, Material, MaterialPlan, POISSON, PRECONSOLIDATION, STRENGTH, SWELLING,
     VISCOSITY, YIELD, YOUNG,
 };
-use crate::mpm::foundation::algebra::{Matrix, Vector, det};
+use crate::mpm::foundation::algebra::{Matrix, Vector};
 use crate::mpm::foundation::particles::{Block, Particles};
 use crate::subject::PlaneState;
-use approx::assert_relative_eq;
 
 /// Duration (s) of a step so slow that viscous stresses are negligible. In a step of the duration
 /// `FAST`, all other stresses are negligible. Both durations are powers of two, so their products
@@ -143,38 +142,4 @@ pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
 pub(super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
     let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
     (young, (3.0 * bulk - 2.0 * mu) / (2.0 * (3.0 * bulk + mu)))
-}
-
-/// Asserts the principal Kirchhoff stresses (Pa) at the end of a path through these principal
-/// logarithmic strains. Tests all dimensions that contain the path, and all permutations of the
-/// axes.
-pub(super) fn principal(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
-    for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
-        let turned = |values: &[f64; 3]| axes.map(|axis| values[axis]);
-        let path: Vec<[f64; 3]> = path.iter().map(turned).collect();
-        let expected = turned(&expected);
-        follow::<3>(plan, &path, expected);
-        if path.iter().all(|strain| strain[2] == 0.0) {
-            follow::<2>(plan, &path, expected);
-        }
-        if path.iter().all(|strain| strain[1..] == [0.0; 2]) {
-            follow::<1>(plan, &path, expected);
-        }
-    }
-}
-
-fn follow<const D: usize>(plan: MaterialPlan, path: &[[f64; 3]], expected: [f64; 3]) {
-    let mut solid = Specimen::<D>::new(plan);
-    let (mut before, mut tau) = ([0.0; 3], Matrix::<D>::zeros());
-    for strain in path {
-        let stretch = |values: &[f64; 3]| {
-            Matrix::<D>::from_diagonal(&Vector::from_fn(|i, _| libm::exp(values[i])))
-        };
-        let step: [f64; 3] = std::array::from_fn(|i| strain[i] - before[i]);
-        tau = solid.deform(&stretch(&step), SLOW) * det(&stretch(strain));
-        before = *strain;
-    }
-    for i in 0..D {
-        assert_relative_eq!(tau[(i, i)], expected[i], max_relative = 1e-9, epsilon = 1e-9);
-    }
 }
