@@ -180,62 +180,48 @@ fn coupling_after(stages: &[Stage]) -> Option<CouplingPoint> {
 
 #[cfg(test)]
 mod tests {
-    use super::Stage::*;
     use super::*;
     use crate::mpm::scheme::SchemeName;
+    use rstest::rstest;
 
-    fn visits(scheme: SchemeName, reads_velocity: bool) -> Vec<Pass> {
-        let is_visit = |pass: &Pass| matches!(pass, Pass::P2g(_) | Pass::G2p(_));
-        passes_of(scheme.stages(reads_velocity)).into_iter().filter(is_visit).collect()
-    }
-
-    #[test]
-    fn schemes_need_as_few_passes_as_possible() {
-        let usl =
-            [Pass::P2g(&[Mass, Momentum, Force]), Pass::G2p(&[ParticleVelocity, Stress, Position])];
-        assert_eq!(visits(SchemeName::Usl, false), usl);
-        let usf = [
-            Pass::P2g(&[Mass, Momentum]),
-            Pass::G2p(&[Stress]),
-            Pass::P2g(&[Force]),
-            Pass::G2p(&[ParticleVelocity, Position]),
-        ];
-        assert_eq!(visits(SchemeName::Usf, false), usf);
-        let musl = |first| {
-            let second = [Pass::P2g(&[Momentum]), Pass::G2p(&[Stress, Position])];
-            [vec![Pass::P2g(first), Pass::G2p(&[ParticleVelocity])], second.to_vec()].concat()
-        };
-        assert_eq!(visits(SchemeName::Musl, false), musl(&[Mass, Force]));
-        assert_eq!(visits(SchemeName::Musl, true), musl(&[Mass, Momentum, Force]));
-    }
-
-    #[test]
-    fn schedule_lists_passes_in_order() {
-        let text = |scheme: SchemeName, is_coupled, state: &[&str]| {
-            let passes = compile(scheme.stages(true), true, is_coupled).into();
-            StepSchedule { passes, ..StepSchedule::default() }.texts(state).join("; ")
-        };
-        let usl = "P2G(mass, momentum, force); acceleration; grid velocity; \
-                   G2P(particle velocity, stress, position)";
-        assert_eq!(text(SchemeName::Usl, false, &[]), usl);
-        let usf = "P2G(mass, momentum); P2G(T); coupling(mass); coupling(strain velocity); \
-                   G2P(stress); coupling(mapped velocity); P2G(force); acceleration; \
-                   coupling(acceleration); grid velocity; G2P(particle velocity, position)";
-        assert_eq!(text(SchemeName::Usf, true, &["P2G(T)"]), usf);
-    }
-
-    #[test]
-    fn bodies_are_coupled_once_for_each_change_of_the_grid() {
-        use CouplingPoint as At;
-        let points = |scheme: SchemeName| -> Vec<CouplingPoint> {
-            let passes = compile(scheme.stages(true), true, true).into_iter();
-            let point = |pass| if let Pass::Couple(point) = pass { Some(point) } else { None };
-            passes.filter_map(point).collect()
-        };
-        let usf = [At::Mass, At::StrainVelocity, At::Strained, At::Acceleration];
-        assert_eq!(points(SchemeName::Usf), usf);
-        assert_eq!(points(SchemeName::Usl), [At::Mass, At::Velocity, At::Acceleration]);
-        let musl = [At::Mass, At::Velocity, At::Acceleration, At::StrainVelocity];
-        assert_eq!(points(SchemeName::Musl), musl);
+    /// Tests that schemes need as few passes as possible, and that bodies are coupled once for each
+    /// change of the grid.
+    #[rstest]
+    #[case(
+        SchemeName::Usl,
+        true,
+        "P2G(mass, momentum, force); P2G(T); coupling(mass); \
+        coupling(velocity); acceleration; coupling(acceleration); grid velocity; \
+        G2P(particle velocity, stress, position)"
+    )]
+    #[case(
+        SchemeName::Usf,
+        true,
+        "P2G(mass, momentum); P2G(T); coupling(mass); \
+        coupling(strain velocity); G2P(stress); coupling(mapped velocity); P2G(force); \
+        acceleration; coupling(acceleration); grid velocity; G2P(particle velocity, position)"
+    )]
+    #[case(
+        SchemeName::Musl,
+        false,
+        "P2G(mass, force); acceleration; G2P(particle velocity); \
+        P2G(momentum); G2P(stress, position)"
+    )]
+    #[case(
+        SchemeName::Musl,
+        true,
+        "P2G(mass, momentum, force); P2G(T); coupling(mass); \
+        coupling(velocity); acceleration; coupling(acceleration); grid velocity; \
+        G2P(particle velocity); P2G(momentum); coupling(strain velocity); G2P(stress, position)"
+    )]
+    fn schedule_lists_passes_in_order(
+        #[case] scheme: SchemeName,
+        #[case] is_coupled: bool,
+        #[case] expected: &str,
+    ) {
+        let passes = compile(scheme.stages(is_coupled), true, is_coupled).into();
+        let state: &[&str] = if is_coupled { &["P2G(T)"] } else { &[] };
+        let texts = StepSchedule { passes, ..StepSchedule::default() }.texts(state);
+        assert_eq!(texts.join("; "), expected);
     }
 }
