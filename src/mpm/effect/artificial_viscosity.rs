@@ -116,17 +116,4 @@ mod tests {
             assert_relative_eq!(stretched, same, epsilon = 1e-15);
         }
     }
-
-    #[test]
-    fn expansion_causes_no_viscous_pressure() {
-        let block = Block { from: Vector::zeros(), to: Vector::<1>::new(1.0), density: 3.0 };
-        let mut body = Particles::fill(&block, 1.0, 1);
-        body.sigma[0][(0, 0)] = 0.1;
-        body.grad_v[0][(0, 0)] = 0.7;
-        let (linear, quadratic, length, speed) = (1.0, 1.0, 1.0, 1.0);
-        let mut effect = ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() };
-        effect.after_stress(&mut body);
-        effect.before_stress(&mut body);
-        assert_eq!(body.sigma[0][(0, 0)], 0.1);
-    }
 }

@@ -350,11 +350,6 @@ mod tests {
         assert_abs_diff_eq!(values.min() / (s * s), 1.0, epsilon = 1e-14);
     }
 
-    #[test]
-    fn nan_ends_the_sweeps() {
-        assert!(spectral(&Matrix::<3>::from_element(f64::NAN)).0.iter().all(|v| v.is_nan()));
-    }
-
     /// Asserts that the results of a batch are bit-identical to the results of single particles.
     fn hold_batch<const D: usize>(given: &[Matrix<D>; BATCH]) {
         let mut m = MatrixBatch::<D>::identity();

@@ -153,11 +153,16 @@ mod tests {
         }
     }
 
+    /// A law without a tangent has no response.
     #[test]
     fn tangent_agrees_with_central_differences() {
-        let plans = every().into_iter().filter(has_tangent);
         let mut names = Vec::new();
-        for plan in plans {
+        for plan in every() {
+            if !has_tangent(&plan) {
+                let law: Box<dyn Material<2>> = plan.build();
+                assert!(law.response(0, &Matrix::identity()).is_none(), "{}", plan.name());
+                continue;
+            }
             tangent_is_the_derivative::<1>(plan);
             tangent_is_the_derivative::<2>(plan);
             tangent_is_the_derivative::<3>(plan);
@@ -210,14 +215,6 @@ mod tests {
             assert_eq!(Some(&response), specimen.response(&f).as_ref(), "{}", plan.name());
             let sigma = specimen.deform(&step, SLOW);
             assert_relative_eq!(sigma * det(&f), response.kirchhoff, epsilon = 1e-11);
-        }
-    }
-
-    #[test]
-    fn law_without_tangent_has_no_response() {
-        for plan in every().into_iter().filter(|plan| !has_tangent(plan)) {
-            let law: Box<dyn Material<2>> = plan.build();
-            assert!(law.response(0, &Matrix::identity()).is_none(), "{}", plan.name());
         }
     }
 }

@@ -152,15 +152,6 @@ mod tests {
     }
 
     #[test]
-    fn bar_has_no_angular_momentum() {
-        let mut bar = two_particles::<1>();
-        bar.v[0][0] = 1.0;
-        let totals = bar.totals(|_| None);
-        assert_eq!(totals.momentum, [3.0, 0.0, 0.0]);
-        assert_eq!((totals.angular_momentum, totals.angular_momentum_size), ([0.0; 3], 0.0));
-    }
-
-    #[test]
     fn tensors_are_written_row_by_row() {
         let (from, to) = (Vector::<2>::zeros(), Vector::from_element(1.0));
         let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
