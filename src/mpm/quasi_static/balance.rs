@@ -108,17 +108,6 @@ impl<const D: usize> StepEquations<D> {
             });
             ends.push(functions.len());
         }
-        Self::of_functions(grid, functions, ends, boundary)
-    }
-
-    /// Creates the equations from the functions of all particles, one particle after another, and
-    /// the end of each particle's functions.
-    fn of_functions(
-        grid: &Grid<D>,
-        functions: Vec<NodeFunction<D>>,
-        ends: Vec<usize>,
-        boundary: &[Box<dyn Boundary<D>>],
-    ) -> Result<Self, Failure> {
         let mut sums = vec![0.0; grid.nodes()];
         for function in &functions {
             sums[function.node] += function.weight;
@@ -364,110 +353,12 @@ fn number<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::boundary::{Fixed, Side};
+    use crate::mpm::basis::BasisName;
     use crate::mpm::foundation::particles::Block;
-    use crate::mpm::material::{MaterialPlan, StressUpdate};
+    use crate::mpm::kernel::kernel;
+    use crate::mpm::material::MaterialPlan;
     use crate::subject::PlaneState;
     use rstest::rstest;
-
-    /// Returns the bilinear functions of the nodes around a particle in a grid of four cells. The
-    /// radius is infinite in the plane.
-    fn bilinear(grid: &Grid<2>, x: &Vector<2>, radius: f64) -> Vec<NodeFunction<2>> {
-        let hat = |axis: usize, i: usize| {
-            let s = (x[axis] - grid.origin[axis]) / grid.h - i as f64;
-            let slope = if s < 0.0 { 1.0 } else { -1.0 };
-            if s.abs() < 1.0 { (1.0 - s.abs(), slope / grid.h) } else { (0.0, 0.0) }
-        };
-        let function = |node: usize| {
-            let [(along, slope), (across, slope_across)] =
-                [0, 1].map(|axis| hat(axis, grid.index_on_axis(node, axis)));
-            let gradient = Vector::<2>::new(slope * across, along * slope_across);
-            let weight = along * across;
-            NodeFunction { node, weight, gradient, hoop: weight / radius }
-        };
-        (0..grid.nodes()).map(function).filter(|function| function.weight > 0.0).collect()
-    }
-
-    const HENCKY: MaterialPlan = MaterialPlan::Hencky { young: 100.0, poisson: 0.3 };
-    const SOIL: MaterialPlan = MaterialPlan::DruckerPrager {
-        young: 100.0,
-        poisson: 0.3,
-        friction: 0.3,
-        dilation: 0.1,
-        strength: 4.0,
-    };
-
-    /// A square of 16 particles in four cells, after an irregular deformation.
-    struct Square {
-        grid: Grid<2>,
-        particles: Particles<2>,
-        law: Box<dyn Material<2>>,
-        boundary: Vec<Box<dyn Boundary<2>>>,
-        equations: StepEquations<2>,
-    }
-
-    fn square(plan: MaterialPlan, plane: PlaneState) -> Square {
-        let grid = Grid::<2>::new(Vector::zeros(), 0.5, [2, 2], [false; 2], [3, 3]);
-        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
-        let mut particles = Particles::fill(&block, 0.5, 2);
-        let is_revolved = plane == PlaneState::Axisymmetric;
-        if is_revolved {
-            particles.revolve();
-        }
-        particles.track_deformation();
-        for (p, f) in particles.def_grad.iter_mut().enumerate() {
-            f[(0, 1)] = 0.05 * libm::sin(p as f64);
-        }
-        for (p, across) in particles.across.iter_mut().enumerate() {
-            *across += 0.04 * libm::cos(p as f64);
-        }
-        let mut law = plan.in_plane::<2>(plane).unwrap();
-        law.update(&mut StressUpdate::new(0.0, &mut particles));
-        let (mut functions, mut ends) = (Vec::new(), Vec::new());
-        for x in &particles.x {
-            functions.extend(bilinear(&grid, x, if is_revolved { x[0] } else { f64::INFINITY }));
-            ends.push(functions.len());
-        }
-        let boundary: Vec<Box<dyn Boundary<2>>> = vec![Box::new(Fixed::face(&grid, 0, Side::Low))];
-        let equations = StepEquations::of_functions(&grid, functions, ends, &boundary).unwrap();
-        Square { grid, particles, law, boundary, equations }
-    }
-
-    /// The increment has no symmetry. With plasticity, some particles yield and others do not.
-    #[rstest]
-    fn tangent_agrees_with_central_differences(
-        #[values(HENCKY, SOIL)] plan: MaterialPlan,
-        #[values(PlaneState::Strain, PlaneState::Axisymmetric)] plane: PlaneState,
-    ) {
-        let Square { grid, particles, law, boundary, equations } = square(plan, plane);
-        let noise = |i: usize, axis: usize| 0.05 * libm::sin(1.0 + 3.0 * i as f64 + axis as f64);
-        let mut increment: Vec<Vector<2>> =
-            (0..grid.nodes()).map(|i| Vector::from_fn(|axis, _| noise(i, axis))).collect();
-        boundary[0].clear(&mut increment);
-        let load = vec![Vector::from_element(0.3); grid.nodes()];
-        let iterate = |increment: Vec<Vector<2>>| {
-            equations.iterate(&particles, law.as_ref(), &load, increment).unwrap()
-        };
-        let at = iterate(increment.clone());
-        // K d = -r, so the residual changes by -r along d.
-        let direction = equations.correction(&particles, &at).unwrap();
-        let length = direction.iter().map(Vector::norm).fold(0.0, f64::max);
-        let step = 1e-5 / length;
-        let moved = |share: f64| {
-            let moved = increment.iter().zip(&direction).map(|(u, d)| u + d * (share * step));
-            iterate(moved.collect()).residual
-        };
-        let [low, high, lowest, highest] = [-1.0, 1.0, -2.0, 2.0].map(moved);
-        let difference: Vec<Vector<2>> = (0..grid.nodes())
-            .map(|i| {
-                let narrow = (high[i] - low[i]) / (2.0 * step);
-                let wide = (highest[i] - lowest[i]) / (4.0 * step);
-                (narrow * 4.0 - wide) / 3.0 + at.residual[i]
-            })
-            .collect();
-        let error = equations.norm(&difference) / at.norm;
-        assert!(error <= 1e-7, "{error:.1e}");
-    }
 
     /// The first increment moves all particles beyond the axis. The second one also inverts them in
     /// the plane, so that J is positive.
@@ -475,8 +366,15 @@ mod tests {
     #[case::beyond(0.0)]
     #[case::beyond_and_inverted(-2.5)]
     fn particle_beyond_the_axis_is_inverted(#[case] slope: f64) {
-        let Square { grid, particles, law, equations, .. } =
-            square(HENCKY, PlaneState::Axisymmetric);
+        let kernel = kernel::<2>(BasisName::Linear);
+        let grid = kernel.grid(Vector::zeros(), 0.5, [2, 2], [false; 2]);
+        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
+        let mut particles = Particles::fill(&block, 0.5, 2);
+        particles.revolve();
+        particles.track_deformation();
+        let plan = MaterialPlan::Hencky { young: 100.0, poisson: 0.3 };
+        let law = plan.in_plane::<2>(PlaneState::Axisymmetric).unwrap();
+        let equations = StepEquations::new(&grid, &particles, kernel.as_ref(), &[]).unwrap();
         let increment = |i: usize| {
             let z = 0.5 * grid.index_on_axis(i, 1) as f64;
             Vector::<2>::new(-2.0, slope * z)
