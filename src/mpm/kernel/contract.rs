@@ -20,8 +20,20 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
     /// Computes all quantities of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
-    /// Computes all quantities of `request`, from nodes to particles, in one pass.
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>);
+    /// Computes all quantities of `request`, from nodes to particles, in one pass. `field` takes the
+    /// place of the nodal velocities.
+    fn g2p_field(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        request: G2pRequest<'_, D>,
+    );
+
+    /// Computes all quantities of `request` from the nodal velocities, in one pass.
+    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>) {
+        self.g2p_field(grid, &grid.velocity, particles, request);
+    }
 
     /// Computes only the mass `m_i`, see [`P2gRequest::mass`].
     fn p2g_mass(&self, particles: &Particles<D>, grid: &mut Grid<D>) {
@@ -63,7 +75,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         particles: &Particles<D>,
         keep_and_factor: (f64, f64),
         value: &mut [Vector<D>],
-    );
+    ) {
+        let (mix, value) = (Some(keep_and_factor), Some(value));
+        self.g2p_field(grid, field, particles, G2pRequest { mix, value, ..G2pRequest::default() });
+    }
 
     /// Computes `gradient_p = sum_i field_i (x) grad N_i(x_p)`.
     fn g2p_gradient(
@@ -72,7 +87,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         field: &[Vector<D>],
         particles: &Particles<D>,
         gradient: &mut [Matrix<D>],
-    );
+    ) {
+        let gradient = Some(gradient);
+        self.g2p_field(grid, field, particles, G2pRequest { gradient, ..G2pRequest::default() });
+    }
 
     /// Computes `moment_p = sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
     fn g2p_moment(
@@ -81,7 +99,10 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         field: &[Vector<D>],
         particles: &Particles<D>,
         moment: &mut [Matrix<D>],
-    );
+    ) {
+        let moment = Some(moment);
+        self.g2p_field(grid, field, particles, G2pRequest { moment, ..G2pRequest::default() });
+    }
 
     /// Computes the moments of the weights of each particle.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);

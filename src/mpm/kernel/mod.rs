@@ -134,48 +134,14 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         grid.force = column;
     }
 
-    fn g2p_all(&self, grid: &Grid<D>, particles: &Particles<D>, request: G2pRequest<'_, D>) {
+    fn g2p_field(
+        &self,
+        grid: &Grid<D>,
+        field: &[Vector<D>],
+        particles: &Particles<D>,
+        request: G2pRequest<'_, D>,
+    ) {
         request.parts().for_each(|name| self.tally.add(name, particles.len()));
-        self.workspace().gather::<B, D>(grid, particles, &grid.velocity, request);
-    }
-
-    fn g2p(
-        &self,
-        grid: &Grid<D>,
-        field: &[Vector<D>],
-        particles: &Particles<D>,
-        keep_and_factor: (f64, f64),
-        value: &mut [Vector<D>],
-    ) {
-        self.tally.add("g2p velocity", particles.len());
-        let (mix, value) = (Some(keep_and_factor), Some(value));
-        let request = G2pRequest { mix, value, ..G2pRequest::default() };
-        self.workspace().gather::<B, D>(grid, particles, field, request);
-    }
-
-    fn g2p_gradient(
-        &self,
-        grid: &Grid<D>,
-        field: &[Vector<D>],
-        particles: &Particles<D>,
-        gradient: &mut [Matrix<D>],
-    ) {
-        self.tally.add("g2p gradient", particles.len());
-        let gradient = Some(gradient);
-        let request = G2pRequest { gradient, ..G2pRequest::default() };
-        self.workspace().gather::<B, D>(grid, particles, field, request);
-    }
-
-    fn g2p_moment(
-        &self,
-        grid: &Grid<D>,
-        field: &[Vector<D>],
-        particles: &Particles<D>,
-        moment: &mut [Matrix<D>],
-    ) {
-        self.tally.add("g2p moment", particles.len());
-        let moment = Some(moment);
-        let request = G2pRequest { moment, ..G2pRequest::default() };
         self.workspace().gather::<B, D>(grid, particles, field, request);
     }
 
