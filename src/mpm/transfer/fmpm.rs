@@ -6,7 +6,7 @@
 //! CMAME 374, eqs 20-24). This inverse converts nodal momenta to velocities, and nodal forces to
 //! accelerations. Particles receive the grid velocity, as in PIC. FMPM(1) is PIC.
 
-use super::contract::{Transfer, TransferKind, TransferParameter};
+use super::contract::{Transfer, TransferKind};
 use crate::mpm::boundary::Boundary;
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
@@ -24,9 +24,6 @@ pub struct Fmpm<const D: usize> {
 }
 
 impl<const D: usize> Fmpm<D> {
-    /// Parameter of the method: the order k.
-    pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
-
     /// Creates FMPM(k) with k = `order`.
     pub fn new(order: u32) -> Self {
         Self { order, mapped_back: Vec::new(), remainder: Vec::new(), nodal: Vec::new() }

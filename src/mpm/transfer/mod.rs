@@ -1,5 +1,5 @@
 //! Registry of the transfers of velocity between particles and grid. A new transfer requires one
-//! file and one line below. A transfer with a parameter requires a second line.
+//! file and one line below. A transfer with a parameter is also a member of [`WithParameter`].
 
 /// The transfer added by `docs/exercises/transfer.md`.
 #[cfg(test)]
@@ -16,7 +16,8 @@ mod tls;
 mod tpic;
 mod xpic;
 
-use super::foundation::family::{objects, objects_with_parameter};
+use super::foundation::family::objects;
+use crate::named::named;
 pub use apic::Apic;
 pub use blend::Blend;
 pub(in crate::mpm) use contract::kick;
@@ -48,13 +49,23 @@ objects! {
     "fmpm_4" => Fmpm4: Fmpm::new(4),
 }
 
-objects_with_parameter! {
+named! {
     /// Names of the transfers that have a parameter.
-    pub enum WithParameter: TransferParameter;
-    /// Creates the transfer with this name and this value of its parameter.
-    fn with_parameter -> Transfer;
-    "xpic" => Xpic: Xpic::<D>,
-    "fmpm" => Fmpm: Fmpm::<D>,
+    pub enum WithParameter {
+        /// [`Xpic`] with its order.
+        Xpic = "xpic",
+        /// [`Fmpm`] with its order.
+        Fmpm = "fmpm",
+    }
+}
+
+impl WithParameter {
+    /// Returns the range and description of the parameter.
+    pub fn parameter(self) -> TransferParameter {
+        match self {
+            Self::Xpic | Self::Fmpm => TransferParameter::TERMS,
+        }
+    }
 }
 
 impl TransferName {
@@ -98,7 +109,8 @@ impl TransferChoice {
     pub fn build<const D: usize>(self) -> Box<dyn Transfer<D>> {
         match self {
             Self::Named(name) => transfer(name),
-            Self::With(name, value) => with_parameter(name, value),
+            Self::With(WithParameter::Xpic, order) => Box::new(Xpic::new(order)),
+            Self::With(WithParameter::Fmpm, order) => Box::new(Fmpm::new(order)),
         }
     }
 }

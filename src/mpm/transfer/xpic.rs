@@ -6,7 +6,7 @@
 //! of S S+ with the eigenvalue l by 1 - (1 - l)^m. The filter ignores walls, which affect particles
 //! only through the accelerations.
 
-use super::contract::{Transfer, TransferKind, TransferParameter};
+use super::contract::{Transfer, TransferKind};
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
@@ -22,9 +22,6 @@ pub struct Xpic<const D: usize> {
 }
 
 impl<const D: usize> Xpic<D> {
-    /// Parameter of the method: the order m.
-    pub const PARAMETER: TransferParameter = TransferParameter::TERMS;
-
     /// Creates XPIC(m) with m = `order`.
     pub fn new(order: u32) -> Self {
         Self { order, remainder: Vec::new(), nodal: Vec::new() }
