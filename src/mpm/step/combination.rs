@@ -32,52 +32,39 @@ pub fn combine(
 ) -> Result<(), CombinationError> {
     let transfer = transfer.into();
     let (b, t, m, f) = (basis.name(), transfer.name(), mass.name(), frame.name());
-    let kind = transfer.kind();
-    if kind == TransferKind::Fit && basis == BasisName::Linear {
-        return Err(refusal!(
+    match (transfer.kind(), domain(basis), mass, frame) {
+        (TransferKind::Fit, ..) if basis == BasisName::Linear => Err(refusal!(
             "the transfer `{t}` needs the inertia tensor of the weights, which the basis `{b}` does \
              not have on its nodes"
-        ));
-    }
-    if mass == MassName::Consistent && kind == TransferKind::Series {
-        return Err(refusal!(
+        )),
+        (TransferKind::Series, _, MassName::Consistent, _) => Err(refusal!(
             "the transfer `{t}` is not supported with the mass matrix `{m}`: it approximates the \
              consistent one by powers of the lumped one"
-        ));
-    }
-    // For a linear velocity field, APIC-like transfers give node i the momentum m_i v(x_i), which
-    // is the product of the lumped matrix and the nodal velocities. The inverse of a consistent
-    // matrix would therefore give wrong velocities.
-    if mass == MassName::Consistent && matches!(kind, TransferKind::Field | TransferKind::Fit) {
-        return Err(refusal!(
+        )),
+        // For a linear velocity field, APIC-like transfers give node i the momentum m_i v(x_i),
+        // which is the product of the lumped matrix and the nodal velocities. The inverse of a
+        // consistent matrix would therefore give wrong velocities.
+        (TransferKind::Field | TransferKind::Fit, _, MassName::Consistent, _) => Err(refusal!(
             "the transfer `{t}` is not supported with the mass matrix `{m}`: it gives each node \
              the momentum of its row sum of mass"
-        ));
-    }
-    if kind == TransferKind::Cells && domain(basis) != Domain::Point {
-        return Err(refusal!(
+        )),
+        (TransferKind::Cells, Domain::Fixed | Domain::Follows, ..) => Err(refusal!(
             "the transfer `{t}` is not supported with the basis `{b}`: it integrates over cells, \
              not over the domains of particles"
-        ));
-    }
-    if kind == TransferKind::Cells && frame == FrameName::Total {
-        return Err(refusal!(
+        )),
+        (TransferKind::Cells, _, _, FrameName::Total) => Err(refusal!(
             "the transfer `{t}` is not supported in the frame `{f}`: it fits Cauchy stresses"
-        ));
-    }
-    if kind == TransferKind::Cells && mass == MassName::Consistent {
-        return Err(refusal!(
+        )),
+        (TransferKind::Cells, _, MassName::Consistent, _) => Err(refusal!(
             "the transfer `{t}` is not supported with the mass matrix `{m}`: it integrates mass \
              over cells, not over particles"
-        ));
-    }
-    if frame == FrameName::Total && domain(basis) == Domain::Follows {
-        return Err(refusal!(
+        )),
+        (_, Domain::Follows, _, FrameName::Total) => Err(refusal!(
             "the basis `{b}` is not supported in the frame `{f}`: its domains follow a deformation \
              that the reference configuration does not have"
-        ));
+        )),
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// Rejects an invalid combination for several bodies on one grid. The bodies have contact if
@@ -181,37 +168,30 @@ pub fn combine_volume(
         return Ok(());
     }
     let (v, f, p, law) = (volume.name(), frame.name(), plane.name(), material.name());
-    if frame == FrameName::Total {
-        return Err(refusal!(
+    let reason = match (frame, dimension, plane) {
+        (FrameName::Total, ..) => refusal!(
             "`volume: {v}` is not supported in the frame `{f}`: it averages with the weights of \
              current positions"
-        ));
-    }
-    if dimension == 1 {
-        return Err(refusal!(
+        ),
+        (_, 1, _) => refusal!(
             "`volume: {v}` is not supported in 1-D: it would average the whole strain, and \
              volumetric locking does not occur"
-        ));
-    }
-    match plane {
-        PlaneState::Strain => {}
-        PlaneState::Stress => {
-            return Err(refusal!(
-                "`volume: {v}` is not supported in `plane: {p}`: the stretch across the plane is \
-                 free, so volumetric locking does not occur"
-            ));
+        ),
+        (_, _, PlaneState::Stress) => refusal!(
+            "`volume: {v}` is not supported in `plane: {p}`: the stretch across the plane is free, \
+             so volumetric locking does not occur"
+        ),
+        (_, _, PlaneState::Axisymmetric) => refusal!(
+            "`volume: {v}` is not supported in `plane: {p}`: its average does not contain the hoop \
+             stretch"
+        ),
+        (_, _, PlaneState::Strain) => {
+            return material.properties().takes_averaged_volume().map_err(|reason| {
+                refusal!("`volume: {v}` is not supported with the law `{law}`: {reason}")
+            });
         }
-        PlaneState::Axisymmetric => {
-            return Err(refusal!(
-                "`volume: {v}` is not supported in `plane: {p}`: its average does not contain the \
-                 hoop stretch"
-            ));
-        }
-    }
-    material
-        .properties()
-        .takes_averaged_volume()
-        .map_err(|reason| refusal!("`volume: {v}` is not supported with the law `{law}`: {reason}"))
+    };
+    Err(reason)
 }
 
 fn domain(basis: BasisName) -> Domain {
