@@ -74,6 +74,16 @@ pub enum Side {
     High,
 }
 
+impl Side {
+    /// Returns the sign of the outward normal along the axis.
+    pub(in crate::mpm) fn sign(self) -> f64 {
+        match self {
+            Self::Low => -1.0,
+            Self::High => 1.0,
+        }
+    }
+}
+
 /// Returns the nodes of `grid` on one face, in ascending order.
 pub(in crate::mpm) fn nodes<const D: usize>(grid: &Grid<D>, axis: usize, side: Side) -> Vec<usize> {
     let index = match side {

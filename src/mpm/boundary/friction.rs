@@ -33,13 +33,9 @@ impl Friction {
     /// Applies friction with coefficient mu to the nodes of `grid` on one face. The nodes are free
     /// until the body presses on them.
     pub fn face<const D: usize>(grid: &Grid<D>, axis: usize, side: Side, coefficient: f64) -> Self {
-        let inwards = match side {
-            Side::Low => 1.0,
-            Side::High => -1.0,
-        };
         let nodes =
             nodes(grid, axis, side).into_iter().map(|i| (i, ContactState::Separated)).collect();
-        Self { nodes, axis, inwards, coefficient }
+        Self { nodes, axis, inwards: -side.sign(), coefficient }
     }
 
     fn hold<const D: usize>(&self, field: &mut [Vector<D>]) {

@@ -70,40 +70,27 @@ impl Surface {
         side: Side,
         placement: Placement,
     ) -> Self {
-        let outwards = match side {
-            Side::Low => -1.0,
-            Side::High => 1.0,
-        };
-        if let Some(mapped) = MappedFace::outermost(particles, axis, outwards) {
-            let MappedFace { layer, column, area } = mapped;
-            let below = if column.0 == 0 { 1 } else { layer.len() };
-            let column = Some(column);
-            let (depth, is_integrated) = (0.0, false);
-            return Self {
-                layer,
-                placement,
-                axis,
-                outwards,
-                area,
-                depth,
-                column,
-                is_integrated,
-                below,
+        let outwards = side.sign();
+        let (layer, column, area, depth, below) =
+            if let Some(mapped) = MappedFace::outermost(particles, axis, outwards) {
+                let MappedFace { layer, column, area } = mapped;
+                let below = if column.0 == 0 { 1 } else { layer.len() };
+                (layer, Some(column), area, 0.0, below)
+            } else {
+                let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
+                let height = |p: usize| outwards * x0[p][axis];
+                let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
+                let reach = top - 0.5 * spacing;
+                let layer: Vec<usize> = (0..x0.len()).filter(|&p| height(p) > reach).collect();
+                let second = (0..x0.len()).find(|&p| (reach - spacing..reach).contains(&height(p)));
+                let below = match (layer.first(), second) {
+                    (Some(first), Some(second)) => first.abs_diff(second),
+                    _ => 0,
+                };
+                let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
+                (layer, None, area, 0.5 * spacing, below)
             };
-        }
-        let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
-        let height = |p: usize| outwards * x0[p][axis];
-        let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
-        let reach = top - 0.5 * spacing;
-        let layer: Vec<usize> = (0..x0.len()).filter(|&p| height(p) > reach).collect();
-        let second = (0..x0.len()).find(|&p| (reach - spacing..reach).contains(&height(p)));
-        let below = match (layer.first(), second) {
-            (Some(first), Some(second)) => first.abs_diff(second),
-            _ => 0,
-        };
-        let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
-        let depth = 0.5 * spacing;
-        let (column, is_integrated) = (None, false);
+        let is_integrated = false;
         Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below }
     }
 
