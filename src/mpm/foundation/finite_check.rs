@@ -35,6 +35,22 @@ impl<const D: usize> Particles<D> {
         first_matrix("stress", &self.sigma)
     }
 
+    /// Checks that `J = V / V0` of every particle is positive and finite, and updates the smallest J
+    /// of the run, `min_j`.
+    pub(in crate::mpm) fn volumes_positive(&self, min_j: &mut f64) -> Result<(), Failure> {
+        for (p, (vol, vol0)) in self.vol.iter().zip(&self.vol0).enumerate() {
+            let (j, site) = (vol / vol0, Site::Particle(p));
+            if !j.is_finite() {
+                return Err(Failure::NonFinite { quantity: "J", site });
+            }
+            *min_j = min_j.min(j);
+            if j <= 0.0 {
+                return Err(Failure::Inverted { site, j });
+            }
+        }
+        Ok(())
+    }
+
     pub(in crate::mpm) fn moving_finite(&self) -> Result<(), Failure> {
         first_matrix("velocity", &self.v)
     }

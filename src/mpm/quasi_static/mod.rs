@@ -38,7 +38,7 @@ use super::step::initial;
 use super::step::observables::wall_reaction;
 use super::step::setup::{fields, profile};
 use crate::subject::{
-    BodyFields, Column, Failure, Profile, Reaction, RunCounters, Samples, Site, Subject, Totals,
+    BodyFields, Column, Failure, Profile, Reaction, RunCounters, Samples, Subject, Totals,
 };
 use balance::{NO_TANGENT, StepEquations};
 
@@ -166,13 +166,7 @@ impl<const D: usize> QuasiStatic<D> {
         if kernel.domain() == Domain::Follows {
             particles.track_domains();
         }
-        for (p, (vol, vol0)) in particles.vol.iter().zip(&particles.vol0).enumerate() {
-            let (j, site) = (vol / vol0, Site::Particle(p));
-            if !(j > 0.0) {
-                return Err(Failure::Inverted { site, j });
-            }
-            self.min_j = self.min_j.min(j);
-        }
+        particles.volumes_positive(&mut self.min_j)?;
         particles.stressed_finite()?;
         self.cell_tracker.track(grid, particles)
     }

@@ -17,7 +17,7 @@ use crate::mpm::kernel::contract::Tally;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::mpm::scheme::Stage;
 use crate::mpm::transfer::{Transfer, g2p};
-use crate::subject::{Column, EnergyBalance, Failure, Profile, Site};
+use crate::subject::{Column, EnergyBalance, Failure, Profile};
 
 /// The original MPM for one body, with the state that changes from step to step.
 pub struct Solver<const D: usize> {
@@ -296,7 +296,7 @@ impl<const D: usize> Solver<D> {
         if let Some(least) = least_j {
             self.min_j = self.min_j.min(least);
         } else {
-            self.jacobians()?;
+            self.setup.particles.volumes_positive(&mut self.min_j)?;
         }
         let Setup { particles, material, .. } = &self.setup;
         // A law that reads F computes J from F, so the check of J also detects a NaN or an infinity
@@ -305,22 +305,5 @@ impl<const D: usize> Solver<D> {
             particles.deformed_finite()?;
         }
         if least_j.is_none() { particles.stressed_finite() } else { Ok(()) }
-    }
-
-    /// Checks `J = V / V0` of every particle and updates the smallest J of the run. The first
-    /// invalid particle is an error.
-    fn jacobians(&mut self) -> Result<(), Failure> {
-        let Particles { vol, vol0, .. } = &self.setup.particles;
-        for (p, (vol, vol0)) in vol.iter().zip(vol0).enumerate() {
-            let (j, site) = (vol / vol0, Site::Particle(p));
-            if !j.is_finite() {
-                return Err(Failure::NonFinite { quantity: "J", site });
-            }
-            self.min_j = self.min_j.min(j);
-            if j <= 0.0 {
-                return Err(Failure::Inverted { site, j });
-            }
-        }
-        Ok(())
     }
 }
