@@ -160,25 +160,8 @@ impl WaveStep {
     fn discriminant(&self, courant: f64) -> f64 {
         let x = courant * courant;
         let lost = 1.0 - self.kept;
-        -lost * lost + (self.slope() - self.stiffness * self.stiffness * x) * x
-    }
-
-    fn slope(&self) -> f64 {
-        2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss
-    }
-
-    /// Returns the range of Courant numbers with complex eigenvalues; `None` if the range is empty.
-    /// Outside this range the wave is overdamped or unstable and has no phase.
-    pub fn complex_range(&self) -> Option<(f64, f64)> {
-        let lost = (1.0 - self.kept) * (1.0 - self.kept);
-        let square = self.stiffness * self.stiffness;
-        let slope = self.slope();
-        let root = (slope * slope - 4.0 * square * lost).sqrt();
-        let end = (slope + root) / (2.0 * square);
-        // The second root follows from the product of the roots, lost/square, because
-        // `slope - root` would suffer from cancellation.
-        let start = lost / (square * end);
-        (start < end && end.is_finite()).then(|| (start.sqrt(), end.sqrt()))
+        let slope = 2.0 * (1.0 + self.kept) * self.stiffness - 4.0 * self.loss;
+        -lost * lost + (slope - self.stiffness * self.stiffness * x) * x
     }
 
     /// Returns the relative error of the phase speed, `c_h/c - 1` with `c_h/c = arg(l)/(theta C)`,
@@ -248,7 +231,7 @@ impl WaveMethod {
     }
 
     /// Returns the number of cells per wavelength above which the phase error stays below
-    /// `tolerance`. Waves without a phase ([`WaveStep::complex_range`]) count as exceeding the
+    /// `tolerance`. Waves without a phase ([`WaveStep::phase_error`]) count as exceeding the
     /// tolerance. `None` if the error exceeds the tolerance at 1e4 cells, or is within the
     /// tolerance for all waves of two cells or more.
     pub fn cells_for_phase_error(&self, courant: f64, tolerance: f64) -> Option<f64> {
