@@ -166,7 +166,6 @@ impl Basis for Cpdi {
 mod tests {
     use super::*;
     use crate::mpm::basis::Linear;
-    use crate::mpm::foundation::particles::Block;
     use approx::assert_abs_diff_eq;
     use rstest::rstest;
 
@@ -178,8 +177,7 @@ mod tests {
     }
 
     fn particle<const D: usize>(x: Vector<D>, domain: Matrix<D>) -> Particles<D> {
-        let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: 1.0 };
-        let mut particles = Particles::fill(&block, 1.0, 1);
+        let mut particles = Particles::cubes([1; D]);
         (particles.x[0], particles.domain) = (x, vec![domain]);
         particles
     }

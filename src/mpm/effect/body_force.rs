@@ -76,12 +76,10 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::Block;
 
     #[test]
     fn a_pointwise_force_stays_with_its_particle() {
-        let block = Block { from: Vector::zeros(), to: Vector::<1>::new(2.0), density: 1.0 };
-        let mut particles = Particles::fill(&block, 1.0, 1);
+        let mut particles = Particles::cubes([2]);
         particles.x.iter_mut().for_each(|x| x[0] += 0.25);
         let mut b = vec![Vector::zeros(); 2];
         (BodyForce::pointwise(|label, t| label * t).field)(3.0, &particles, &mut b);

@@ -201,15 +201,14 @@ impl<const D: usize> Effect<D> for Heat<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{Block, Matrix};
+    use crate::mpm::Matrix;
     use approx::assert_relative_eq;
 
     /// If a body starts stretched and sheared, the solver uses the temperature gradient with
     /// respect to x: `F^T grad T = Grad T`.
     #[test]
     fn slopes_at_the_start_are_those_of_the_deformed_body() {
-        let (from, to) = (Vector::zeros(), Vector::<2>::new(2.0, 1.0));
-        let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut body = Particles::cubes([2, 1]);
         body.track_deformation();
         let f = Matrix::<2>::new(2.0, 0.5, 0.0, 4.0);
         body.def_grad.fill(f);

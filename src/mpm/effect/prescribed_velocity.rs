@@ -50,14 +50,12 @@ impl<const D: usize> Effect<D> for PrescribedVelocity<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::Block;
 
     /// A leapfrog method starts with velocities at -dt/2. At this time, the velocity
     /// `v = X (1 + 2 t)` is X (1 - dt).
     #[test]
     fn a_velocity_is_continued_before_the_start() {
-        let block = Block { from: Vector::zeros(), to: Vector::<1>::new(2.0), density: 1.0 };
-        let mut particles = Particles::fill(&block, 1.0, 1);
+        let mut particles = Particles::cubes([2]);
         let value: VelocityField<1> = Box::new(|x, t| x * (1.0 + 2.0 * t));
         let driven = PrescribedVelocity::on(&particles, &[1], value);
         for (t, expected) in [(-0.125, 0.75), (0.0, 1.0), (0.125, 1.25)] {

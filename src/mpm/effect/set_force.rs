@@ -57,12 +57,10 @@ impl<const D: usize> Effect<D> for SetForce<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::Block;
 
     #[test]
     fn large_particles_have_a_large_share() {
-        let block = Block { from: Vector::zeros(), to: Vector::<1>::new(3.0), density: 1.0 };
-        let mut particles = Particles::fill(&block, 1.0, 1);
+        let mut particles = Particles::cubes([3]);
         particles.vol0 = vec![1.0, 5.0, 3.0];
         let force = SetForce::on(&particles, &[0, 2], Box::new(|_| Vector::zeros()));
         assert_eq!(force.shares, [(0, 0.25), (2, 0.75)]);

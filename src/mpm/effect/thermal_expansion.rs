@@ -132,14 +132,13 @@ impl<const D: usize> Effect<D> for ThermalExpansion<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{Block, Hencky, LinearElastic, NeoHookean, Vector};
+    use crate::mpm::{Hencky, LinearElastic, NeoHookean};
     use approx::assert_relative_eq;
     use rstest::rstest;
 
     /// Creates one particle at 30 K, which is 10 K above the reference temperature.
     fn warm<const D: usize>() -> Particles<D> {
-        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut particles = Particles::cubes([1; D]);
         particles.track_deformation();
         particles.temperature = vec![30.0];
         particles

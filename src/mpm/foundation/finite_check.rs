@@ -115,8 +115,7 @@ pub(in crate::mpm) fn is_finite<const R: usize, const C: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::foundation::algebra::{Matrix, Vector};
-    use crate::mpm::foundation::particles::Block;
+    use crate::mpm::foundation::algebra::Matrix;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
@@ -126,8 +125,7 @@ mod tests {
         #[values(0, FEW + 18, 2 * FEW + 36)] first: usize,
         #[values(1, 3)] threads: usize,
     ) {
-        let (from, to) = (Vector::zeros(), Vector::<1>::new((2 * FEW + 37) as f64));
-        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut row = Particles::cubes([2 * FEW + 37]);
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         assert_eq!(pool.install(|| row.moving_finite()), Ok(()));
         (row.v[first][0], row.v[2 * FEW + 36][0]) = (wrong, wrong);

@@ -300,6 +300,15 @@ impl<const D: usize> Particles<D> {
 }
 
 #[cfg(test)]
+impl<const D: usize> Particles<D> {
+    /// Fills a box with `counts` cubes of size 1 m along its axes, each with a particle of 1 kg.
+    pub(in crate::mpm) fn cubes(counts: [usize; D]) -> Self {
+        let to = Vector::from_fn(|axis, _| counts[axis] as f64);
+        Self::fill(&Block { from: zeros(), to, density: 1.0 }, 1.0, 1)
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;

@@ -508,9 +508,7 @@ mod tests {
 
     #[test]
     fn a_body_at_rest_is_under_its_initial_pressure() {
-        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let block = crate::mpm::foundation::particles::Block { from, to, density: 1.0 };
-        let mut body = Particles::<2>::fill(&block, 1.0, 1);
+        let mut body = Particles::cubes([1; 2]);
         assert_eq!(clay(150.0).start_deformed(&mut body), Ok(()));
         assert_eq!(body.sigma[0], Matrix::<2>::from_diagonal_element(-100.0));
         body.deform(|_| (Vector::zeros(), Matrix::<2>::from_diagonal_element(1.1)));

@@ -187,18 +187,12 @@ impl super::contract::ClosedForms for LinearElastic {
 mod tests {
     use super::*;
     use crate::mpm::foundation::algebra::Vector;
-    use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
-
-    fn one_particle<const D: usize>() -> Particles<D> {
-        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1)
-    }
 
     #[test]
     fn a_bar_integrates_to_the_logarithm_of_the_stretch() {
         let (young, steps) = (100.0, 100_000);
-        let mut bar = one_particle::<1>();
+        let mut bar = Particles::cubes([1]);
         for _ in 0..steps {
             bar.grad_v[0] = Matrix::<1>::new(1.0 / bar.vol[0]);
             let dt = 0.1 / f64::from(steps);
@@ -215,7 +209,7 @@ mod tests {
         let (law, steps) = (LinearElastic::new(100.0, 0.3), 2000);
         let f = Matrix::<3>::new(1.2, 0.3, 0.0, -0.2, 0.7, 0.1, 0.05, 0.0, 1.4);
         let grad = f - Matrix::identity();
-        let mut pulled = one_particle::<3>();
+        let mut pulled = Particles::cubes([1; 3]);
         for step in 0..steps {
             let middle = (f64::from(step) + 0.5) / f64::from(steps);
             let now = Matrix::identity() + grad * middle;
@@ -252,7 +246,7 @@ mod tests {
     }
 
     fn started<const D: usize>(mut law: LinearElastic, f: Matrix<D>) -> Particles<D> {
-        let mut body = one_particle();
+        let mut body = Particles::cubes([1; D]);
         body.deform(|_| (Vector::zeros(), f));
         law.start_deformed(&mut body).unwrap();
         body
@@ -262,7 +256,7 @@ mod tests {
     #[test]
     fn a_bar_stores_the_work_of_its_stress() {
         for stretch in [1.2, 0.7, 1.01, 1.0 - 1e-9] {
-            let mut bar = one_particle::<1>();
+            let mut bar = Particles::cubes([1]);
             bar.sigma[0] = Matrix::<1>::new(100.0 * libm::log(stretch));
             let stored = Material::<1>::energy(&LinearElastic::new(100.0, 0.0), &bar);
             let small = stretch - 1.0;
@@ -273,14 +267,14 @@ mod tests {
             };
             assert_relative_eq!(stored.unwrap(), expected, max_relative = 1e-8);
         }
-        let plate = one_particle::<2>();
+        let plate = Particles::cubes([1; 2]);
         assert_eq!(Material::<2>::energy(&LinearElastic::new(100.0, 0.0), &plate), None);
     }
 
     /// An objective law would rotate the stress.
     #[test]
     fn spin_does_not_rotate_the_stress() {
-        let mut solid = one_particle::<2>();
+        let mut solid = Particles::cubes([1; 2]);
         solid.sigma[0] = Matrix::<2>::new(3.0, 0.5, 0.5, -1.0);
         let before = solid.sigma[0];
         solid.grad_v[0] = Matrix::<2>::new(0.0, -1.0, 1.0, 0.0);

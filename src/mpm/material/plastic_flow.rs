@@ -456,7 +456,6 @@ mod tests {
     use super::super::specimen::{SLOW, scattered};
     use super::*;
     use crate::mpm::foundation::algebra::in_body;
-    use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
     use proptest::prelude::*;
 
@@ -512,8 +511,7 @@ mod tests {
     #[test]
     fn elastic_stress_after_flow_agrees_with_the_stress_from_axes() {
         fn of<const D: usize, S: YieldSurface>(mut law: ElastoPlastic<S>) {
-            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-            let mut body = Particles::<D>::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+            let mut body = Particles::cubes([1; D]);
             let first = Matrix::identity() + scattered::<D>(0.1, 0.3);
             body.deform(|_| (Vector::zeros(), first));
             law.update(&mut StressUpdate::new(SLOW, &mut body));

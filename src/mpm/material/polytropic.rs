@@ -110,23 +110,14 @@ impl super::contract::ClosedForms for Polytropic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::foundation::algebra::Vector;
-    use crate::mpm::foundation::particles::Block;
     use approx::assert_relative_eq;
-
-    /// Creates particles of one material with different masses, at rest.
-    fn row() -> Particles<1> {
-        let (from, to) = (Vector::<1>::new(0.0), Vector::<1>::new(3.0));
-        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
-        row.mass = vec![0.5, 2.0, 0.0];
-        row
-    }
 
     /// Expects p = 3 rho^2 with rho = 0.5, 2 and 0 kg/m3, and a quarter of these pressures after a
     /// stretch of 2.
     #[test]
     fn pressure_follows_the_density_of_each_particle() {
-        let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), row());
+        let (mut gas, mut row) = (Polytropic::new(3.0, 2.0), Particles::cubes([3]));
+        row.mass = vec![0.5, 2.0, 0.0];
         gas.start_deformed(&mut row).unwrap();
         let pressure =
             |row: &Particles<1>| -> Vec<f64> { row.sigma.iter().map(|s| -s[0]).collect() };

@@ -121,7 +121,6 @@ mod tests {
     use super::super::specimen::{every, scattered};
     use super::*;
     use crate::mpm::foundation::algebra::Vector;
-    use crate::mpm::foundation::particles::Block;
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
@@ -140,8 +139,7 @@ mod tests {
                 && properties.yield_function(&Matrix::zeros()).is_none()
         });
         let body = |plan: MaterialPlan, law: Box<dyn Material<D>>| {
-            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-            let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+            let mut body = Particles::cubes([1; D]);
             let stress = in_space(&initial::<D>(), 0.0);
             let law = Prestressed::new(law, &[stress], &mut body).unwrap();
             if law.keeps_stretch_across() {
@@ -279,8 +277,7 @@ mod tests {
             },
         ];
         let start = |plan: MaterialPlan| {
-            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-            let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+            let mut body = Particles::cubes([1; D]);
             let law = Prestressed::new(plan.build(), &[*s0], &mut body);
             (plan, law, body)
         };

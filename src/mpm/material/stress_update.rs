@@ -232,15 +232,13 @@ mod tests {
     use super::super::specimen::{every, scattered};
     use super::*;
     use crate::mpm::foundation::algebra::{Vector, det};
-    use crate::mpm::foundation::particles::Block;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
     /// Creates squares at rest, each with its own velocity gradient (1/s), so that a batch has
     /// small and large strains.
     fn squares(total: usize) -> Particles<2> {
-        let (from, to) = (Vector::zeros(), Vector::<2>::new(total as f64, 1.0));
-        let mut squares = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut squares = Particles::cubes([total, 1]);
         squares.track_deformation();
         for (p, grad_v) in squares.grad_v.iter_mut().enumerate() {
             *grad_v = scattered([0.2, 0.02, 1e-3][p % 3], p as f64);

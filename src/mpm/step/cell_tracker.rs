@@ -174,7 +174,6 @@ fn nowhere<const D: usize>(p: usize, x: &Vector<D>) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::foundation::particles::Block;
     use rayon::ThreadPoolBuilder;
     use rstest::rstest;
 
@@ -183,8 +182,7 @@ mod tests {
     #[rstest]
     fn counts_do_not_depend_on_the_number_of_threads(#[values(1, 3)] threads: usize) {
         let total = 2 * FEW + 37;
-        let (from, to) = (Vector::zeros(), Vector::<1>::new(total as f64));
-        let mut row = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut row = Particles::cubes([total]);
         let grid = Grid::new(Vector::zeros(), 1.0, [total], [false], [total + 1]);
         let mut tracker = CellTracker::new(&grid, &row).unwrap();
         let crossing = [3, FEW - 1, FEW, 2 * FEW, total - 2];
@@ -213,8 +211,7 @@ mod tests {
     #[case::on_beyond_the_last(true, &[(3.9, 1), (4.0, 1), (4.5, 0), (5.1, 1), (9.0, 0)])]
     #[case::by_whole_periods(true, &[(4.5, 0), (-7.5, 0), (4e15, 0)])]
     fn a_crossing_is_a_change_of_cell(#[case] periodic: bool, #[case] moves: &[(f64, u64)]) {
-        let (from, to) = (Vector::zeros(), Vector::<1>::new(1.0));
-        let mut one = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut one = Particles::cubes([1]);
         let grid = Grid::new(Vector::zeros(), 1.0, [4], [periodic], [5]);
         let mut tracker = CellTracker::new(&grid, &one).unwrap();
         let mut crossings = 0;

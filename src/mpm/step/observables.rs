@@ -153,8 +153,7 @@ mod tests {
 
     #[test]
     fn tensors_are_written_row_by_row() {
-        let (from, to) = (Vector::<2>::zeros(), Vector::from_element(1.0));
-        let mut particles = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 1);
+        let mut particles = Particles::cubes([1; 2]);
         particles.sigma[0] = Matrix::<2>::new(1.0, 2.0, 3.0, 4.0);
         let mut samples = Samples::default();
         particles.sample(&mut samples);
