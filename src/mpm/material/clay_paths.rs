@@ -1,7 +1,7 @@
 //! Compares modified Cam-clay with closed forms along paths of deformation with fixed axes.
 
 use super::CamClay;
-use super::specimen::{SLOW, Specimen};
+use super::specimen::{SLOW, Specimen, richardson};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use rstest::rstest;
@@ -38,16 +38,8 @@ fn undrained(strain: f64) -> [f64; 2] {
     [strain, -0.5 * strain]
 }
 
-/// Extrapolates p and q to infinitely many steps by Richardson's method in powers of the step. Also
-/// returns the observed order of p.
-fn limit(run: impl Fn(u32) -> [f64; 2]) -> ([f64; 2], f64) {
-    let mut rows: Vec<Vector<2>> = (4..=10).map(|k| Vector::from(run(1 << k))).collect();
-    let (coarse, fine) = (rows[5] - rows[4], rows[6] - rows[5]);
-    for k in 1..rows.len() as i32 {
-        let weight = f64::from(2_i32.pow(k.unsigned_abs()) - 1);
-        rows = rows.windows(2).map(|pair| pair[1] + (pair[1] - pair[0]) / weight).collect();
-    }
-    (rows[0].into(), libm::log2(coarse[0] / fine[0]))
+fn limit(run: impl Fn(u32) -> [f64; 2]) -> (Vector<2>, f64) {
+    richardson((4..=10).map(|k| Vector::from(run(1 << k))).collect(), 2)
 }
 
 /// The expected p and q are closed forms, evaluated by an independent program. The return mapping
@@ -78,7 +70,8 @@ fn undrained_shear_of_overconsolidated_clay_matches_the_closed_form() {
         assert_relative_eq!(q, 84.852_813_742, max_relative = 1e-10);
         squeeze(&mut clay, undrained(0.016_464_206_955 - at_yield), steps)
     };
-    let ([p, q], order) = limit(run);
+    let (limit, order) = limit(run);
+    let [p, q] = limit.into();
     assert_relative_eq!(p, 90.709_158_875, max_relative = 2e-9);
     assert_relative_eq!(q, 90.709_158_875, max_relative = 2e-9);
     assert!((0.97..1.03).contains(&order), "order {order}");
@@ -118,31 +111,21 @@ fn compression_stays_on_the_k0_line(
     #[case] expected: f64,
     #[values(1, 2, 50)] steps: u32,
 ) {
-    let eta = k0_ratio();
-    let [p, q] = squeeze(&mut specimen(on_the_k0_line(eta)), [strain, 0.0], steps);
+    let [p, q] = squeeze(&mut specimen(on_the_k0_line()), [strain, 0.0], steps);
     assert_relative_eq!(p, expected, max_relative = 1e-10);
-    assert_relative_eq!(q, eta * p, max_relative = 1e-10);
-    let ratio = (3.0 - eta) / (3.0 + 2.0 * eta);
-    assert_relative_eq!(ratio, 0.642_867_258_385, max_relative = 1e-11);
+    assert_relative_eq!(q, K0_RATIO * p, max_relative = 1e-10);
 }
 
-/// Solves `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with `L = 1 - kappa/lambda` for eta.
-fn k0_ratio() -> f64 {
-    let (mut low, mut high) = (0.0, 1.2);
-    for _ in 0..60 {
-        let eta: f64 = 0.5 * (low + high);
-        let sum = eta * 0.2 / 1.8 + 1.6 * eta / (1.44 - eta * eta);
-        if sum < 2.0 / 3.0 { low = eta } else { high = eta }
-    }
-    assert_relative_eq!(low, 0.468_732_574_577, max_relative = 1e-11);
-    low
-}
+/// Stress ratio on the K0 line, the root of `eta (1 - L)/(3 r) + 2 eta L/(M^2 - eta^2) = 2/3` with
+/// `L = 1 - kappa/lambda`.
+const K0_RATIO: f64 = 0.468_732_574_577;
 
-/// Creates clay under a mean stress of 100 Pa with this stress ratio, on the yield surface.
-fn on_the_k0_line(eta: f64) -> CamClay {
-    let tau = Vector::<3>::new(-1.0 - 2.0 / 3.0 * eta, -1.0 + eta / 3.0, -1.0 + eta / 3.0);
-    let consolidation = 100.0 * (1.0 + eta * eta / 1.44);
-    clay(100.0).starting_at(Matrix::from_diagonal(&(tau * 100.0)), consolidation)
+/// Creates clay under a mean stress of 100 Pa, on the K0 line and on the yield surface.
+fn on_the_k0_line() -> CamClay {
+    let tau = Vector::<3>::new(-2.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0) * K0_RATIO;
+    let consolidation = 100.0 * (1.0 + K0_RATIO * K0_RATIO / 1.44);
+    let tau = tau.add_scalar(-1.0) * 100.0;
+    clay(100.0).starting_at(Matrix::from_diagonal(&tau), consolidation)
 }
 
 /// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle

@@ -123,6 +123,7 @@ mod tests {
     use crate::mpm::foundation::algebra::Vector;
     use crate::subject::PlaneState;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
+    use rstest::rstest;
 
     /// Returns a symmetric stress (Pa) with shear, as large as the moduli.
     fn initial<const D: usize>() -> Matrix<D> {
@@ -253,84 +254,34 @@ mod tests {
         assert_eq!(laws, 2, "neo-Hookean and Hencky laws have a tangent");
     }
 
-    /// Returns a body of each law with a yield surface in the initial stress `s0` (Pa), with its
-    /// law.
-    fn yielding<const D: usize>(
-        s0: &Matrix<3>,
-    ) -> Vec<(MaterialPlan, Result<Prestressed<D>, Failure>, Particles<D>)> {
-        let (young, poisson) = (1e4, 0.25);
-        let plans = [
-            MaterialPlan::J2 { young, poisson, r#yield: 30.0, hardening: 0.0 },
-            MaterialPlan::DruckerPrager {
-                young,
-                poisson,
-                friction: 0.3,
-                dilation: 0.1,
-                strength: 10.0,
-            },
-            MaterialPlan::MohrCoulomb {
-                young,
-                poisson,
-                friction_angle: 30.0,
-                dilation_angle: 10.0,
-                cohesion: 8.0,
-            },
-        ];
-        let start = |plan: MaterialPlan| {
-            let mut body = Particles::cubes([1; D]);
-            let law = Prestressed::new(plan.build(), &[*s0], &mut body);
-            (plan, law, body)
-        };
-        plans.map(start).into()
-    }
-
-    /// A stress inside all yield surfaces, with shear.
-    fn inside() -> Matrix<3> {
-        Matrix::<3>::new(-30.0, 4.0, 0.0, 4.0, -20.0, 0.0, 0.0, 0.0, -15.0)
-    }
-
-    /// A small rotation turns the stress. A small stretch within the yield surface adds the stress
-    /// of linear elasticity, up to terms of the order of stress times strain.
-    #[test]
-    fn law_that_yields_starts_from_the_elastic_strain_of_its_stress() {
-        let (lambda, mu) = (4e3, 4e3);
-        for (plan, law, mut body) in yielding::<2>(&inside()) {
-            let (mut law, s0) = (law.unwrap(), body.sigma[0]);
-            assert_eq!(s0, Matrix::<2>::new(-30.0, 4.0, 4.0, -20.0));
-            body.track_deformation();
-            law.update(&mut StressUpdate::new(0.0, &mut body));
-            assert_abs_diff_eq!(body.sigma[0], s0, epsilon = 1e-10);
-            let (c, s) = (libm::cos(0.7), libm::sin(0.7));
-            let turn = Matrix::<2>::new(c, -s, s, c);
-            body.def_grad[0] = turn;
-            law.update(&mut StressUpdate::new(0.0, &mut body));
-            assert_abs_diff_eq!(body.sigma[0], turn * s0 * turn.transpose(), epsilon = 1e-10);
-            let eps = Matrix::<2>::new(1e-5, 2e-5, 2e-5, -3e-5);
-            body.def_grad[0] = Matrix::identity() + eps;
-            law.update(&mut StressUpdate::new(0.0, &mut body));
-            let added = Matrix::<2>::identity() * (lambda * eps.trace()) + eps * (2.0 * mu);
-            assert_abs_diff_eq!(body.sigma[0] - s0, added, epsilon = 3e-3);
-            assert!(added.amax() > 0.1, "{plan:?}");
-        }
-    }
-
     /// Each law yields when the largest compression reaches its strength. In the initial stress, f
     /// is zero on the surface.
-    #[test]
-    fn initial_stress_outside_the_yield_surface_is_refused() {
-        let zero = Matrix::<3>::zeros();
-        for (k, (plan, _, _)) in yielding::<3>(&zero).into_iter().enumerate() {
-            // Axial compression without lateral stress: q = 30, q/sqrt(3) - 0.3 q/3 = 10, and
-            // q = 2 c cos(phi)/(1 - sin(phi)).
-            let strength =
-                [30.0, 10.0 / (1.0 / 3.0_f64.sqrt() - 0.1), 2.0 * 8.0 * (0.75_f64).sqrt() / 0.5][k];
-            for (share, admitted) in [(0.999, true), (1.0, true), (1.001, false)] {
-                let mut s0 = zero;
-                s0[(1, 1)] = -share * strength;
-                let (_, law, _) = yielding::<3>(&s0).remove(k);
-                let refused = matches!(law, Err(Failure::OutsideYieldSurface { .. }));
-                assert_eq!(refused, !admitted, "{plan:?}, {share}");
-            }
+    #[rstest]
+    #[case::j2(MaterialPlan::J2 { young: 1e4, poisson: 0.25, r#yield: 30.0, hardening: 0.0 }, 30.0)]
+    // q/sqrt(3) - 0.3 q/3 = 10
+    #[case::drucker_prager(
+        MaterialPlan::DruckerPrager {
+            young: 1e4, poisson: 0.25, friction: 0.3, dilation: 0.1, strength: 10.0
+        },
+        10.0 / (1.0 / 3.0_f64.sqrt() - 0.1)
+    )]
+    // q = 2 c cos(phi)/(1 - sin(phi))
+    #[case::mohr_coulomb(
+        MaterialPlan::MohrCoulomb {
+            young: 1e4, poisson: 0.25, friction_angle: 30.0, dilation_angle: 10.0, cohesion: 8.0
+        },
+        2.0 * 8.0 * 0.75_f64.sqrt() / 0.5
+    )]
+    fn initial_stress_outside_the_yield_surface_is_refused(
+        #[case] plan: MaterialPlan,
+        #[case] strength: f64,
+    ) {
+        for (share, admitted) in [(0.999, true), (1.0, true), (1.001, false)] {
+            let mut s0 = Matrix::<3>::zeros();
+            s0[(1, 1)] = -share * strength;
+            let law = Prestressed::new(plan.build::<3>(), &[s0], &mut Particles::cubes([1; 3]));
+            let refused = matches!(law, Err(Failure::OutsideYieldSurface { .. }));
+            assert_eq!(refused, !admitted, "{share}");
         }
     }
 }

@@ -2,7 +2,7 @@
 //! steps, stresses are compared with closed forms and with values of an independent program.
 
 use super::MaterialPlan;
-use super::specimen::{SLOW, Specimen};
+use super::specimen::{SLOW, Specimen, richardson};
 use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::assert_abs_diff_eq;
 use rstest::rstest;
@@ -40,17 +40,8 @@ fn follow(plan: MaterialPlan, corners: &[[f64; 2]], steps: u32) -> Vector<3> {
     Vector::<3>::new(tau[(0, 0)], tau[(0, 1)], work)
 }
 
-/// Extrapolates the results of [`follow`] to step length zero by Richardson's method in even powers
-/// of the step. Also returns the observed order of the first component.
 fn limit(plan: MaterialPlan, corners: &[[f64; 2]]) -> (Vector<3>, f64) {
-    let mut rows: Vec<Vector<3>> = (3..=8).map(|k| follow(plan, corners, 1 << k)).collect();
-    let change = |k: usize| rows[k + 1][0] - rows[k][0];
-    let order = libm::log2(change(3) / change(4));
-    for k in 1..rows.len() as i32 {
-        let weight = f64::from(4_i32.pow(k.unsigned_abs()) - 1);
-        rows = rows.windows(2).map(|pair| pair[1] + (pair[1] - pair[0]) / weight).collect();
-    }
-    (rows[0], order)
+    richardson((3..=8).map(|k| follow(plan, corners, 1 << k)).collect(), 4)
 }
 
 /// Tests components 11 and 12 of the stress in simple shear. The error of the integration is of
