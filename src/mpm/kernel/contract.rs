@@ -80,30 +80,6 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         self.g2p_field(grid, field, particles, G2pRequest { mix, value, ..G2pRequest::default() });
     }
 
-    /// Computes `gradient_p = sum_i field_i (x) grad N_i(x_p)`.
-    fn g2p_gradient(
-        &self,
-        grid: &Grid<D>,
-        field: &[Vector<D>],
-        particles: &Particles<D>,
-        gradient: &mut [Matrix<D>],
-    ) {
-        let gradient = Some(gradient);
-        self.g2p_field(grid, field, particles, G2pRequest { gradient, ..G2pRequest::default() });
-    }
-
-    /// Computes `moment_p = sum_i field_i (x) (x_i - mean_p) N_i(x_p)`.
-    fn g2p_moment(
-        &self,
-        grid: &Grid<D>,
-        field: &[Vector<D>],
-        particles: &Particles<D>,
-        moment: &mut [Matrix<D>],
-    ) {
-        let moment = Some(moment);
-        self.g2p_field(grid, field, particles, G2pRequest { moment, ..G2pRequest::default() });
-    }
-
     /// Computes the moments of the weights of each particle.
     fn moments(&self, grid: &Grid<D>, particles: &Particles<D>, moments: &mut Moments<D>);
 

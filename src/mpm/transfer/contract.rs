@@ -181,16 +181,17 @@ pub(in crate::mpm) fn kick<const D: usize>(
     particles.v = v;
     // The column of velocity gradients is not used until the stress stage.
     let mut change = std::mem::take(&mut particles.grad_v);
+    let mut passes = 1;
     let G2pRequest { moment, gradient, .. } = transfer.g2p_request(dt);
-    if moment.is_some() {
-        kernel.g2p_moment(grid, &grid.acceleration, particles, &mut change);
-    } else if gradient.is_some() {
-        kernel.g2p_gradient(grid, &grid.acceleration, particles, &mut change);
-    }
-    let state = moment.or(gradient);
-    let passes = 1 + u64::from(state.is_some());
-    for (state, change) in state.into_iter().flatten().zip(&change) {
-        *state += change * dt;
+    let mut request = G2pRequest::default();
+    let column = if moment.is_some() { &mut request.moment } else { &mut request.gradient };
+    *column = Some(&mut change);
+    if let Some(state) = moment.or(gradient) {
+        kernel.g2p_field(grid, &grid.acceleration, particles, request);
+        passes += 1;
+        for (state, change) in state.iter_mut().zip(&change) {
+            *state += change * dt;
+        }
     }
     particles.grad_v = change;
     passes

@@ -116,8 +116,10 @@ fn g2p_of_several_parts_is_that_of_each<const D: usize>(kernel: &dyn Kernel<D>, 
     kernel.g2p(&grid, &grid.acceleration, &particles, (1.0, 0.25), &mut v1);
     kernel.g2p(&grid, &grid.velocity, &particles, (0.75, 0.25), &mut v1);
     kernel.g2p(&grid, &grid.velocity, &particles, (0.0, 1.0), &mut advected1);
-    kernel.g2p_moment(&grid, &grid.velocity, &particles, &mut moment1);
-    kernel.g2p_gradient(&grid, &grid.velocity, &particles, &mut gradient1);
+    let moment_alone = G2pRequest { moment: Some(&mut moment1), ..G2pRequest::default() };
+    kernel.g2p_all(&grid, &particles, moment_alone);
+    let gradient_alone = G2pRequest { gradient: Some(&mut gradient1), ..G2pRequest::default() };
+    kernel.g2p_all(&grid, &particles, gradient_alone);
     assert_eq!(bits(v.iter().flatten()), bits(v1.iter().flatten()), "velocity");
     for (p, velocity) in advected1.iter().enumerate() {
         assert_eq!(advected[p], particles.x[p] + velocity * 0.5);
@@ -247,8 +249,10 @@ fn fast_loops_are_the_textbook_loops<const D: usize>(kernel: &dyn Kernel<D>, per
     let (mut v, mut moment) = (particles.v.clone(), particles.sigma.clone());
     let mut gradient = particles.sigma.clone();
     kernel.g2p(&start, &start.velocity, &particles, (0.0, 1.0), &mut v);
-    kernel.g2p_moment(&start, &start.velocity, &particles, &mut moment);
-    kernel.g2p_gradient(&start, &start.velocity, &particles, &mut gradient);
+    let moment_alone = G2pRequest { moment: Some(&mut moment), ..G2pRequest::default() };
+    kernel.g2p_all(&start, &particles, moment_alone);
+    let gradient_alone = G2pRequest { gradient: Some(&mut gradient), ..G2pRequest::default() };
+    kernel.g2p_all(&start, &particles, gradient_alone);
     let sums = textbook::g2p(kernel, &start, &start.velocity, &particles);
     agree("velocity", v.iter().flatten(), sums.velocity.iter().flatten());
     agree("moment", moment.iter().flatten(), sums.moment.iter().flatten());
