@@ -38,9 +38,7 @@ impl<const D: usize> Particles<D> {
         self.sigma.resize(self.x0.len(), Matrix::zeros());
         self.grad_v.resize(self.x0.len(), Matrix::zeros());
     }
-}
 
-impl<const D: usize> Particles<D> {
     /// Fills a mapped box of density `density` (kg/m3) with `counts` particles along its axes, at
     /// rest and free of stress. `map` returns the position (m) of a point of the unit box and the
     /// derivative of the map there (m).
@@ -69,9 +67,7 @@ impl<const D: usize> Particles<D> {
         });
         particles
     }
-}
 
-impl<const D: usize> Particles<D> {
     /// Converts particles in the meridian plane with the axes r and z to a body of revolution.
     /// Masses (kg/rad) and volumes (m^3/rad) become values per radian.
     pub fn revolve(&mut self) {

@@ -33,16 +33,7 @@ impl<const D: usize> Particles<D> {
     fn moment(&self, p: usize, own: Option<Matrix<D>>) -> Matrix<D> {
         dyad(&self.v[p], self.position(p)) + own.unwrap_or_else(zeros)
     }
-}
 
-/// Returns `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`, which is x cross v for `M = v x^T`, in any
-/// dimension.
-fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
-    let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
-    [part(2, 1), part(0, 2), part(1, 0)]
-}
-
-impl<const D: usize> Particles<D> {
     /// Appends the state of the particles to `samples`. F is included only if its column exists.
     pub(in crate::mpm) fn sample(&self, samples: &mut Samples) {
         samples.dimension = D;
@@ -69,9 +60,7 @@ impl<const D: usize> Particles<D> {
             }
         }
     }
-}
 
-impl<const D: usize> Particles<D> {
     /// Appends the state of the particles to `samples`, with the out-of-plane stresses of a body of
     /// revolution and, if requested, of any two-dimensional body.
     pub(in crate::mpm) fn sample_with(&self, material: &dyn Material<D>, samples: &mut Samples) {
@@ -82,6 +71,13 @@ impl<const D: usize> Particles<D> {
             samples.stress_across.extend(across.map(|across| across.unwrap_or(f64::NAN)));
         }
     }
+}
+
+/// Returns `(M_zy - M_yz, M_xz - M_zx, M_yx - M_xy)`, which is x cross v for `M = v x^T`, in any
+/// dimension.
+fn axial<const D: usize>(m: &Matrix<D>) -> [f64; 3] {
+    let part = |i: usize, j: usize| if i.max(j) < D { m[(i, j)] - m[(j, i)] } else { 0.0 };
+    [part(2, 1), part(0, 2), part(1, 0)]
 }
 
 impl<const D: usize> Solver<D> {
