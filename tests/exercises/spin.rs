@@ -2,10 +2,7 @@
 //!
 //! `f_ext_i = sum_p m_p w(t)^2 x_p N_i(x_p)`: it acts where particles are, not where they were.
 
-use super::contract::Effect;
-use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
+use super::contract::{BodyOnGrid, Effect};
 
 /// The rate w(t) (1/s) at which the frame turns.
 pub struct Spin(pub Box<dyn Fn(f64) -> f64 + Send>);
@@ -15,18 +12,13 @@ impl<const D: usize> Effect<D> for Spin {
         "spin"
     }
 
-    fn add_force(
-        &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
+    fn add_force(&mut self, t: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
         let rate = (self.0)(t);
+        let particles = body.particles;
         for (p, (x, mass)) in particles.positions().iter().zip(&particles.mass).enumerate() {
-            kernel.p2g_point_force(particles, p, &(x * (rate * rate * mass)), grid);
+            body.add_point_force(p, &(x * (rate * rate * mass)));
         }
-        particles.len() as u64 * kernel.support()
+        body.pairs(particles.len())
     }
 }
 

@@ -6,9 +6,9 @@ use crate::common::columns::columns;
 use crate::common::effect::add;
 use crate::common::{DT, free_body, in_dimension, methods};
 use mpm_verify::mpm::{
-    BasisName, Block, Bodies, Boundary, Effect, Fixed, Friction, Grid, Particles, Placement,
-    Prescribed, Pressure, PressureField, Roller, SchemeName, Setup, Side, Solver, TransferName,
-    Vector, kernel,
+    BasisName, Block, Bodies, BodyOnGrid, Boundary, Effect, Fixed, Friction, Grid, Particles,
+    Placement, Prescribed, Pressure, PressureField, Roller, SchemeName, Setup, Side, Solver,
+    TransferName, Vector, kernel,
 };
 use mpm_verify::study;
 use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
@@ -299,7 +299,8 @@ fn a_pressure_is_that_of_the_reference_place() {
     let mut grid = kernel.grid(Vector::zeros(), 1.0, [3, 2], [false; 2]);
     let value: PressureField<2> = Box::new(|x, _| x[0]);
     let mut pressure = Pressure::at(&plate, 1, Side::High, Placement::Particles, value);
-    pressure.add_force(0.0, &plate, kernel.as_ref(), &mut grid);
+    let mut body = BodyOnGrid { particles: &plate, kernel: kernel.as_ref(), grid: &mut grid };
+    pressure.add_force(0.0, &mut body);
     let sum: Vector<2> = grid.force.iter().sum();
     assert!((sum - Vector::<2>::new(0.0, -2.0)).norm() < 1e-14, "{sum}");
 }

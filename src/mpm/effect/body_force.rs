@@ -4,11 +4,9 @@
 //! `f_ext_i = sum_p m_p b(X_p, t, x_p - X_p) N_i(x_p)`. Displacement and stress are both taken at
 //! the start of the step, so the order of the leapfrog method does not change.
 
-use super::contract::Effect;
+use super::contract::{BodyOnGrid, Effect};
 use crate::mpm::foundation::algebra::{Vector, zeros};
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
 /// Function that writes the force per unit mass (m/s2) of every particle at a time (s), from the
@@ -59,17 +57,12 @@ impl<const D: usize> Effect<D> for BodyForce<D> {
         self.stiffness
     }
 
-    fn add_force(
-        &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
+    fn add_force(&mut self, t: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
+        let BodyOnGrid { particles, kernel, grid } = body;
         self.b.resize(particles.len(), zeros());
         (self.field)(t, particles, &mut self.b);
         kernel.p2g_body_force(particles, &self.b, grid);
-        particles.len() as u64 * kernel.support()
+        body.pairs(self.b.len())
     }
 }
 

@@ -1,11 +1,34 @@
 //! Interface between an effect and the rest of the solver, and the stress update with its hooks.
 
+use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::Kernel;
 use crate::mpm::material::{Material, StressUpdate};
 use crate::subject::{Column, Failure};
 use std::any::Any;
+
+/// A body and the grid that receives its external forces.
+pub struct BodyOnGrid<'a, const D: usize> {
+    /// The particles.
+    pub particles: &'a Particles<D>,
+    /// Passes over the particles.
+    pub kernel: &'a dyn Kernel<D>,
+    /// The grid, whose masses are up to date.
+    pub grid: &'a mut Grid<D>,
+}
+
+impl<const D: usize> BodyOnGrid<'_, D> {
+    /// Adds a `force` (N) on particle `p` to the nodes of the particle.
+    pub fn add_point_force(&mut self, p: usize, force: &Vector<D>) {
+        self.kernel.p2g_point_force(self.particles, p, force, self.grid);
+    }
+
+    /// Returns the number of particle-node pairs in `visits` visits of a particle.
+    pub fn pairs(&self, visits: usize) -> u64 {
+        visits as u64 * self.kernel.support()
+    }
+}
 
 /// An addition to the equations of motion, with hooks between the passes of a step.
 pub trait Effect<const D: usize>: Send {
@@ -47,15 +70,9 @@ pub trait Effect<const D: usize>: Send {
     /// the balance of a load step requires. Explicit solvers do not call this method.
     fn integrate_over_domain_ends(&mut self) {}
 
-    /// Adds external forces at time `t` (s) to `grid.force`; the masses of the grid are up to date.
-    /// Returns the number of visited particle-node pairs.
-    fn add_force(
-        &mut self,
-        _t: f64,
-        _particles: &Particles<D>,
-        _kernel: &dyn Kernel<D>,
-        _grid: &mut Grid<D>,
-    ) -> u64 {
+    /// Adds external forces at time `t` (s) to the grid of `body`. Returns the number of visited
+    /// particle-node pairs.
+    fn add_force(&mut self, _t: f64, _body: &mut BodyOnGrid<'_, D>) -> u64 {
         0
     }
 
@@ -142,9 +159,7 @@ pub(in crate::mpm) fn strain<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mpm::{
-        ArtificialViscosity, Block, Hencky, Matrix, Particles, ThermalExpansion, Vector,
-    };
+    use crate::mpm::{ArtificialViscosity, Block, Hencky, Matrix, ThermalExpansion};
     use approx::assert_relative_eq;
 
     /// A hot bar in compression has Hencky's stress for the elastic stretch 1.5/1.2 and E = 50,

@@ -6,7 +6,7 @@
 //! per radian, `V_p = r_p A_p`, so the in-plane equations of motion need no change. Force and rate
 //! use equal weights, so the power of the force equals the stress power.
 
-use super::contract::Effect;
+use super::contract::{BodyOnGrid, Effect};
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
@@ -50,18 +50,13 @@ impl<const D: usize> Effect<D> for Hoop<D> {
         particles.len() as u64 * kernel.support()
     }
 
-    fn add_force(
-        &mut self,
-        _: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
+    fn add_force(&mut self, _: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
+        let particles = body.particles;
         for (p, x) in particles.positions().iter().enumerate() {
             let mut force = zeros();
             force[0] = -particles.vol[p] * particles.stress_across[p] / x[0];
-            kernel.p2g_point_force(particles, p, &force, grid);
+            body.add_point_force(p, &force);
         }
-        particles.len() as u64 * kernel.support()
+        body.pairs(particles.len())
     }
 }

@@ -14,8 +14,8 @@ mod surface;
 mod thermal_face;
 
 pub use body_force::ForceField;
-pub use contract::Effect;
 pub(super) use contract::strain;
+pub use contract::{BodyOnGrid, Effect};
 pub use heat::HeatSource;
 pub use hoop::Hoop;
 pub use pressure::PressureField;

@@ -4,14 +4,12 @@
 //! depends on F of the particles in the layer, and changes if the face stretches or rotates. If the
 //! force acts at the surface ([`Placement`]), F is extrapolated to the surface.
 
-use super::contract::Effect;
+use super::contract::{BodyOnGrid, Effect};
 use super::rim::{Facet, RimCircle, facets, press};
 use super::surface::{Placement, Surface};
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
 /// A pressure (Pa) as a function of the reference position and time.
@@ -62,22 +60,16 @@ impl<const D: usize> Effect<D> for Pressure<D> {
         true
     }
 
-    fn add_force(
-        &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        let Self { value, site } = self;
+    fn add_force(&mut self, t: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
+        let (Self { value, site }, particles) = (self, body.particles);
         let surface = match site {
             PressedSurface::Face(surface) => surface,
             PressedSurface::Rim(facets) => {
-                return press(facets, particles, kernel, grid, |label| value(label, t));
+                return press(facets, body, |label| value(label, t));
             }
         };
         let normal = surface.normal();
-        surface.pull(particles, kernel, grid, |p| {
+        surface.pull(body, |p| {
             let pressure = value(&surface.label(particles, p), t);
             let across = surface.across(particles, p);
             cofactor(&surface.def_grad(particles, p)) * normal * (-pressure * across)

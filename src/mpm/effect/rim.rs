@@ -6,11 +6,10 @@
 //! reproduces linear fields, the sum of `f_i (x) x_i` is then `f (x) x_s`, as for a force at the
 //! middle x_s of the arc. The area vectors are exact, so a uniform pressure has no resultant.
 
+use super::contract::BodyOnGrid;
 use super::surface::put_at_surface;
 use crate::mpm::foundation::algebra::{Vector, cofactor};
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Entry;
 use std::f64::consts::TAU;
 
@@ -81,18 +80,17 @@ pub(super) fn facets<const D: usize>(
 /// spacing away. Returns the number of visited particle-node pairs.
 pub(super) fn press<const D: usize>(
     facets: &[Facet<D>],
-    particles: &Particles<D>,
-    kernel: &dyn Kernel<D>,
-    grid: &mut Grid<D>,
+    body: &mut BodyOnGrid<'_, D>,
     pressure: impl Fn(&Vector<D>) -> f64,
 ) -> u64 {
+    let particles = body.particles;
     for Facet { particle, label, area } in facets {
         let (p, f) = (*particle, &particles.def_grad[*particle]);
         let across = particles.across.get(p).copied().unwrap_or(1.0);
         let force = cofactor(f) * area * (-pressure(label) * across);
-        put_at_surface(particles, kernel, grid, p, &force, label - particles.x0[p]);
+        put_at_surface(body, p, &force, label - particles.x0[p]);
     }
-    2 * facets.len() as u64 * kernel.support()
+    body.pairs(2 * facets.len())
 }
 
 #[cfg(test)]

@@ -4,11 +4,9 @@
 //! `f_ext_i += f(t) sum_p (V0_p/V0) N_i(x_p)` over the set, with its total reference volume V0.
 //! This is a body force that is uniform in the reference configuration and follows the particles.
 
-use super::contract::Effect;
+use super::contract::{BodyOnGrid, Effect};
 use crate::mpm::foundation::algebra::Vector;
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
 /// A total force f(t) on a set of particles (N, per m^(3-D) of thickness).
@@ -39,18 +37,12 @@ impl<const D: usize> Effect<D> for SetForce<D> {
         vec![Column::of_particles("force share", &self.shares)]
     }
 
-    fn add_force(
-        &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
+    fn add_force(&mut self, t: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
         let force = (self.value)(t);
         for &(p, share) in &self.shares {
-            kernel.p2g_point_force(particles, p, &(force * share), grid);
+            body.add_point_force(p, &(force * share));
         }
-        self.shares.len() as u64 * kernel.support()
+        body.pairs(self.shares.len())
     }
 }
 

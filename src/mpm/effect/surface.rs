@@ -22,11 +22,10 @@
 //! middles of these domain ends are on the face of the body ([`Particles::fill_mapped`]), even if
 //! the particle rows meet the face at an angle.
 
+use super::contract::BodyOnGrid;
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad, times};
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::named::named;
 use std::ops::{Mul, Sub};
 
@@ -148,11 +147,10 @@ impl Surface {
     /// Returns the number of visited particle-node pairs.
     pub(super) fn pull<const D: usize>(
         &self,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
+        body: &mut BodyOnGrid<'_, D>,
         traction: impl Fn(usize) -> Vector<D>,
     ) -> u64 {
+        let particles = body.particles;
         // The domain of a particle ends on the face if the face is normal to an axis of the domain.
         let end = match self.column {
             Some((column, sign)) => (column == self.axis).then_some((column, sign)),
@@ -163,35 +161,35 @@ impl Surface {
         for &p in &self.layer {
             let force = traction(p) * self.area(particles, p);
             if self.placement == Placement::Particles {
-                kernel.p2g_point_force(particles, p, &force, grid);
+                body.add_point_force(p, &force);
                 visits += 1;
                 continue;
             }
-            put_at_surface(particles, kernel, grid, p, &force, self.to_face(particles, p));
+            put_at_surface(body, p, &force, self.to_face(particles, p));
+            let BodyOnGrid { kernel, grid, .. } = body;
             let is_corrected =
                 end.is_some_and(|end| kernel.p2g_domain_end(particles, p, end, &force, grid));
             visits += if is_corrected { 3 } else { 2 };
         }
-        visits * kernel.support()
+        body.pairs(visits)
     }
 }
 
 /// Adds `force` at particle `p`, and a moment that shifts the point of action to the end of `arm`.
 /// The arm is the vector from the particle to the surface in the reference configuration (m).
 pub(super) fn put_at_surface<const D: usize>(
-    particles: &Particles<D>,
-    kernel: &dyn Kernel<D>,
-    grid: &mut Grid<D>,
+    body: &mut BodyOnGrid<'_, D>,
     p: usize,
     force: &Vector<D>,
     arm: Vector<D>,
 ) {
-    kernel.p2g_point_force(particles, p, force, grid);
+    body.add_point_force(p, force);
+    let particles = body.particles;
     let arm = match particles.def_grad.get(p) {
         Some(f) if particles.current_position.is_empty() => times(f, &arm),
         _ => arm,
     };
-    kernel.p2g_point_moment(particles, p, &dyad(force, &arm), grid);
+    body.kernel.p2g_point_moment(particles, p, &dyad(force, &arm), body.grid);
 }
 
 /// Maximum distance from the face that counts as rounding error (spacings).

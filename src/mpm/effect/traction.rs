@@ -6,13 +6,11 @@
 //! that rotate and bend (Wobbes & Tielen 2015, Steffen's bar). By default the force acts half a
 //! particle spacing inside the surface ([`Placement`]).
 
-use super::contract::Effect;
+use super::contract::{BodyOnGrid, Effect};
 use super::surface::{Placement, Surface};
 use crate::mpm::boundary::Side;
 use crate::mpm::foundation::algebra::Vector;
-use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::kernel::contract::Kernel;
 use crate::subject::Column;
 
 /// A traction (Pa, per reference area) as a function of the reference position and time.
@@ -64,14 +62,8 @@ impl<const D: usize> Effect<D> for Traction<D> {
         self.surface.is_integrated = true;
     }
 
-    fn add_force(
-        &mut self,
-        t: f64,
-        particles: &Particles<D>,
-        kernel: &dyn Kernel<D>,
-        grid: &mut Grid<D>,
-    ) -> u64 {
-        let Self { value, surface } = self;
-        surface.pull(particles, kernel, grid, |p| value(&surface.label(particles, p), t))
+    fn add_force(&mut self, t: f64, body: &mut BodyOnGrid<'_, D>) -> u64 {
+        let (Self { value, surface }, particles) = (self, body.particles);
+        surface.pull(body, |p| value(&surface.label(particles, p), t))
     }
 }

@@ -27,7 +27,7 @@ mod newton;
 
 use super::basis::Domain;
 use super::boundary::{Boundary, Side};
-use super::effect::Effect;
+use super::effect::{BodyOnGrid, Effect};
 use super::foundation::algebra::{Matrix, Vector, identity, in_body, zeros};
 use super::foundation::grid::Grid;
 use super::foundation::particles::Particles;
@@ -138,8 +138,9 @@ impl<const D: usize> QuasiStatic<D> {
         let QuasiStaticSetup { grid, particles, kernel, effects, .. } = &mut self.setup;
         grid.force.fill(zeros());
         kernel.p2g_mass(particles, grid);
+        let mut body = BodyOnGrid { particles, kernel: kernel.as_ref(), grid };
         for effect in effects {
-            self.transfers += effect.add_force(0.0, particles, kernel.as_ref(), grid);
+            self.transfers += effect.add_force(0.0, &mut body);
         }
     }
 

@@ -7,7 +7,7 @@ use super::setup::{Setup, profile};
 use super::volume_average::{PASSES, VolumeAverage, VolumeName};
 use crate::mpm::basis::Domain;
 use crate::mpm::boundary::Advance;
-use crate::mpm::effect::strain;
+use crate::mpm::effect::{BodyOnGrid, strain};
 use crate::mpm::foundation::algebra::{Vector, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::{FrameName, Particles};
@@ -198,8 +198,9 @@ impl<const D: usize> Solver<D> {
 
     fn force(&mut self) {
         let Setup { grid, particles, kernel, effects, .. } = &mut self.setup;
+        let mut body = BodyOnGrid { particles, kernel: kernel.as_ref(), grid };
         for effect in effects.iter_mut() {
-            self.transfers += effect.add_force(self.time, particles, kernel.as_ref(), grid);
+            self.transfers += effect.add_force(self.time, &mut body);
         }
         for effect in &self.setup.effects {
             effect.modify_force(&mut self.setup.grid);

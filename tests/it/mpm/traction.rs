@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use mpm_verify::mpm::{
-    BasisName, Block, Effect, Matrix, Particles, Placement, Quadrilateral, Side, Traction, Vector,
-    kernel,
+    BasisName, Block, BodyOnGrid, Effect, Matrix, Particles, Placement, Quadrilateral, Side,
+    Traction, Vector, kernel,
 };
 use rstest::rstest;
 
@@ -19,7 +19,8 @@ fn total_force_on_the_grid_is_exact() {
     let mut grid = kernel.grid(Vector::zeros(), 0.25, [6, 8], [false; 2]);
     let value = Box::new(|t| Vector::<2>::new(3.0 * t, 0.5));
     let mut pull = Traction::on(&particles, 0, Side::High, value);
-    assert_eq!(pull.add_force(2.0, &particles, kernel.as_ref(), &mut grid), 16 * 4);
+    let mut body = BodyOnGrid { particles: &particles, kernel: kernel.as_ref(), grid: &mut grid };
+    assert_eq!(pull.add_force(2.0, &mut body), 16 * 4);
     let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
     assert_relative_eq!(total, Vector::<2>::new(12.0, 1.0), max_relative = 1e-14);
 }
@@ -48,7 +49,8 @@ fn moment_is_exact_at_the_surface(
     let mut grid = kernel.grid(Vector::zeros(), 0.25, [12, 12], [false; 2]);
     let shear = Box::new(|x: &Vector<2>, _| Vector::<2>::new(0.0, x[1]));
     let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
-    pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
+    let mut body = BodyOnGrid { particles: &particles, kernel: kernel.as_ref(), grid: &mut grid };
+    pull.add_force(0.0, &mut body);
     let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
     assert_relative_eq!(total, Vector::<2>::new(0.0, 2.0), epsilon = 1e-13);
     let moment = |i: usize| grid.force[i][1] * (basis.place(&grid, i)[0] - origin[0]);
@@ -74,7 +76,8 @@ fn force_and_moment_on_a_side_are_exact(
     let mut grid = kernel.grid(Vector::from([-8.0, -8.0]), 4.0, [20, 24], [false; 2]);
     let shear = Box::new(|_: &Vector<2>, _| Vector::from([0.0, 2.0]));
     let mut pull = Traction::at(&particles, 0, Side::High, placement, shear);
-    pull.add_force(0.0, &particles, kernel.as_ref(), &mut grid);
+    let mut body = BodyOnGrid { particles: &particles, kernel: kernel.as_ref(), grid: &mut grid };
+    pull.add_force(0.0, &mut body);
     let total = grid.force.iter().fold(Vector::zeros(), |sum, f| sum + f);
     assert_relative_eq!(total, Vector::<2>::new(0.0, 32.0), epsilon = 1e-11);
     let moment = |i: usize| grid.force[i][1] * basis.place(&grid, i)[0];
