@@ -136,7 +136,7 @@ impl<const D: usize> Solver<D> {
         let stages = &[Stage::Stress, Stage::Force, Stage::Acceleration];
         self.run_all(&passes_of(stages), dt)?;
         self.restore(start);
-        if !self.strains_by_mapped_velocity() {
+        if !strains_by_mapped_velocity(self.setup.scheme, self.setup.transfer.kind()) {
             return Ok(self.setup.grid.acceleration.clone());
         }
         self.setup.particles.v.fill(Vector::zeros());
@@ -145,10 +145,6 @@ impl<const D: usize> Solver<D> {
         self.run_all(&passes_of(&[Stage::Momentum]), dt)?;
         self.restore(start);
         Ok(self.setup.grid.velocity.clone())
-    }
-
-    fn strains_by_mapped_velocity(&self) -> bool {
-        strains_by_mapped_velocity(self.setup.scheme, self.setup.transfer.kind())
     }
 
     fn size(&self, field: &[Vector<D>]) -> f64 {

@@ -165,13 +165,8 @@ impl WaveSymbols {
     /// Returns the positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells),
     /// translated by `shift` cells and wrapped to 0 to 1.
     pub fn shifted_positions(ppc: u32, shift: f64) -> Vec<f64> {
-        let all = Self::regular_positions(ppc).into_iter().map(|xi| xi + shift);
+        let all = (0..ppc).map(|j| (f64::from(j) + 0.5) / f64::from(ppc) + shift);
         all.map(|xi| xi - libm::floor(xi)).collect()
-    }
-
-    /// Returns the positions `(j + 1/2)/ppc` of `ppc` regular particles in a cell (cells).
-    pub fn regular_positions(ppc: u32) -> Vec<f64> {
-        (0..ppc).map(|j| (f64::from(j) + 0.5) / f64::from(ppc)).collect()
     }
 }
 

@@ -19,7 +19,7 @@ fn method(spline: Spline, (transfer, scheme): (WaveTransfer, SchemeName)) -> Wav
 }
 
 fn symbols(spline: Spline, theta: f64, ppc: u32) -> WaveSymbols {
-    WaveSymbols::new(spline, theta, &WaveSymbols::regular_positions(ppc))
+    WaveSymbols::new(spline, theta, &WaveSymbols::shifted_positions(ppc, 0.0))
 }
 
 #[rstest]
@@ -42,7 +42,7 @@ fn linear_symbols_have_closed_forms(
     #[values(0.0, 0.07)] shift: f64,
 ) {
     let positions: Vec<f64> =
-        WaveSymbols::regular_positions(ppc).iter().map(|xi| xi + shift).collect();
+        WaveSymbols::shifted_positions(ppc, 0.0).iter().map(|xi| xi + shift).collect();
     let found = WaveSymbols::new(Spline::Linear, theta, &positions);
     let lost = 1.0 - libm::cos(theta);
     assert_abs_diff_eq!(found.stiffness, 2.0 * lost, epsilon = 1e-14);

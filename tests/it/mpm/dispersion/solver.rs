@@ -157,7 +157,7 @@ impl Row {
     /// Returns trace and determinant by the closed form.
     fn predict(&self, spline: Spline, wave: WaveTransfer, periods: usize) -> WaveStep {
         let theta = TAU * periods as f64 / CELLS as f64;
-        let regular = WaveSymbols::regular_positions(self.ppc as u32);
+        let regular = WaveSymbols::shifted_positions(self.ppc as u32, 0.0);
         let positions: Vec<f64> = regular.iter().map(|xi| xi + self.shift).collect();
         WaveStep::new(wave, self.scheme, &WaveSymbols::new(spline, theta, &positions))
     }
