@@ -49,7 +49,8 @@ pub(super) struct Surface {
     axis: usize,
     /// Sign of the outward normal along the axis.
     outwards: f64,
-    /// Area of the face per particle (m^(D-1)).
+    /// Area of the face per particle (m^(D-1)). Along a straight side of a mapped body in 2-D, the
+    /// areas are equal.
     pub(super) area: f64,
     /// Half a spacing along the axis (m); not used for a mapped body.
     depth: f64,
@@ -70,27 +71,55 @@ impl Surface {
         placement: Placement,
     ) -> Self {
         let outwards = side.sign();
-        let (layer, column, area, depth, below) =
-            if let Some(mapped) = MappedFace::outermost(particles, axis, outwards) {
-                let MappedFace { layer, column, area } = mapped;
-                let below = if column.0 == 0 { 1 } else { layer.len() };
-                (layer, Some(column), area, 0.0, below)
-            } else {
-                let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
-                let height = |p: usize| outwards * x0[p][axis];
-                let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
-                let reach = top - 0.5 * spacing;
-                let layer: Vec<usize> = (0..x0.len()).filter(|&p| height(p) > reach).collect();
-                let second = (0..x0.len()).find(|&p| (reach - spacing..reach).contains(&height(p)));
-                let below = match (layer.first(), second) {
-                    (Some(first), Some(second)) => first.abs_diff(second),
-                    _ => 0,
-                };
-                let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
-                (layer, None, area, 0.5 * spacing, below)
-            };
-        let is_integrated = false;
+        if let Some(mapped) = Self::mapped(particles, axis, outwards, placement) {
+            return mapped;
+        }
+        let (x0, spacing) = (&particles.x0, particles.spacing[axis]);
+        let height = |p: usize| outwards * x0[p][axis];
+        let top = (0..x0.len()).map(height).fold(f64::NEG_INFINITY, f64::max);
+        let reach = top - 0.5 * spacing;
+        let layer: Vec<usize> = (0..x0.len()).filter(|&p| height(p) > reach).collect();
+        let second = (0..x0.len()).find(|&p| (reach - spacing..reach).contains(&height(p)));
+        let below = match (layer.first(), second) {
+            (Some(first), Some(second)) => first.abs_diff(second),
+            _ => 0,
+        };
+        let area = (0..D).filter(|&a| a != axis).map(|a| particles.spacing[a]).product();
+        let (column, depth, is_integrated) = (None, 0.5 * spacing, false);
         Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below }
+    }
+
+    /// Creates the outermost plane face of a mapped body along `axis` in the direction `outwards` (1
+    /// or -1). `None` for a body that is not a mapped box.
+    fn mapped<const D: usize>(
+        particles: &Particles<D>,
+        axis: usize,
+        outwards: f64,
+        placement: Placement,
+    ) -> Option<Self> {
+        let Particles { x0, domain0, spacing, .. } = particles;
+        let end = |p: usize, column: usize, sign: f64| {
+            outwards * (x0[p][axis] + sign * domain0[p][(axis, column)])
+        };
+        let furthest = |(column, sign)| {
+            (0..domain0.len()).map(|p| end(p, column, sign)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let columns = (0..D).flat_map(|a| [(a, 1.0), (a, -1.0)]);
+        let column = columns.max_by(|a, b| furthest(*a).total_cmp(&furthest(*b)))?;
+        let reach = furthest(column) - ROUNDING * spacing[axis];
+        let layer: Vec<usize> =
+            (0..domain0.len()).filter(|&p| end(p, column.0, column.1) > reach).collect();
+        let (&first, &last) = (layer.first()?, layer.last()?);
+        let middle = |p: usize| x0[p] + domain0[p].column(column.0) * column.1;
+        let area = if D == 2 && first != last {
+            (middle(last) - middle(first)).norm() / (layer.len() - 1) as f64
+        } else {
+            let others = (0..D).filter(|&a| a != column.0);
+            others.map(|a| 2.0 * domain0[first].column(a).norm()).product()
+        };
+        let below = if column.0 == 0 { 1 } else { layer.len() };
+        let (column, depth, is_integrated) = (Some(column), 0.0, false);
+        Some(Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below })
     }
 
     /// Returns the outward normal in the reference configuration.
@@ -195,51 +224,10 @@ pub(super) fn put_at_surface<const D: usize>(
 /// Maximum distance from the face that counts as rounding error (spacings).
 const ROUNDING: f64 = 1e-6;
 
-/// The layer of particles at a plane face of a mapped body.
-pub(super) struct MappedFace {
-    pub(super) layer: Vec<usize>,
-    /// Index of a column of the domain matrix, and a sign. The column times the sign is the vector
-    /// from a particle to the face.
-    pub(super) column: (usize, f64),
-    /// Area of the face per particle (m^(D-1)). Along a straight side in 2-D, the areas are equal.
-    pub(super) area: f64,
-}
-
-impl MappedFace {
-    /// Finds the outermost face along `axis` in the direction `outwards` (1 or -1). `None` for a
-    /// body that is not a mapped box.
-    pub(super) fn outermost<const D: usize>(
-        particles: &Particles<D>,
-        axis: usize,
-        outwards: f64,
-    ) -> Option<Self> {
-        let Particles { x0, domain0, spacing, .. } = particles;
-        let end = |p: usize, column: usize, sign: f64| {
-            outwards * (x0[p][axis] + sign * domain0[p][(axis, column)])
-        };
-        let furthest = |(column, sign)| {
-            (0..domain0.len()).map(|p| end(p, column, sign)).fold(f64::NEG_INFINITY, f64::max)
-        };
-        let columns = (0..D).flat_map(|a| [(a, 1.0), (a, -1.0)]);
-        let column = columns.max_by(|a, b| furthest(*a).total_cmp(&furthest(*b)))?;
-        let reach = furthest(column) - ROUNDING * spacing[axis];
-        let layer: Vec<usize> =
-            (0..domain0.len()).filter(|&p| end(p, column.0, column.1) > reach).collect();
-        let (&first, &last) = (layer.first()?, layer.last()?);
-        let middle = |p: usize| x0[p] + domain0[p].column(column.0) * column.1;
-        let area = if D == 2 && first != last {
-            (middle(last) - middle(first)).norm() / (layer.len() - 1) as f64
-        } else {
-            let others = (0..D).filter(|&a| a != column.0);
-            others.map(|a| 2.0 * domain0[first].column(a).norm()).product()
-        };
-        Some(Self { layer, column, area })
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use crate::mpm::{Quadrilateral, Vector};
+    use super::*;
+    use crate::mpm::Quadrilateral;
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -261,9 +249,9 @@ mod tests {
         let panel = Quadrilateral::new(corners.map(Vector::from)).unwrap();
         let particles = panel.fill::<2>(1.0, 0.5, 2);
         for &(axis, outwards, length, place) in sides {
-            let face = super::MappedFace::outermost(&particles, axis, outwards).unwrap();
+            let face = Surface::mapped(&particles, axis, outwards, Placement::Surface).unwrap();
             assert_relative_eq!(face.area * face.layer.len() as f64, length, max_relative = 1e-12);
-            let (column, sign) = face.column;
+            let (column, sign) = face.column.unwrap();
             for &p in &face.layer {
                 let middle = particles.x0[p] + particles.domain0[p].column(column) * sign;
                 assert_relative_eq!(middle[axis], place, epsilon = 1e-12);
