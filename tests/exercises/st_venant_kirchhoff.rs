@@ -73,20 +73,3 @@ impl<const D: usize> Material<D> for StVenantKirchhoff {
         set_stress_by_batch(body, |j| [*j], |f, [j]| self.cauchy(f, j));
     }
 }
-
-#[cfg(test)]
-impl crate::mpm::material::contract::ClosedForms for StVenantKirchhoff {
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let square = gamma * gamma;
-        let pressure = 0.5 * self.lambda * square;
-        let across = pressure + self.mu * square;
-        let along = pressure + 2.0 * self.mu * square + square * across;
-        [along, gamma * (self.mu + across), across]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        let strain = 0.5 * (stretch * stretch - 1.0);
-        let across = self.lambda * strain;
-        Some([stretch * (across + 2.0 * self.mu * strain), across / stretch])
-    }
-}

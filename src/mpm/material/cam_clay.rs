@@ -400,25 +400,6 @@ impl<const D: usize> Material<D> for CamClay {
 }
 
 #[cfg(test)]
-impl super::contract::ClosedForms for CamClay {
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let e = libm::asinh(0.5 * gamma);
-        let pressure = self.initial_pressure();
-        let shear = 2.0 * self.ratio / self.swelling * pressure * e;
-        let normal = shear * libm::tanh(e);
-        [normal - pressure, shear / libm::cosh(e), -normal - pressure]
-    }
-
-    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
-        None
-    }
-
-    fn pressure_at_rest(&self) -> f64 {
-        self.initial_pressure()
-    }
-}
-
-#[cfg(test)]
 impl CamClay {
     pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
         self.start = Clay { tau, consolidation };

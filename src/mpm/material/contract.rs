@@ -134,28 +134,6 @@ impl YieldFunction {
     }
 }
 
-/// Closed forms of the stress, for tests of all materials. The values apply to one infinitely slow
-/// step from rest, in which viscous stresses vanish.
-#[cfg(test)]
-pub(super) trait ClosedForms {
-    /// Returns the Cauchy stress (Pa) under simple shear in the plane: components 11, 12 and 22.
-    fn simple_shear(&self, gamma: f64) -> [f64; 3];
-
-    /// Returns the Cauchy stress (Pa) along and across a uniaxial stretch, with the other axes
-    /// fixed. `None` if the law depends on the history.
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]>;
-
-    /// Returns the stress (Pa) caused by rounding of J in a step of zero length.
-    fn rounding(&self) -> f64 {
-        0.0
-    }
-
-    /// Returns the mean stress (Pa) of a specimen at rest, positive in compression.
-    fn pressure_at_rest(&self) -> f64 {
-        0.0
-    }
-}
-
 /// A constitutive law with its private state. The solver makes one virtual call per step.
 pub trait Material<const D: usize>: Send {
     /// Whether the law reads F. The column of F exists only if the law or the basis reads F.

@@ -72,17 +72,3 @@ impl<const D: usize> Material<D> for Corotated {
         );
     }
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for Corotated {
-    /// Uses `V = (b + I)/sqrt(tr b + 2)` for a plane b with determinant one (Cayley-Hamilton).
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let (square, t) = (gamma * gamma, (4.0 + gamma * gamma).sqrt());
-        let along = 1.0 + square - (2.0 + square) / t;
-        [along, gamma * (1.0 - 1.0 / t), 1.0 - 2.0 / t].map(|share| 2.0 * self.mu * share)
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
-    }
-}

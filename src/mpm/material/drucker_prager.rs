@@ -117,17 +117,4 @@ impl YieldSurface for Cone {
         let length_slope = (shear_slope - flow_slope * mu) * 2.0_f64.sqrt();
         Some(modulus_of_invariants(trial, &mean_slope, length, &length_slope))
     }
-
-    /// Returns stresses whose invariants `p` and `sqrt(J2)` are linear in the strain (de Souza Neto
-    /// et al. 2008, eq. 8.113).
-    #[cfg(test)]
-    fn isochoric(&self, e: f64) -> [f64; 2] {
-        let Self { elasticity: LogElasticity { bulk, mu, .. }, friction, dilation, strength } =
-            *self;
-        let stiffness = mu + bulk * friction * dilation;
-        let beyond = e - strength / (2.0 * mu);
-        let mean = -2.0 * mu * bulk * dilation / stiffness * beyond;
-        let shear = strength + 2.0 * mu * bulk * friction * dilation / stiffness * beyond;
-        [mean + shear, mean - shear]
-    }
 }

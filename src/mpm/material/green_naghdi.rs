@@ -163,19 +163,3 @@ impl<const D: usize> Material<D> for GreenNaghdi {
         self.states = states;
     }
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for GreenNaghdi {
-    /// Returns the stress of one step, whose strain increment is the logarithmic strain.
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let e = libm::asinh(0.5 * gamma);
-        let shear = 2.0 * self.elasticity.mu * e;
-        [shear * libm::tanh(e), shear / libm::cosh(e), -shear * libm::tanh(e)]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        let LinearElastic { lambda, mu } = self.elasticity;
-        let strain = libm::log(stretch);
-        Some([(lambda + 2.0 * mu) * strain / stretch, lambda * strain / stretch])
-    }
-}

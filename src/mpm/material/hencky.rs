@@ -115,18 +115,3 @@ impl<const D: usize> Material<D> for Hencky {
         );
     }
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for Hencky {
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        // The principal stretches of simple shear are exp(e) and exp(-e).
-        let e = libm::asinh(0.5 * gamma);
-        let normal = 2.0 * self.mu * e * libm::tanh(e);
-        [normal, 2.0 * self.mu * e / libm::cosh(e), -normal]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        let log = libm::log(stretch);
-        Some([(self.lambda + 2.0 * self.mu) * log / stretch, self.lambda * log / stretch])
-    }
-}

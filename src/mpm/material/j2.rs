@@ -80,16 +80,6 @@ impl YieldSurface for VonMises {
         let mean = Vector::from_element(self.elasticity.bulk);
         Some(modulus_of_invariants(trial, &mean, length, &slope))
     }
-
-    /// Returns stresses whose deviator lies on the yield surface.
-    #[cfg(test)]
-    fn isochoric(&self, e: f64) -> [f64; 2] {
-        let mu = self.elasticity.mu;
-        let trial = 2.0 * 3.0_f64.sqrt() * mu * e;
-        let flow = (trial - self.yield_stress) / (3.0 * mu + self.hardening);
-        let shear = (self.yield_stress + self.hardening * flow) / 3.0_f64.sqrt();
-        [shear, -shear]
-    }
 }
 
 #[cfg(test)]

@@ -73,24 +73,3 @@ impl<const D: usize> Material<D> for Jaumann {
         });
     }
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for Jaumann {
-    /// Returns the stress of one step, whose strain increment is the logarithmic strain.
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let e = libm::asinh(0.5 * gamma);
-        let shear = 2.0 * self.0.mu * e;
-        [shear * libm::tanh(e), shear / libm::cosh(e), -shear * libm::tanh(e)]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        let LinearElastic { lambda, mu } = self.0;
-        let strain = libm::log(stretch);
-        Some([(lambda + 2.0 * mu) * strain / stretch, lambda * strain / stretch])
-    }
-
-    /// Returns the stress caused by the rounding error of the stretch.
-    fn rounding(&self) -> f64 {
-        4.0 * f64::EPSILON * self.wave_modulus(1.0)
-    }
-}

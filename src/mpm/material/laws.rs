@@ -1,8 +1,8 @@
 //! Tests of properties that every registered material must have, in 1-D, 2-D and 3-D.
 
-use super::specimen::{DENSITY, FAST, SLOW, Specimen, diagonal, every, scattered, stress};
+use super::specimen::{DENSITY, FAST, SLOW, Specimen, every, scattered, stress};
 use super::{
-    COHESION, ClosedForms, EXPONENT, FRICTION, FRICTION_ANGLE, MaterialPlan, POISSON, STRENGTH,
+    COHESION, EXPONENT, FRICTION, FRICTION_ANGLE, LinearElastic, MaterialPlan, POISSON, STRENGTH,
     YIELD,
 };
 use crate::mpm::foundation::algebra::{Matrix, det};
@@ -31,9 +31,18 @@ fn reads_deformation(plan: MaterialPlan) -> bool {
     plan.build::<1>().reads_deformation()
 }
 
+/// Returns the stress of an undeformed body at rest.
+fn stress_at_rest<const D: usize>(plan: MaterialPlan) -> Matrix<D> {
+    if plan.build::<D>().is_stressed_at_rest() {
+        Specimen::new(plan).start(&Matrix::identity())
+    } else {
+        Matrix::zeros()
+    }
+}
+
 fn no_strain_adds_no_stress<const D: usize>(plan: MaterialPlan) {
     let mut rest = Specimen::<D>::new(plan);
-    let stress = Matrix::from_diagonal_element(-plan.closed_forms().pressure_at_rest());
+    let stress = stress_at_rest::<D>(plan);
     for dt in [0.0, 1e-3] {
         assert_abs_diff_eq!(rest.flow(&Matrix::zeros(), dt), stress, epsilon = 1e-13);
         assert_eq!(rest.j(), 1.0);
@@ -63,7 +72,7 @@ fn stress_is_the_derivative_of_the_energy<const D: usize>(plan: MaterialPlan) {
         let mut specimen = Specimen::<D>::new(plan);
         (specimen.deform(f, SLOW), specimen.energy().expect("an energy"))
     };
-    if plan.closed_forms().pressure_at_rest() == 0.0 {
+    if !plan.build::<D>().is_stressed_at_rest() {
         assert_abs_diff_eq!(deformed(&Matrix::identity()).1, 0.0, epsilon = 1e-13);
     }
     for (size, h, seed) in [
@@ -119,7 +128,8 @@ fn spin_only_rotates_the_stress<const D: usize>(plan: MaterialPlan) {
     let (l, w, q) = (scattered::<D>(1.0, 0.6), scattered::<D>(1.0, 2.2), rotation::<D>(2.0));
     let turned = q * rate(l) * q.transpose();
     let found = rate(q * l * q.transpose() + w - w.transpose());
-    let rounding = plan.closed_forms().rounding();
+    // A step of zero length changes J by a rounding error.
+    let rounding = 8.0 * f64::EPSILON * plan.properties().wave_modulus(DENSITY);
     assert_abs_diff_eq!(found, turned, epsilon = 1e-12 * turned.norm() + rounding);
 }
 
@@ -143,8 +153,7 @@ fn deformed_start_has_the_stress_of_one_step<const D: usize>(plan: MaterialPlan)
         let found = specimen.start(&f);
         assert_relative_eq!(specimen.j(), det(&f), max_relative = 1e-15);
         let way = stress(plan, &f);
-        let rest = Matrix::from_diagonal_element(-plan.closed_forms().pressure_at_rest());
-        let change = (way - rest).norm();
+        let change = (way - stress_at_rest::<D>(plan)).norm();
         assert!((found - way).norm() <= 9.0 * size * change, "{plan:?}: {found}, {way}");
         assert_eq!(specimen.flow(&Matrix::zeros(), SLOW), found, "{plan:?}: it stays there");
     }
@@ -200,45 +209,18 @@ fn every_stress_is_the_derivative_of_an_energy() {
     }
 }
 
+/// Compares the stress in simple shear with its closed form.
 #[test]
-fn simple_shear_matches_closed_forms() {
-    let gamma = 0.4;
-    let f = Matrix::<3>::new(1.0, gamma, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    for plan in every() {
-        let (space, plane) = (stress(plan, &f), stress(plan, &f.fixed_resize::<2, 2>(0.0)));
-        let expected = plan.closed_forms().simple_shear(gamma);
-        for (place, expected) in [(0, 0), (0, 1), (1, 1)].into_iter().zip(expected) {
-            assert_abs_diff_eq!(plane[place], expected, epsilon = 1e-12);
-            assert_abs_diff_eq!(space[place], expected, epsilon = 1e-12);
-        }
-    }
-}
-
-/// Tests the stress along and across a uniaxial stretch, with the other axes fixed.
-#[test]
-fn stretch_matches_closed_forms() {
-    let stretch = 1.3;
-    for plan in every() {
-        let Some([along, across]) = plan.closed_forms().uniaxial_stretch(stretch) else { continue };
-        assert_relative_eq!(stress(plan, &diagonal::<1>(stretch))[0], along, epsilon = 1e-12);
-        let plane = stress(plan, &diagonal::<2>(stretch));
-        let space = stress(plan, &diagonal::<3>(stretch));
-        for found in [plane[(0, 0)], space[(0, 0)]] {
-            assert_relative_eq!(found, along, epsilon = 1e-12);
-        }
-        for found in [plane[(1, 1)], space[(1, 1)], space[(2, 2)]] {
-            assert_relative_eq!(found, across, epsilon = 1e-12);
-        }
-    }
-}
-
-#[test]
-fn material_of_the_exercise_has_its_closed_forms() {
+fn material_of_the_exercise_has_its_closed_form() {
     let law = exercise::StVenantKirchhoff::new(100.0, 0.3);
-    let mut shear = Matrix::<2>::identity();
-    shear[(0, 1)] = 0.4;
-    let stress = Specimen::with(Box::new(law)).deform(&shear, SLOW);
-    let closed_form = law.simple_shear(0.4);
+    let LinearElastic { lambda, mu } = LinearElastic::new(100.0, 0.3);
+    let (gamma, mut f) = (0.4, Matrix::<2>::identity());
+    f[(0, 1)] = gamma;
+    let stress = Specimen::with(Box::new(law)).deform(&f, SLOW);
+    let square = gamma * gamma;
+    let across = (0.5 * lambda + mu) * square;
+    let along = (0.5 * lambda + 2.0 * mu + across) * square;
+    let closed_form = [along, gamma * (mu + across), across];
     for (component, exact) in [(0, 0), (0, 1), (1, 1)].into_iter().zip(closed_form) {
         assert_relative_eq!(stress[component], exact, max_relative = 1e-12);
     }

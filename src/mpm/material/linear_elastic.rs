@@ -173,17 +173,6 @@ impl<const D: usize> Material<D> for LinearElastic {
 }
 
 #[cfg(test)]
-impl super::contract::ClosedForms for LinearElastic {
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        [0.0, self.mu * gamma, 0.0]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        Some([(self.lambda + 2.0 * self.mu) * (stretch - 1.0), self.lambda * (stretch - 1.0)])
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
     use crate::mpm::foundation::algebra::Vector;

@@ -69,18 +69,3 @@ impl<const D: usize> Material<D> for LinearFluid {
         });
     }
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for LinearFluid {
-    fn simple_shear(&self, _: f64) -> [f64; 3] {
-        [0.0; 3]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        Some([self.bulk * (stretch - 1.0); 2])
-    }
-
-    fn rounding(&self) -> f64 {
-        4.0 * f64::EPSILON * self.bulk
-    }
-}

@@ -26,8 +26,6 @@ mod tangent;
 use crate::members::{each_material, key};
 use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
-#[cfg(test)]
-use contract::ClosedForms;
 pub use contract::{Contradiction, Material, MaterialProperties, YieldFunction};
 pub use plastic_flow::ElastoPlastic;
 pub use prestressed::Prestressed;

@@ -253,22 +253,6 @@ impl YieldSurface for Pyramid {
             Landing::Apex => zeros(),
         })
     }
-
-    /// Returns the stresses after a return to one plane. This requires that the third stress is
-    /// between the other two.
-    #[cfg(test)]
-    fn isochoric(&self, e: f64) -> [f64; 2] {
-        let ([s, sp], LogElasticity { lambda, mu, .. }) = (self.sines, self.elasticity);
-        let [first, second] =
-            [2.0 * mu * (1.0 + sp) + 2.0 * lambda * sp, 2.0 * mu * (1.0 - sp) - 2.0 * lambda * sp];
-        let flow = 4.0 * mu / ((1.0 + s) * first + (1.0 - s) * second);
-        let at_yield = self.strength / (4.0 * mu);
-        let beyond = e - at_yield;
-        [
-            2.0 * mu * at_yield + beyond * (2.0 * mu - flow * first),
-            -2.0 * mu * at_yield - beyond * (2.0 * mu - flow * second),
-        ]
-    }
 }
 
 #[cfg(test)]

@@ -97,18 +97,6 @@ impl<const D: usize> Material<D> for Newtonian {
 }
 
 #[cfg(test)]
-impl super::contract::ClosedForms for Newtonian {
-    fn simple_shear(&self, _: f64) -> [f64; 3] {
-        [0.0; 3]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        let pressure = self.bulk / 7.0 * (libm::pow(stretch, -7.0) - 1.0);
-        Some([-pressure; 2])
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::super::MaterialPlan;
     use super::super::specimen::{FAST, Specimen};

@@ -138,11 +138,6 @@ pub trait YieldSurface: Send + Sync {
     /// respect to the principal trial strains (Pa): the consistent tangent of
     /// [`return_from`](Self::return_from). `None` if the trial state is inside the surface.
     fn modulus_of_return(&self, trial: &PrincipalStrain, flowed: f64) -> Option<Matrix<3>>;
-
-    /// Returns the closed form of the principal Kirchhoff stresses (Pa) in the plane at the strain
-    /// `(e, -e, 0)` after yield.
-    #[cfg(test)]
-    fn isochoric(&self, e: f64) -> [f64; 2];
 }
 
 /// Isotropic elastoplasticity with a yield surface.
@@ -432,20 +427,6 @@ fn trial<const D: usize>(
             (squares.map(half_log_batch), axes)
         },
     )
-}
-
-#[cfg(test)]
-impl<S: YieldSurface> super::contract::ClosedForms for ElastoPlastic<S> {
-    fn simple_shear(&self, gamma: f64) -> [f64; 3] {
-        let e = libm::asinh(0.5 * gamma);
-        let [first, second] = self.surface.isochoric(e);
-        let (mean, shear) = (0.5 * (first + second), 0.5 * (first - second));
-        [mean + shear * libm::tanh(e), shear / libm::cosh(e), mean - shear * libm::tanh(e)]
-    }
-
-    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
-        None
-    }
 }
 
 #[cfg(test)]

@@ -87,27 +87,6 @@ impl<const D: usize> Material<D> for Polytropic {
 }
 
 #[cfg(test)]
-impl super::contract::ClosedForms for Polytropic {
-    fn simple_shear(&self, _: f64) -> [f64; 3] {
-        let pressure = self.pressure_at_rest();
-        [-pressure, 0.0, -pressure]
-    }
-
-    fn uniaxial_stretch(&self, stretch: f64) -> Option<[f64; 2]> {
-        Some([-self.pressure_at_rest() * libm::pow(stretch, -self.exponent); 2])
-    }
-
-    fn rounding(&self) -> f64 {
-        8.0 * f64::EPSILON * self.pressure_at_rest()
-    }
-
-    fn pressure_at_rest(&self) -> f64 {
-        let rest = super::specimen::DENSITY;
-        self.stiffness * libm::exp(self.exponent * libm::log(rest))
-    }
-}
-
-#[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;

@@ -98,13 +98,6 @@ macro_rules! materials {
                 }
             }
 
-            #[cfg(test)]
-            fn closed_forms(&self) -> Box<dyn ClosedForms> {
-                match *self {
-                    $(Self::$member { $($field),* } => Box::new($member::new($($field),*)),)+
-                }
-            }
-
             /// Returns every parameter with its key in suite files.
             pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {

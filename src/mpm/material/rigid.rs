@@ -36,14 +36,3 @@ impl<const D: usize> Material<D> for Rigid {
 
     fn update(&mut self, _: &mut StressUpdate<'_, D>) {}
 }
-
-#[cfg(test)]
-impl super::contract::ClosedForms for Rigid {
-    fn simple_shear(&self, _: f64) -> [f64; 3] {
-        [0.0; 3]
-    }
-
-    fn uniaxial_stretch(&self, _: f64) -> Option<[f64; 2]> {
-        Some([0.0; 2])
-    }
-}

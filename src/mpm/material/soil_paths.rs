@@ -198,6 +198,19 @@ fn drucker_prager_matches_closed_forms_along_a_path(
     path.assert(soil.plan(), angle);
 }
 
+/// Without friction, the cone is the von Mises surface with `Y = sqrt(3) k`.
+#[rstest]
+fn j2_matches_closed_forms_along_a_path(
+    #[values(-0.02, 0.005)] end: f64,
+    #[values(0.0, 2.0)] angle: f64,
+) {
+    let soil = ConePaths([1e4, 6e3], [0.0, 0.0, 10.0]);
+    let (young, poisson) = isotropic(1e4, 6e3);
+    let plan = MaterialPlan::J2 { young, poisson, r#yield: 10.0 * 3.0_f64.sqrt(), hardening: 0.0 };
+    SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e)).assert(plan, angle);
+    SoilPath::through(up_to(end.abs()), isochoric, |e| soil.isochoric(e)).assert(plan, angle);
+}
+
 #[rstest]
 fn mohr_coulomb_matches_closed_forms_along_a_path(
     #[values(-0.03, -0.01, 0.001, 0.005)] end: f64,

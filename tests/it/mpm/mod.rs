@@ -4,6 +4,7 @@ mod dispersion;
 mod gimp;
 mod heat;
 mod kernel;
+mod laws;
 mod ledger;
 mod null_space;
 mod passes;
