@@ -52,6 +52,10 @@ pub struct Particles<const D: usize> {
     pub spacing: Vector<D>,
 }
 
+/// Columns of vectors, of scalars and of matrices ([`Particles::columns_mut`]).
+type ColumnsMut<'a, const D: usize> =
+    ([&'a mut Vec<Vector<D>>; 4], [&'a mut Vec<f64>; 7], [&'a mut Vec<Matrix<D>>; 5]);
+
 /// A box-shaped body that can be filled with particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Block<const D: usize> {
@@ -225,6 +229,33 @@ impl<const D: usize> Particles<D> {
             Column::of_particles("T", &self.temperature),
         ];
         all.into_iter().filter(|column| column.size.entries > 0).collect()
+    }
+
+    /// Returns the columns of vectors (first the reference positions), of scalars and of matrices.
+    pub(in crate::mpm) fn columns_mut(&mut self) -> ColumnsMut<'_, D> {
+        let Self {
+            x0,
+            x,
+            current_position,
+            v,
+            mass,
+            vol0,
+            vol,
+            sigma,
+            def_grad,
+            across,
+            rate_across,
+            stress_across,
+            samples_stress_across: _,
+            domain,
+            domain0,
+            grad_v,
+            temperature,
+            spacing: _,
+        } = self;
+        let scalars = [mass, vol0, vol, across, rate_across, stress_across, temperature];
+        let matrices = [sigma, def_grad, domain, domain0, grad_v];
+        ([x0, x, current_position, v], scalars, matrices)
     }
 
     /// Returns the number of particles.

@@ -34,31 +34,11 @@ impl<const D: usize> Particles<D> {
             order[next[cell]] = p;
             next[cell] += 1;
         }
-        self.reorder(&order);
+        let (vectors, scalars, matrices) = self.columns_mut();
+        permute(vectors, &order);
+        permute(scalars, &order);
+        permute(matrices, &order);
         order
-    }
-
-    fn reorder(&mut self, order: &[usize]) {
-        let Self {
-            x0,
-            x,
-            current_position,
-            v,
-            mass,
-            vol0,
-            vol,
-            sigma,
-            def_grad,
-            domain,
-            domain0,
-            grad_v,
-            ..
-        } = self;
-        permute([x0, x, current_position, v], order);
-        permute([mass, vol0, vol, &mut self.temperature], order);
-        let Self { across, rate_across, stress_across, .. } = self;
-        permute([across, rate_across, stress_across], order);
-        permute([sigma, def_grad, domain, domain0, grad_v], order);
     }
 }
 

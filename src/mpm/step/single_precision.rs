@@ -74,37 +74,12 @@ fn round_state<const D: usize>(solver: &mut Solver<D>) {
     round_matrices(affine_state_mut(transfer.as_mut()));
 }
 
+/// Rounds all columns except the reference positions, which only identify particles.
 fn round_particles<const D: usize>(particles: &mut Particles<D>) {
-    let Particles {
-        // Reference positions only identify particles and are not rounded.
-        x0: _,
-        x,
-        current_position,
-        v,
-        mass,
-        vol0,
-        vol,
-        sigma,
-        def_grad,
-        across,
-        rate_across,
-        stress_across,
-        samples_stress_across: _,
-        domain,
-        domain0,
-        grad_v,
-        temperature,
-        spacing: _,
-    } = particles;
-    for column in [x, current_position, v] {
-        round_vectors(column);
-    }
-    for column in [mass, vol0, vol, across, rate_across, stress_across, temperature] {
-        round(column);
-    }
-    for column in [sigma, def_grad, domain, domain0, grad_v] {
-        round_matrices(column);
-    }
+    let ([_, vectors @ ..], scalars, matrices) = particles.columns_mut();
+    vectors.into_iter().for_each(|column| round_vectors(column));
+    scalars.into_iter().for_each(|column| round(column));
+    matrices.into_iter().for_each(|column| round_matrices(column));
 }
 
 fn round_vectors<const D: usize>(column: &mut [Vector<D>]) {
