@@ -51,7 +51,7 @@ pub use foundation::grid::Grid;
 pub use foundation::moments::{Moments, WeightMoments};
 pub use foundation::particles::{Block, FrameName, Particles};
 pub use kernel::contract::{
-    Affine, Divergence, G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Scalars, Tally,
+    Affine, Divergence, G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Tally,
 };
 pub use kernel::{kernel, kernel_with};
 pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};

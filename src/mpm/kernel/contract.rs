@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
 /// Passes of P2G and G2P for one basis.
-pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
+pub trait Kernel<const D: usize>: Send + Sync {
     /// Computes all quantities of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
@@ -136,21 +136,6 @@ pub trait Kernel<const D: usize>: Scalars<D> + Send + Sync {
         gradient: &mut [Vector<D>],
     );
 
-    /// Returns the counts of visited particles.
-    fn tally(&self) -> &Tally;
-
-    /// Returns the maximum number of nodes of a particle.
-    fn support(&self) -> u64;
-
-    /// Returns the kind of particle domain that the basis needs.
-    fn domain(&self) -> Domain;
-
-    /// Creates an empty grid with the functions of this basis.
-    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D>;
-}
-
-/// Passes of P2G and G2P for scalars and one basis.
-pub trait Scalars<const D: usize> {
     /// Computes `column_i = sum_p m_p (value_p + slope_p . (x_i - x_p)) N_i(x_p)`: P2G of a scalar
     /// and its gradient.
     fn p2g_scalar(
@@ -201,6 +186,18 @@ pub trait Scalars<const D: usize> {
         particles: &Particles<D>,
         slope: &mut [Vector<D>],
     );
+
+    /// Returns the counts of visited particles.
+    fn tally(&self) -> &Tally;
+
+    /// Returns the maximum number of nodes of a particle.
+    fn support(&self) -> u64;
+
+    /// Returns the kind of particle domain that the basis needs.
+    fn domain(&self) -> Domain;
+
+    /// Creates an empty grid with the functions of this basis.
+    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D>;
 }
 
 /// Gradient of the velocity field around each particle. `mean_p` is the weighted mean of the node

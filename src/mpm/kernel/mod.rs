@@ -37,7 +37,7 @@ use super::foundation::moments::{InertiaTensor, Moments};
 use super::foundation::packed_grid::Columns;
 use super::foundation::particles::Particles;
 use crate::dimension::with_dimension;
-use contract::{G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Scalars, Tally};
+use contract::{G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Tally};
 use std::any::Any;
 use std::marker::PhantomData;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -222,25 +222,6 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         }
     }
 
-    fn tally(&self) -> &Tally {
-        &self.tally
-    }
-
-    fn support(&self) -> u64 {
-        B::support(D)
-    }
-
-    fn domain(&self) -> Domain {
-        B::DOMAIN
-    }
-
-    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
-        let counts = std::array::from_fn(|axis| B::count(cells[axis], periodic[axis]));
-        Grid::new(origin, h, cells, periodic, counts)
-    }
-}
-
-impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
     fn p2g_scalar(
         &self,
         particles: &Particles<D>,
@@ -315,5 +296,22 @@ impl<const D: usize, B: Basis> Scalars<D> for Loops<B> {
             slope.fill(0.0);
             B::visit(grid, particles, p, |i| *slope += i.gradient * field[i.node]);
         }
+    }
+
+    fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    fn support(&self) -> u64 {
+        B::support(D)
+    }
+
+    fn domain(&self) -> Domain {
+        B::DOMAIN
+    }
+
+    fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {
+        let counts = std::array::from_fn(|axis| B::count(cells[axis], periodic[axis]));
+        Grid::new(origin, h, cells, periodic, counts)
     }
 }
