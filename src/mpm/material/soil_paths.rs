@@ -19,30 +19,18 @@ struct SoilPath {
 }
 
 impl SoilPath {
-    /// Creates a path with one point per parameter. The closures return the strain and the stress
-    /// at a parameter.
-    fn through(
-        parameters: impl Iterator<Item = f64>,
-        strain: impl Fn(f64) -> [f64; 3],
-        stress: impl Fn(f64) -> [f64; 3],
-    ) -> Self {
-        let points = parameters.map(|e| (strain(e), stress(e)));
-        let (strains, stresses) = points.unzip();
+    /// Creates the path through the isochoric strains `(e, -e, 0)` for each parameter e. `stress`
+    /// returns the stress at a parameter.
+    fn through(parameters: impl Iterator<Item = f64>, stress: impl Fn(f64) -> [f64; 3]) -> Self {
+        let (strains, stresses) = parameters.map(|e| ([e, -e, 0.0], stress(e))).unzip();
         Self { strains, stresses }
     }
 
-    /// Asserts the stresses of a material along the path in all dimensions that contain the path,
-    /// while the axes rotate by a total of `angle` about the third axis.
+    /// Asserts the stresses of a material along the path in the plane and in space, while the axes
+    /// rotate by a total of `angle` about the third axis.
     fn assert(&self, plan: MaterialPlan, angle: f64) {
-        let is_within =
-            |axes: usize| self.strains.iter().all(|e| e[axes..].iter().all(|e| *e == 0.0));
+        self.assert_in::<2>(plan, angle);
         self.assert_in::<3>(plan, angle);
-        if is_within(2) {
-            self.assert_in::<2>(plan, angle);
-        }
-        if is_within(1) && angle == 0.0 {
-            self.assert_in::<1>(plan, angle);
-        }
     }
 
     fn assert_in<const D: usize>(&self, plan: MaterialPlan, angle: f64) {
@@ -73,14 +61,6 @@ fn up_to(end: f64) -> impl Iterator<Item = f64> {
     (1..=STEPS).map(move |step| end * f64::from(step) / f64::from(STEPS))
 }
 
-fn along_first(e: f64) -> [f64; 3] {
-    [e, 0.0, 0.0]
-}
-
-fn isochoric(e: f64) -> [f64; 3] {
-    [e, -e, 0.0]
-}
-
 /// Drucker-Prager soil: K and mu (Pa); friction, dilation and strength k (Pa).
 #[derive(Clone, Copy)]
 struct ConePaths([f64; 2], [f64; 3]);
@@ -92,22 +72,6 @@ impl ConePaths {
         let Self([bulk, mu], [friction, dilation, strength]) = self;
         let (young, poisson) = isotropic(bulk, mu);
         MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength }
-    }
-
-    /// Returns the stress in uniaxial strain without reversal.
-    fn uniaxial(self, e: f64) -> [f64; 3] {
-        let Self([bulk, mu], [eta, etab, k]) = self;
-        let (sign, a) = (e.signum(), 2.0 * mu / 3.0_f64.sqrt());
-        let at_yield = k / (a + sign * eta * bulk);
-        let beyond = (e.abs() - at_yield).max(0.0);
-        let flow = (a + sign * eta * bulk) / (mu + bulk * eta * etab) * beyond;
-        let shear = a * e.abs() - mu * flow;
-        if shear < 0.0 {
-            return [k / eta; 3];
-        }
-        let mean = bulk * (e - etab * flow);
-        let lateral = mean - sign * shear / 3.0_f64.sqrt();
-        [mean + sign * 2.0 / 3.0_f64.sqrt() * shear, lateral, lateral]
     }
 
     fn isochoric(self, e: f64) -> [f64; 3] {
@@ -142,35 +106,6 @@ impl PyramidPaths {
         [sine(phi), sine(psi), 2.0 * cohesion * libm::cos(phi.to_radians())]
     }
 
-    /// Returns the stress in uniaxial strain without reversal. After yield the stress is on an
-    /// edge.
-    fn uniaxial(self, e: f64) -> [f64; 3] {
-        let (Self([l, mu], _), [s, sp, strength]) = (self, self.surface());
-        let m = l + 2.0 * mu;
-        // Elastic increase of the yield function per unit of strain, and changes of the axial and
-        // lateral stress per unit of the plastic multiplier.
-        let (towards, axial, lateral) = if e < 0.0 {
-            let axial = -4.0 * l * sp + 4.0 * mu * (1.0 - sp);
-            let lateral = -4.0 * l * sp - 2.0 * mu * (1.0 + sp);
-            (m * (1.0 - s) - l * (1.0 + s), -axial, -lateral)
-        } else {
-            let axial = 4.0 * l * sp + 4.0 * mu * (1.0 + sp);
-            let lateral = 4.0 * l * sp - 2.0 * mu * (1.0 - sp);
-            (m * (1.0 + s) - l * (1.0 - s), axial, lateral)
-        };
-        let slope = if e < 0.0 {
-            (1.0 + s) * lateral - (1.0 - s) * axial
-        } else {
-            (1.0 + s) * axial - (1.0 - s) * lateral
-        };
-        let flow = towards / slope * (e.abs() - strength / towards).max(0.0);
-        let [axial, lateral] = [m * e - flow * axial, l * e - flow * lateral];
-        if e > 0.0 && axial < lateral {
-            return [strength / (2.0 * s); 3];
-        }
-        [axial, lateral, lateral]
-    }
-
     /// Returns the stress at the strain (e, -e, 0), as long as the third stress is between the
     /// others.
     fn isochoric(self, e: f64) -> [f64; 3] {
@@ -183,85 +118,58 @@ impl PyramidPaths {
     }
 }
 
-/// Tests compression, and extension to the apex, on fixed axes and on axes that rotate by two
-/// radians.
+/// Tests fixed axes, and axes that rotate by two radians.
 #[rstest]
 fn drucker_prager_matches_closed_forms_along_a_path(
-    #[values(-0.05, -0.02, 0.0012, 0.005)] end: f64,
+    #[values(0.0012, 0.05)] end: f64,
     #[values(0.0, 2.0)] angle: f64,
     #[values([0.3, 0.1, 10.0], [0.3, 0.3, 10.0], [0.3, 0.0, 10.0], [0.2, 0.1, 0.0])] soil: [f64; 3],
 ) {
     let soil = ConePaths([1e4, 6e3], soil);
-    let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
-    path.assert(soil.plan(), angle);
-    let path = SoilPath::through(up_to(end.abs()), isochoric, |e| soil.isochoric(e));
-    path.assert(soil.plan(), angle);
+    SoilPath::through(up_to(end), |e| soil.isochoric(e)).assert(soil.plan(), angle);
 }
 
 /// Without friction, the cone is the von Mises surface with `Y = sqrt(3) k`.
 #[rstest]
-fn j2_matches_closed_forms_along_a_path(
-    #[values(-0.02, 0.005)] end: f64,
-    #[values(0.0, 2.0)] angle: f64,
-) {
+fn j2_matches_closed_forms_along_a_path(#[values(0.0, 2.0)] angle: f64) {
     let soil = ConePaths([1e4, 6e3], [0.0, 0.0, 10.0]);
     let (young, poisson) = isotropic(1e4, 6e3);
     let plan = MaterialPlan::J2 { young, poisson, r#yield: 10.0 * 3.0_f64.sqrt(), hardening: 0.0 };
-    SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e)).assert(plan, angle);
-    SoilPath::through(up_to(end.abs()), isochoric, |e| soil.isochoric(e)).assert(plan, angle);
+    SoilPath::through(up_to(0.02), |e| soil.isochoric(e)).assert(plan, angle);
 }
 
+/// At larger strains the stress is on an edge, where the closed form is not valid.
 #[rstest]
 fn mohr_coulomb_matches_closed_forms_along_a_path(
-    #[values(-0.03, -0.01, 0.001, 0.005)] end: f64,
+    #[values(0.001, 0.01)] end: f64,
     #[values(0.0, 2.0)] angle: f64,
     #[values([30.0, 10.0], [30.0, 30.0], [20.0, 0.0], [0.0, 0.0])] angles: [f64; 2],
 ) {
     let soil = PyramidPaths::soil(angles);
-    let path = SoilPath::through(up_to(end), along_first, |e| soil.uniaxial(e));
-    path.assert(soil.plan(), angle);
-    // At larger strains the stress is on an edge, where the closed form is not valid.
-    let path = SoilPath::through(up_to(end.abs().min(0.01)), isochoric, |e| soil.isochoric(e));
-    path.assert(soil.plan(), angle);
+    SoilPath::through(up_to(end), |e| soil.isochoric(e)).assert(soil.plan(), angle);
 }
 
-/// Tests compression, unloading inside the yield surface and reloading, twice. A closed cycle of
-/// strain does not change the stress, and further compression has the stress of a path without
-/// unloading.
+/// Tests loading, unloading inside the yield surface and reloading, twice. A closed cycle of strain
+/// does not change the stress, and further loading has the stress of a path without unloading.
 #[rstest]
 fn unloading_cycles_do_not_change_the_stress(#[values(0.0, 2.0)] angle: f64) {
-    let cone = ConePaths::SOIL;
-    let ConePaths([bulk, mu], _) = cone;
-    unload(
-        cone.plan(),
-        |e| cone.uniaxial(e),
-        [bulk + 4.0 / 3.0 * mu, bulk - 2.0 / 3.0 * mu],
-        angle,
-    );
-    let pyramid = PyramidPaths::soil([30.0, 10.0]);
-    let PyramidPaths([lambda, mu], _) = pyramid;
-    unload(pyramid.plan(), |e| pyramid.uniaxial(e), [lambda + 2.0 * mu, lambda], angle);
+    let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));
+    unload(cone.plan(), |e| cone.isochoric(e), cone.0[1], angle);
+    unload(pyramid.plan(), |e| pyramid.isochoric(e), pyramid.0[1], angle);
 }
 
-/// Tests a path with two cycles of unloading and reloading. `axial` and `lateral` are the elastic
-/// moduli (Pa) for strain along the first axis.
-fn unload(
-    plan: MaterialPlan,
-    loading: impl Fn(f64) -> [f64; 3],
-    [axial, lateral]: [f64; 2],
-    angle: f64,
-) {
-    let (turning, back) = (-0.02, 0.003);
+/// Tests a path with two cycles of unloading and reloading, with the shear modulus `mu` (Pa).
+fn unload(plan: MaterialPlan, loading: impl Fn(f64) -> [f64; 3], mu: f64, angle: f64) {
+    let (turning, back) = (0.005, -0.0005);
     let elastic = |e: f64| {
-        let [first, second, third] = loading(turning);
-        let step = e - turning;
-        [first + axial * step, second + lateral * step, third + lateral * step]
+        let ([first, second, third], change) = (loading(turning), 2.0 * mu * (e - turning));
+        [first + change, second - change, third]
     };
     let cycle = [0.5, 1.0, 0.5, 0.0].map(|share| turning + share * back);
-    let mut path = SoilPath::through(up_to(turning), along_first, &loading);
+    let mut path = SoilPath::through(up_to(turning), &loading);
     for part in [
-        SoilPath::through(cycle.into_iter().chain(cycle), along_first, elastic),
-        SoilPath::through(up_to(1.0).map(|share| turning * (1.0 + share)), along_first, &loading),
+        SoilPath::through(cycle.into_iter().chain(cycle), elastic),
+        SoilPath::through(up_to(1.0).map(|share| turning * (1.0 + share)), &loading),
     ] {
         path.strains.extend(part.strains);
         path.stresses.extend(part.stresses);
@@ -273,9 +181,9 @@ fn unload(
 #[test]
 fn one_step_gives_the_stress_of_many_steps() {
     let (cone, pyramid) = (ConePaths::SOIL, PyramidPaths::soil([30.0, 10.0]));
-    for e in [-0.02, 0.0012, 0.003] {
+    for e in [0.003, 0.01] {
         let once = std::iter::once(e);
-        SoilPath::through(once.clone(), along_first, |e| cone.uniaxial(e)).assert(cone.plan(), 0.0);
-        SoilPath::through(once, along_first, |e| pyramid.uniaxial(e)).assert(pyramid.plan(), 0.0);
+        SoilPath::through(once.clone(), |e| cone.isochoric(e)).assert(cone.plan(), 0.0);
+        SoilPath::through(once, |e| pyramid.isochoric(e)).assert(pyramid.plan(), 0.0);
     }
 }

@@ -4,6 +4,7 @@
 use approx::assert_relative_eq;
 use mpm_verify::exact::Equation;
 use mpm_verify::mpm::{Block, MaterialPlan, Matrix, Particles, StressUpdate, Vector};
+use rstest::rstest;
 
 /// Duration (s) of a step so slow that viscous stresses are negligible.
 const SLOW: f64 = 1e12;
@@ -23,14 +24,19 @@ fn law_of_one_step(plan: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(name, |key| plan.parameter(key))
 }
 
+fn particle<const D: usize>() -> Particles<D> {
+    let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: DENSITY };
+    let mut particle = Particles::fill(&block, 1.0, 1);
+    particle.track_deformation();
+    particle
+}
+
 /// Compares stress and stored energy of a particle after a step to a deformation with strains of
 /// this `size`.
 fn agree<const D: usize>(plan: &MaterialPlan, law: &Equation, size: f64) {
     let noise = |i: usize, j: usize| size * libm::sin(0.1 + 7.0 * i as f64 + 11.3 * j as f64);
     let h = Matrix::<D>::from_fn(noise);
-    let block = Block { from: Vector::zeros(), to: Vector::from_element(1.0), density: DENSITY };
-    let mut body = Particles::<D>::fill(&block, 1.0, 1);
-    body.track_deformation();
+    let mut body = particle::<D>();
     (body.def_grad[0], body.grad_v[0]) = (Matrix::identity() + h, h / SLOW);
     let mut material = plan.build::<D>();
     material.update(&mut StressUpdate::new(SLOW, &mut body));
@@ -70,4 +76,58 @@ fn materials_agree_with_laws_of_exact_solutions() {
         laws += 1;
     }
     assert_eq!(laws, 9, "elastic laws, two rates, fluids and a gas");
+}
+
+/// Compares the stress of a material that yields along a path of uniaxial logarithmic strain.
+fn yields<const D: usize>(plan: &MaterialPlan, end: f64, steps: u32) {
+    let law = Equation::of_material(plan.name(), |key| plan.parameter(key)).unwrap();
+    let (mut body, mut material) = (particle::<D>(), plan.build::<D>());
+    for step in 1..=steps {
+        let stretch = libm::exp(end * f64::from(step) / f64::from(steps));
+        body.def_grad[0][(0, 0)] = stretch;
+        material.update(&mut StressUpdate::new(1.0, &mut body));
+        let mut grad = [[0.0; 3]; 3];
+        grad[0][0] = stretch - 1.0;
+        let stress = law.cauchy(&grad);
+        for i in 0..D {
+            let epsilon = 1e-12 * law.modulus();
+            assert_relative_eq!(body.sigma[0][(i, i)], stress[i][i], epsilon = epsilon);
+        }
+    }
+}
+
+/// Paths of cones and pyramids in extension end at the apex.
+#[rstest]
+#[case::j2(HARDENING, &[-0.05, 0.02])]
+#[case::drucker_prager(cone(0.3, 0.1, 10.0), &[-0.05, 0.0012, 0.005])]
+#[case::associated_cone(cone(0.3, 0.3, 10.0), &[-0.05, 0.0012, 0.005])]
+#[case::cone_without_dilation(cone(0.3, 0.0, 10.0), &[-0.05, 0.0012, 0.005])]
+#[case::cone_without_strength(cone(0.2, 0.1, 0.0), &[-0.05])]
+#[case::mohr_coulomb(pyramid(30.0, 10.0), &[-0.03, 0.001, 0.005])]
+#[case::associated_pyramid(pyramid(30.0, 30.0), &[-0.03, 0.001, 0.005])]
+#[case::pyramid_without_dilation(pyramid(20.0, 0.0), &[-0.03, 0.001, 0.005])]
+#[case::tresca(pyramid(0.0, 0.0), &[-0.03, 0.005])]
+fn materials_that_yield_agree_with_laws_of_exact_solutions(
+    #[case] plan: MaterialPlan,
+    #[case] ends: &[f64],
+    #[values(1, 40)] steps: u32,
+) {
+    for end in ends {
+        yields::<1>(&plan, *end, steps);
+        yields::<2>(&plan, *end, steps);
+        yields::<3>(&plan, *end, steps);
+    }
+}
+
+const HARDENING: MaterialPlan =
+    MaterialPlan::J2 { young: 15e3, poisson: 0.25, r#yield: 10.0, hardening: 2e3 };
+
+fn cone(friction: f64, dilation: f64, strength: f64) -> MaterialPlan {
+    let (young, poisson) = (15e3, 0.25);
+    MaterialPlan::DruckerPrager { young, poisson, friction, dilation, strength }
+}
+
+fn pyramid(friction_angle: f64, dilation_angle: f64) -> MaterialPlan {
+    let (young, poisson, cohesion) = (18e3, 0.2, 10.0);
+    MaterialPlan::MohrCoulomb { young, poisson, friction_angle, dilation_angle, cohesion }
 }
