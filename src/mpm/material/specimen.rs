@@ -144,13 +144,6 @@ pub(super) fn richardson<const N: usize>(mut rows: Vec<Vector<N>>, base: i32) ->
     (rows[0], order)
 }
 
-/// Returns F of a stretch along the first axis.
-pub(super) fn diagonal<const D: usize>(first: f64) -> Matrix<D> {
-    let mut m = Matrix::identity();
-    m[(0, 0)] = first;
-    m
-}
-
 /// Returns Young's modulus (Pa) and Poisson's ratio from the bulk and shear moduli (Pa).
 pub(super) fn isotropic(bulk: f64, mu: f64) -> (f64, f64) {
     let young = 9.0 * bulk * mu / (3.0 * bulk + mu);
