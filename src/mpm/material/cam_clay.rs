@@ -401,6 +401,11 @@ impl<const D: usize> Material<D> for CamClay {
 
 #[cfg(test)]
 impl CamClay {
+    /// Creates clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
+    pub(super) fn example(preconsolidation: f64) -> Self {
+        Self::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
+    }
+
     pub(super) fn starting_at(mut self, tau: Matrix<3>, consolidation: f64) -> Self {
         self.start = Clay { tau, consolidation };
         self
@@ -415,11 +420,6 @@ mod tests {
     use approx::assert_abs_diff_eq;
     use proptest::prelude::*;
 
-    /// Creates clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25, under 100 Pa.
-    fn clay(preconsolidation: f64) -> CamClay {
-        CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
-    }
-
     proptest! {
         /// After a return the yield function is zero, the flow is associated and the hardening
         /// follows the plastic compaction, on both sides of the critical state.
@@ -429,7 +429,7 @@ mod tests {
             compaction in -0.05..0.05_f64,
             shear in proptest::array::uniform3(-0.05..0.05_f64),
         ) {
-            let law = clay(100.0 * overconsolidation);
+            let law = CamClay::example(100.0 * overconsolidation);
             let e = Vector::<3>::from(shear);
             let shear = e.add_scalar(-e.sum() / 3.0);
             let strain = Matrix::from_diagonal(&shear.add_scalar(-compaction / 3.0));
@@ -470,7 +470,7 @@ mod tests {
                 let [a, b, c, d, e, f] = m;
                 Matrix::<3>::new(a, d, e, d, b, f, e, f, c)
             };
-            let law = clay(300.0);
+            let law = CamClay::example(300.0);
             let tau = symmetric(stress) - Matrix::from_diagonal_element(100.0);
             let (before, strain) = (Clay { tau, consolidation: 300.0 }, symmetric(strain));
             let (mut turned, mut strains) = (MatrixBatch::ZERO, MatrixBatch::ZERO);
@@ -490,10 +490,13 @@ mod tests {
     #[test]
     fn a_body_at_rest_is_under_its_initial_pressure() {
         let mut body = Particles::cubes([1; 2]);
-        assert_eq!(clay(150.0).start_deformed(&mut body), Ok(()));
+        assert_eq!(CamClay::example(150.0).start_deformed(&mut body), Ok(()));
         assert_eq!(body.sigma[0], Matrix::<2>::from_diagonal_element(-100.0));
         body.deform(|_| (Vector::zeros(), Matrix::<2>::from_diagonal_element(1.1)));
-        assert_eq!(clay(150.0).start_deformed(&mut body), Err(Failure::NotOfDeformation));
+        assert_eq!(
+            CamClay::example(150.0).start_deformed(&mut body),
+            Err(Failure::NotOfDeformation)
+        );
     }
 
     #[test]
@@ -502,7 +505,7 @@ mod tests {
         let (c, s) = (libm::cos(2.5), libm::sin(2.5));
         let turn = Matrix::<3>::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0);
         let run = |turn: &Matrix<3>| {
-            let mut clay = Specimen::<3>::with(Box::new(clay(120.0)));
+            let mut clay = Specimen::<3>::with(Box::new(CamClay::example(120.0)));
             clay.deform(&step, SLOW);
             clay.deform(&(turn * step), SLOW)
         };

@@ -6,12 +6,6 @@ use crate::mpm::foundation::algebra::{Matrix, Vector};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use rstest::rstest;
 
-/// Creates clay with M = 1.2, kappa = 0.02, lambda = 0.1 and nu = 0.25 under a mean stress of 100
-/// Pa.
-fn clay(preconsolidation: f64) -> CamClay {
-    CamClay::new(1.2, 0.02, 0.1, 0.25, 100.0, preconsolidation)
-}
-
 /// Creates a specimen in the initial state of the law. The first axis is the axial one.
 fn specimen(law: CamClay) -> Specimen<3> {
     Specimen::with(Box::new(law))
@@ -50,7 +44,7 @@ fn limit(run: impl Fn(u32) -> [f64; 2]) -> (Vector<2>, f64) {
 #[case::high([69.975_172_732, 62.977_655_459], 0.016_513_462_741)]
 #[case::near_the_critical_state([61.389_386_681, 67.528_325_350], 0.030_516_204_116)]
 fn undrained_shear_matches_the_closed_form(#[case] expected: [f64; 2], #[case] strain: f64) {
-    let run = |steps| squeeze(&mut specimen(clay(100.0)), undrained(strain), steps);
+    let run = |steps| squeeze(&mut specimen(CamClay::example(100.0)), undrained(strain), steps);
     let (found, order) = limit(run);
     for i in 0..2 {
         assert_relative_eq!(found[i], expected[i], max_relative = 2e-9);
@@ -64,7 +58,7 @@ fn undrained_shear_matches_the_closed_form(#[case] expected: [f64; 2], #[case] s
 fn undrained_shear_of_overconsolidated_clay_matches_the_closed_form() {
     let at_yield = 84.852_813_742 * 0.02 / (3.0 * 0.6 * 100.0);
     let run = |steps| {
-        let mut clay = specimen(clay(150.0));
+        let mut clay = specimen(CamClay::example(150.0));
         let [p, q] = squeeze(&mut clay, undrained(at_yield), 3);
         assert_relative_eq!(p, 100.0, max_relative = 1e-12);
         assert_relative_eq!(q, 84.852_813_742, max_relative = 1e-10);
@@ -80,7 +74,7 @@ fn undrained_shear_of_overconsolidated_clay_matches_the_closed_form() {
 /// The final state is `p = p0/2^(1 - kappa/lambda)` and `q = M p`, for any number of steps.
 #[rstest]
 fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
-    let mut clay = specimen(clay(100.0));
+    let mut clay = specimen(CamClay::example(100.0));
     let [p, q] = squeeze(&mut clay, undrained(30.0), steps);
     assert_relative_eq!(p, 57.434_917_749_9, max_relative = 1e-10);
     assert_relative_eq!(q, 68.921_901_299_8, max_relative = 1e-10);
@@ -90,7 +84,7 @@ fn undrained_shear_ends_at_a_critical_state(#[values(4, 300)] steps: u32) {
 /// Expansion follows a swelling line again. The result is exact in any number of steps.
 #[rstest]
 fn isotropic_compression_follows_swelling_and_compression_lines(#[values(1, 7)] steps: u32) {
-    let mut clay = specimen(clay(150.0));
+    let mut clay = specimen(CamClay::example(150.0));
     let to_yield = 0.02 * libm::log(1.5);
     let [p, q] = squeeze(&mut clay, [0.5 * to_yield / 3.0; 2], steps);
     assert_relative_eq!(p, 100.0 * 1.5_f64.sqrt(), max_relative = 1e-12);
@@ -125,14 +119,14 @@ fn on_the_k0_line() -> CamClay {
     let tau = Vector::<3>::new(-2.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0) * K0_RATIO;
     let consolidation = 100.0 * (1.0 + K0_RATIO * K0_RATIO / 1.44);
     let tau = tau.add_scalar(-1.0) * 100.0;
-    clay(100.0).starting_at(Matrix::from_diagonal(&tau), consolidation)
+    CamClay::example(100.0).starting_at(Matrix::from_diagonal(&tau), consolidation)
 }
 
 /// Uniaxial compression inside the yield surface has `q = 2 r (p - p0)` and is reversible. A cycle
 /// of volume and shear is not reversible: `q = 3 r (p - p0)/kappa eps_q` remains.
 #[test]
 fn elastic_strain_matches_closed_forms() {
-    let mut soil = specimen(clay(1000.0));
+    let mut soil = specimen(CamClay::example(1000.0));
     let [p, q] = squeeze(&mut soil, [0.02, 0.0], 5);
     assert_relative_eq!(p, 100.0 * libm::exp(1.0), max_relative = 1e-12);
     assert_relative_eq!(q, 1.2 * (p - 100.0), max_relative = 1e-12);
