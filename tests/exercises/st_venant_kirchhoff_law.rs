@@ -54,6 +54,6 @@ mod tests {
 
     #[test]
     fn stress_is_the_derivative_of_the_energy() {
-        assert_stress_is_derivative(&StVenantKirchhoffLaw::new(50.0, 0.3));
+        assert_stress_is_derivative(StVenantKirchhoffLaw::new(50.0, 0.3));
     }
 }

@@ -1,20 +1,34 @@
-//! Test helpers for hyperelastic laws: stress along the axes, and stress as energy derivative.
+//! Tests of the energy of all laws, and of stresses in a closed form.
 
-use super::contract::ConstitutiveLaw;
+use super::contract::{ConstitutiveLaw, Lame};
+use super::{
+    CorotatedLaw, Equation, HenckyLaw, LinearFluidLaw, NeoHookeanLaw, PolytropicLaw,
+    SmallStrainLaw, TaitLaw,
+};
 use crate::exact::tensor::{Tensor, tensor, unit};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
+use rstest::rstest;
 
 /// Asserts `P = dW/dF`, and `W = 0` and `P = 0` at rest.
-pub(super) fn assert_stress_is_derivative(law: &impl ConstitutiveLaw) {
-    assert_stress_is_derivative_from(law, 0.0, 0.0);
+pub(super) fn assert_stress_is_derivative(law: impl ConstitutiveLaw + Copy) {
+    stress_is_the_derivative_of_the_energy(law, 0.0, 0.0);
 }
 
-/// Asserts `P = dW/dF`, and the energy (J/m3) and the mean stress (Pa, positive in compression) of
-/// a body at rest.
-pub(super) fn assert_stress_is_derivative_from(
-    law: &impl ConstitutiveLaw,
-    pressure: f64,
-    stored: f64,
+/// Each case has the law, and the mean stress (Pa, positive in compression) and the energy (J/m3)
+/// of a body at rest. A polytropic gas of unit density has p = K and W = K/(g - 1).
+#[rstest]
+#[case::corotated(CorotatedLaw::new(50.0, 0.3), 0.0, 0.0)]
+#[case::hencky(HenckyLaw::new(50.0, 0.3), 0.0, 0.0)]
+#[case::linear_fluid(LinearFluidLaw::new(50.0), 0.0, 0.0)]
+#[case::neo_hookean(NeoHookeanLaw::new(50.0, 0.3), 0.0, 0.0)]
+#[case::polytropic(PolytropicLaw::new(50.0, 1.4), 50.0, 125.0)]
+#[case::polytropic_and_steep(PolytropicLaw::new(50.0, 3.0), 50.0, 25.0)]
+#[case::small_strain(SmallStrainLaw::new(50.0, 0.3), 0.0, 0.0)]
+#[case::tait(TaitLaw::new(50.0, 0.0), 0.0, 0.0)]
+fn stress_is_the_derivative_of_the_energy(
+    #[case] law: impl ConstitutiveLaw + Copy,
+    #[case] pressure: f64,
+    #[case] stored: f64,
 ) {
     let energy = |grad: &Tensor<f64>| law.energy(grad).expect("an energy");
     let rest = [[0.0; 3]; 3];
@@ -44,21 +58,40 @@ pub(super) fn assert_stress_is_derivative_from(
     }
 }
 
-/// Asserts that `stretches` along the axes cause the stresses P `along` the axes, and that
-/// `P(Q F) = Q P(F)` for a rotation by `angle` about the third axis.
-pub(super) fn assert_stress_along_axes(
-    law: &impl ConstitutiveLaw,
-    stretches: [f64; 3],
-    angle: f64,
-    along: impl Fn(usize) -> f64,
-    max_relative: f64,
+/// The closed form holds along the axes, also for equal stretches: `P_ii = (lambda ln J + 2 mu ln
+/// s_i)/s_i` for the law of Hencky, `P_ii = 2 mu (s_i - 1) + lambda (J - 1) J/s_i` for the
+/// corotated law. After a rotation, `P(Q F) = Q P(F)`.
+#[rstest]
+fn stress_has_its_closed_form_along_the_axes(
+    #[values([1.3, 0.6, 1.0], [1.2; 3], [4.0, 0.2, 1.0], [1.0 + 1e-9, 1.0, 1.0])] stretches: [f64;
+        3],
+    #[values(0.0, 0.7, 2.9)] angle: f64,
 ) {
+    let Lame { lambda, mu } = Lame::new(50.0, 0.3);
     let (c, s) = (libm::cos(angle), libm::sin(angle));
     let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
     let grad: Tensor<f64> = tensor(|i, j| turn[i][j] * stretches[j] - unit::<f64>(i, j));
-    let found = law.piola(&grad);
+    let hencky = HenckyLaw::new(50.0, 0.3).piola(&grad);
+    let corotated = CorotatedLaw::new(50.0, 0.3).piola(&grad);
+    let log: f64 = stretches.iter().map(|stretch| libm::log(*stretch)).sum();
+    let volume: f64 = stretches.iter().product();
     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1), (2, 2)] {
-        let wanted = turn[i][j] * along(j);
-        assert_relative_eq!(found[i][j], wanted, max_relative = max_relative, epsilon = 1e-13);
+        let stretch = stretches[j];
+        let along = (lambda * log + 2.0 * mu * libm::log(stretch)) / stretch;
+        let wanted = turn[i][j] * along;
+        assert_relative_eq!(hencky[i][j], wanted, max_relative = 1e-11, epsilon = 1e-13);
+        let along = 2.0 * mu * (stretch - 1.0) + lambda * (volume - 1.0) * volume / stretch;
+        let wanted = turn[i][j] * along;
+        assert_relative_eq!(corotated[i][j], wanted, max_relative = 1e-13, epsilon = 1e-13);
     }
+}
+
+#[rstest]
+#[case::corotated(CorotatedLaw::new(50.0, 0.3))]
+#[case::hencky(HenckyLaw::new(50.0, 0.3))]
+fn vanishing_shear_still_has_a_derivative(#[case] law: impl Into<Equation>) {
+    let mut second = [[[0.0; 3]; 3]; 3];
+    second[0][1][1] = 1.0;
+    let found = law.into().divergence(2, &[[0.0; 3]; 3], &second);
+    assert_relative_eq!(found[0], Lame::new(50.0, 0.3).mu, max_relative = 1e-12);
 }

@@ -55,20 +55,3 @@ impl ConstitutiveLaw for GreenNaghdiLaw {
         admit_a_plane(dimension)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::simple_shear::assert_kirchhoff;
-    use super::*;
-    use rstest::rstest;
-
-    #[rstest]
-    #[case(1.0, [0.415_900_087_2, 0.869_783_943_7])]
-    #[case(3.0, [1.766_203_744_6, 1.817_834_265_2])]
-    fn stress_in_simple_shear_matches_an_independent_program(
-        #[case] gamma: f64,
-        #[case] tau: [f64; 2],
-    ) {
-        assert_kirchhoff(&GreenNaghdiLaw::new(2.5, 0.25), gamma, tau);
-    }
-}

@@ -42,20 +42,3 @@ impl ConstitutiveLaw for JaumannLaw {
         admit_a_plane(dimension)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::simple_shear::assert_kirchhoff;
-    use super::*;
-    use rstest::rstest;
-
-    #[rstest]
-    #[case(1.0, [0.459_697_694_1, 0.841_470_984_8])]
-    #[case(3.0, [1.989_992_496_6, 0.141_120_008_1])]
-    fn stress_in_simple_shear_matches_an_independent_program(
-        #[case] gamma: f64,
-        #[case] tau: [f64; 2],
-    ) {
-        assert_kirchhoff(&JaumannLaw::new(2.5, 0.25), gamma, tau);
-    }
-}

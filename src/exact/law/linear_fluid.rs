@@ -40,14 +40,3 @@ impl ConstitutiveLaw for LinearFluidLaw {
         self.bulk
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::exact::law::energy::assert_stress_is_derivative;
-
-    #[test]
-    fn stress_is_the_derivative_of_the_energy() {
-        assert_stress_is_derivative(&LinearFluidLaw::new(50.0));
-    }
-}

@@ -53,15 +53,7 @@ impl ConstitutiveLaw for PolytropicLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::law::energy::assert_stress_is_derivative_from;
     use approx::assert_relative_eq;
-
-    /// Expects p = K and W = K/(g - 1) at rest and for unit density.
-    #[test]
-    fn stress_is_the_derivative_of_the_energy() {
-        assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 1.4), 50.0, 125.0);
-        assert_stress_is_derivative_from(&PolytropicLaw::new(50.0, 3.0), 50.0, 25.0);
-    }
 
     /// Expects p = 2 (3/1.5)^3 = 16 for a density of 3 kg/m3 and an expansion by 1.5 along one
     /// axis.

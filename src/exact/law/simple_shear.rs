@@ -1,7 +1,5 @@
 //! Laws in rate form whose solution is known in simple shear, `F = [[1, gamma], [0, 1]]`.
 
-#[cfg(test)]
-use super::contract::ConstitutiveLaw;
 use crate::exact::formula::Number;
 use crate::exact::tensor::{Tensor, tensor};
 
@@ -38,15 +36,35 @@ pub(super) fn admit_a_plane(dimension: usize) -> Result<(), [&'static str; 2]> {
     ])
 }
 
-/// Asserts components 11 and 12 of the Kirchhoff stress (Pa) in simple shear by `gamma`.
 #[cfg(test)]
-pub(super) fn assert_kirchhoff(law: &impl ConstitutiveLaw, gamma: f64, expected: [f64; 2]) {
-    let piola = law.piola(&[[0.0, gamma], [0.0, 0.0]]);
-    let tau11 = piola[0][0] + piola[0][1] * gamma;
-    for (found, expected) in [(tau11, expected[0]), (piola[0][1], expected[1])] {
-        approx::assert_abs_diff_eq!(found, expected, epsilon = 1e-10);
+mod tests {
+    use crate::exact::law::contract::ConstitutiveLaw;
+    use crate::exact::law::{GreenNaghdiLaw, JaumannLaw};
+    use approx::assert_abs_diff_eq;
+    use rstest::rstest;
+
+    /// Each case has gamma, and components 11 and 12 of the Kirchhoff stress (Pa).
+    #[rstest]
+    #[case::jaumann(JaumannLaw::new(2.5, 0.25), 1.0, 0.459_697_694_1, 0.841_470_984_8)]
+    #[case::jaumann_large(JaumannLaw::new(2.5, 0.25), 3.0, 1.989_992_496_6, 0.141_120_008_1)]
+    #[case::green_naghdi(GreenNaghdiLaw::new(2.5, 0.25), 1.0, 0.415_900_087_2, 0.869_783_943_7)]
+    #[case::green_naghdi_large(
+        GreenNaghdiLaw::new(2.5, 0.25),
+        3.0,
+        1.766_203_744_6,
+        1.817_834_265_2
+    )]
+    fn stress_matches_an_independent_program(
+        #[case] law: impl ConstitutiveLaw + Copy,
+        #[case] gamma: f64,
+        #[case] normal: f64,
+        #[case] shear: f64,
+    ) {
+        let piola = law.piola(&[[0.0, gamma], [0.0, 0.0]]);
+        assert_abs_diff_eq!(piola[0][0] + piola[0][1] * gamma, normal, epsilon = 1e-10);
+        assert_abs_diff_eq!(piola[0][1], shear, epsilon = 1e-10);
+        assert_abs_diff_eq!(piola[1][1], -normal, epsilon = 1e-10);
+        assert_abs_diff_eq!(piola[1][0] + piola[1][1] * gamma, shear, epsilon = 1e-10);
+        assert!(law.piola(&[[0.1, gamma], [0.0, 0.0]])[0][0].is_nan());
     }
-    approx::assert_abs_diff_eq!(piola[1][1], -expected[0], epsilon = 1e-10);
-    approx::assert_abs_diff_eq!(piola[1][0] + piola[1][1] * gamma, expected[1], epsilon = 1e-10);
-    assert!(law.piola(&[[0.1, gamma], [0.0, 0.0]])[0][0].is_nan());
 }

@@ -58,12 +58,6 @@ impl ConstitutiveLaw for TaitLaw {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::law::energy::assert_stress_is_derivative;
-
-    #[test]
-    fn stress_is_the_derivative_of_the_energy() {
-        assert_stress_is_derivative(&TaitLaw::new(50.0, 0.0));
-    }
 
     #[test]
     fn a_viscous_fluid_has_a_state_of_rest_only() {
