@@ -134,21 +134,20 @@ impl Density {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use super::*;
-    use crate::exact::formula::{Expr, Scope};
     use crate::exact::law::PolytropicLaw;
-    use crate::exact::tests::{bar, free, held};
+    use crate::exact::tests::{bar, bind, free, held};
     use crate::exact::{BodySum, Forcing, Motion, Problem, Round, SumPoint, SumRegion};
     use approx::assert_relative_eq;
     use std::sync::Arc;
 
     fn formula(text: &str, d: usize) -> Formula {
-        Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "Z"][..d]).unwrap()
+        bind(text, &["X", "Y", "Z"][..d])
     }
 
     /// Creates a density in the box from -1 to 1 along each of `d` axes.
-    pub(crate) fn in_box(text: &str, d: usize) -> Result<Density, NoDensity> {
+    fn in_box(text: &str, d: usize) -> Result<Density, NoDensity> {
         Density::of_place(formula(text, d), &vec![-1.0; d], &vec![1.0; d], None)
     }
 
@@ -235,16 +234,13 @@ pub(super) mod tests {
     /// a'^2/2 (kinetic) and C I/(2 a^2) (stored), where C = 1 and I = pi/6.
     #[test]
     fn energies_of_a_round_cloud_match_closed_forms() {
-        let plane = |text: &str| {
-            let variables = ["X", "Y", "t"];
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &variables).unwrap()
-        };
         let disk: Arc<dyn Outline> =
             Arc::new(Round { centre: vec![0.0; 2], inner: 0.0, outer: 1.0 });
         let [from, to] = [vec![-1.0; 2], vec![1.0; 2]];
         let density =
             Density::of_place(formula("1 - X^2 - Y^2", 2), &from, &to, Some(disk.as_ref()));
-        let motion = ["X", "Y"].map(|x| plane(&format!("(sqrt(1 + t^2) - 1)*{x}")));
+        let motion =
+            ["X", "Y"].map(|x| bind(&format!("(sqrt(1 + t^2) - 1)*{x}"), &["X", "Y", "t"]));
         let problem = Problem {
             equation: PolytropicLaw::new(0.25, 2.0).into(),
             density: density.unwrap(),

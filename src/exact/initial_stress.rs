@@ -109,8 +109,7 @@ fn pulled<T: Number>(grad: &Tensor<T>, stress: &Tensor<T>) -> Tensor<T> {
 mod tests {
     use super::*;
     use crate::exact::Forcing;
-    use crate::exact::formula::{Expr, Scope};
-    use crate::exact::tests::held;
+    use crate::exact::tests::{bind, held};
     use crate::exact::{Problem, SmallStrainLaw};
     use approx::assert_relative_eq;
     use rstest::rstest;
@@ -118,9 +117,7 @@ mod tests {
     const GRAD: Tensor<f64> = [[0.1, 0.2, 0.0], [-0.3, 0.05, 0.0], [0.0; 3]];
 
     fn stress(components: &[(usize, usize, &str)], variables: &[&str]) -> InitialStress {
-        let bind =
-            |text: &str| Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), variables);
-        let one = |(i, j, text): &(usize, usize, &str)| (*i, *j, bind(text).unwrap());
+        let one = |(i, j, text): &(usize, usize, &str)| (*i, *j, bind(text, variables));
         InitialStress::new(components.iter().map(one).collect())
     }
 

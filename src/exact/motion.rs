@@ -214,15 +214,15 @@ pub(super) fn write(tensor: &[[f64; 3]; 3], dimension: usize, into: &mut [f64]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::formula::{Expr, Scope};
+    use crate::exact::tests::bind;
+
+    fn motion(texts: [&str; 2]) -> Motion {
+        Motion::new(texts.map(|text| bind(text, &["X", "Y", "t"])).to_vec())
+    }
 
     #[test]
     fn slopes_are_bit_identical_to_full_derivatives() {
-        let bind = |text: &str| {
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
-        };
-        let texts = ["sin(2*X - t)*exp(-Y^2)", "atan2(Y, X + 2)*max(t - X, 0)^2/(1 + t)"];
-        let motion = Motion::new(texts.map(bind).to_vec());
+        let motion = motion(["sin(2*X - t)*exp(-Y^2)", "atan2(Y, X + 2)*max(t - X, 0)^2/(1 + t)"]);
         let labels = [[0.1, 0.7], [0.9, 0.0], [0.3, -0.2]];
         let mut places = motion.slopes_at_places(labels.iter().map(<[f64; 2]>::as_slice));
         for t in [0.0, 0.45, 1.3] {
@@ -238,22 +238,15 @@ mod tests {
 
     #[test]
     fn a_deformation_gradient_has_the_identity() {
-        let bind = |text: &str| {
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
-        };
-        let motion = Motion::new(["t*Y", "Y"].map(bind).to_vec());
         let mut f = [f64::NAN; 4];
-        assert!(Truth::deformation_gradient(&motion, &[0.3, 0.7], 0.5, &mut f));
+        assert!(motion(["t*Y", "Y"]).deformation_gradient(&[0.3, 0.7], 0.5, &mut f));
         assert_eq!(f, [1.0, 0.5, 0.0, 2.0]);
     }
 
     #[test]
     fn motion_varies_only_along_axes_in_its_formulas() {
-        let bind = |text: &str| {
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &["X", "Y", "t"]).unwrap()
-        };
         let varies = |texts: [&str; 2]| {
-            let motion = Motion::new(texts.map(bind).to_vec());
+            let motion = motion(texts);
             [motion.varies_along(0), motion.varies_along(1)]
         };
         assert_eq!(varies(["sum(n, 1, 3, sin(n*X))*t", "0"]), [true, false]);

@@ -96,14 +96,13 @@ impl ParametricMotion {
 
 #[cfg(test)]
 mod tests {
-    use super::super::formula::{Expr, Scope};
     use super::*;
+    use crate::exact::tests::bind;
     use approx::assert_abs_diff_eq;
 
     fn motion(text: &str) -> ParametricMotion {
-        let expr = Expr::parse(text).expect("a formula");
-        let formula = Formula::bind(&expr, &Scope::new(), &["X", "t", "q"]).expect("a formula");
-        ParametricMotion { from: vec![0.0], to: vec![1.0], displacement: vec![formula], value: 2.0 }
+        let displacement = vec![bind(text, &["X", "t", "q"])];
+        ParametricMotion { from: vec![0.0], to: vec![1.0], displacement, value: 2.0 }
     }
 
     #[test]

@@ -250,8 +250,7 @@ fn on_face(problem: &Problem, face: &Face, panels: usize) -> Vec<(Vec<f64>, f64)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::{bar, fixed, free, held};
+    use crate::exact::tests::{bar, bind, fixed, free, held};
     use crate::exact::{Density, Motion, Round};
     use approx::assert_relative_eq;
     use rstest::rstest;
@@ -297,8 +296,7 @@ mod tests {
     /// times `int (2 + X) X^2 dX` = 11/12.
     #[test]
     fn second_moments_use_the_local_density() {
-        let formula = Formula::bind(&Expr::parse("2 + X").unwrap(), &Scope::new(), &["X"]).unwrap();
-        let density = Density::of_place(formula, &[0.0], &[1.0], None).unwrap();
+        let density = Density::of_place(bind("2 + X", &["X"]), &[0.0], &[1.0], None).unwrap();
         let problem = Problem { density, ..bar("X*t", free()) };
         let sum = |density| BodySum::new(&problem, &SumRegion::Body, density).unwrap().at(0.5);
         let found = sum(|point| of_vector(point.second_moment()));
@@ -332,15 +330,11 @@ mod tests {
     #[case::annulus(2, 0.5, PI / 2.0 * (1.0 - 0.0625))]
     #[case::ball(3, 0.0, 8.0 * PI / 15.0)]
     fn a_round_body_turns(#[case] d: usize, #[case] inner: f64, #[case] inertia: f64) {
-        let bind = |text: &str| {
-            let names = &["X", "Y", "Z"][..d];
-            let names = [names, &["t"]].concat();
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), &names).unwrap()
-        };
+        let names = [&["X", "Y", "Z"][..d], &["t"]].concat();
         let turned = ["cos(3*t)*X - sin(3*t)*Y - X", "sin(3*t)*X + cos(3*t)*Y - Y", "0"];
         let problem = Problem {
             outline: Some(Arc::new(Round { centre: vec![0.0; d], inner, outer: 1.0 })),
-            motion: Motion::new(turned[..d].iter().map(|text| bind(text)).collect()),
+            motion: Motion::new(turned[..d].iter().map(|text| bind(text, &names)).collect()),
             ..held(d)
         };
         let density = |point: &SumPoint<'_>| of_vector(point.angular_momentum());

@@ -19,13 +19,14 @@ fn momentum(problem: &Problem) -> Result<(), Violation> {
 
 const NAMES: [&str; 4] = ["X", "Y", "Z", "t"];
 
-fn bind(source: &str, variables: &[&str]) -> Formula {
+/// Parses a formula of these variables.
+pub(super) fn bind(source: &str, variables: &[&str]) -> Formula {
     Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), variables).unwrap()
 }
 
 /// Gravity (m/s2), formulas of t.
 #[derive(Debug)]
-pub(super) struct Weight(pub(super) Vec<Formula>);
+struct Weight(Vec<Formula>);
 
 impl Term for Weight {
     fn stated(&self, i: usize, _: &[f64], t: f64, _: &[f64; 3]) -> f64 {
@@ -37,7 +38,7 @@ impl Term for Weight {
     }
 }
 
-fn weight(sources: &[&str]) -> Vec<Arc<dyn Term>> {
+pub(super) fn weight(sources: &[&str]) -> Vec<Arc<dyn Term>> {
     vec![Arc::new(Weight(sources.iter().map(|source| bind(source, &["t"])).collect()))]
 }
 

@@ -80,44 +80,24 @@ pub(crate) fn coulomb(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::{Demands, Weight, free};
-    use crate::exact::{InitialStress, Motion, SmallStrainLaw};
-    use crate::subject::PlaneState;
+    use crate::exact::tests::{Demands, bind, free, held, weight};
+    use crate::exact::{Motion, SmallStrainLaw};
     use rstest::rstest;
-    use std::sync::Arc;
 
     /// Creates a layer of height 1 under gravity (3, -4), with shear modulus 100, density 1 and
     /// lambda = 0. The layer sticks to the wall or slides with friction; shear and pressure
     /// increase towards the wall.
-    fn layer(coefficient: f64, [x, y]: [&str; 2]) -> Problem {
-        let bind = |text: &str, names: &[&str]| {
-            Formula::bind(&Expr::parse(text).unwrap(), &Scope::new(), names).unwrap()
-        };
+    fn layer(coefficient: f64, motion: [&str; 2]) -> Problem {
         let face = |name, high, condition| Face { name, axis: 1, high, period: 1.0, condition };
         let wall = Demands::condition(move |point| point.friction(coefficient));
         Problem {
-            from: vec![0.0; 2],
-            to: vec![1.0; 2],
-            outline: None,
-            plane: PlaneState::Strain,
             density: 1.0.into(),
             equation: SmallStrainLaw::new(200.0, 0.0).into(),
-            terms: vec![Arc::new(Weight(vec![bind("3", &["t"]), bind("-4", &["t"])]))],
-            heat: None,
-            at_rest: false,
+            terms: weight(&["3", "-4"]),
             manufactured: false,
             faces: vec![face("bottom", false, wall), face("top", true, free())],
-            follows_motion: true,
-            bodies: Vec::new(),
-            initial_stress: InitialStress::default(),
-            initial_displacement: Vec::new(),
-            initial_velocity: Vec::new(),
-            until: 1.0,
-            motion: Motion::new(vec![bind(x, &["X", "Y", "t"]), bind(y, &["X", "Y", "t"])]),
-            tolerance: 1e-8,
-            linearised: None,
-            shared: None,
+            motion: Motion::new(motion.map(|u| bind(u, &["X", "Y", "t"])).to_vec()),
+            ..held(2)
         }
     }
 

@@ -158,43 +158,22 @@ impl BodyPair<'_> {
 mod tests {
     use super::*;
     use crate::exact::check::survey::Survey;
-    use crate::exact::formula::{Expr, Formula, Scope};
-    use crate::exact::tests::free;
-    use crate::exact::{Face, InitialStress, Motion, SmallStrainLaw};
-    use crate::subject::PlaneState;
+    use crate::exact::tests::{bar, bind, free};
+    use crate::exact::{Face, Motion, SmallStrainLaw};
     use rstest::rstest;
     use std::sync::Arc;
 
     /// Creates bars from 0 to 1 and from 1 to 2, with rho = c = 1.
     fn bars(displacement: &str) -> [Problem; 2] {
-        let expr = Expr::parse(displacement).unwrap();
-        let bind = || Formula::bind(&expr, &Scope::new(), &["X", "t"]).unwrap();
         let face = |name, high, condition| Face { name, axis: 0, high, period: 1.0, condition };
-        let bar = |from: f64, ends: [Arc<dyn Condition>; 2]| {
-            let [low, high] = ends;
-            Problem {
-                heat: None,
-                from: vec![from],
-                to: vec![from + 1.0],
-                outline: None,
-                plane: PlaneState::Strain,
-                density: 1.0.into(),
-                equation: SmallStrainLaw::new(1.0, 0.0).into(),
-                terms: Vec::new(),
-                at_rest: false,
-                manufactured: false,
-                faces: vec![face("left", false, low), face("right", true, high)],
-                follows_motion: true,
-                bodies: Vec::new(),
-                initial_stress: InitialStress::default(),
-                initial_displacement: Vec::new(),
-                initial_velocity: Vec::new(),
-                until: 3.0,
-                motion: Motion::new(vec![bind()]),
-                tolerance: 1e-8,
-                linearised: None,
-                shared: None,
-            }
+        let bar = |from: f64, [low, high]: [Arc<dyn Condition>; 2]| Problem {
+            from: vec![from],
+            to: vec![from + 1.0],
+            density: 1.0.into(),
+            equation: SmallStrainLaw::new(1.0, 0.0).into(),
+            faces: vec![face("left", false, low), face("right", true, high)],
+            until: 3.0,
+            ..bar(displacement, free())
         };
         [bar(0.0, [free(), Arc::new(Interface)]), bar(1.0, [Arc::new(Interface), free()])]
     }
@@ -247,10 +226,7 @@ mod tests {
     #[case::held(["t/10 + X*2/500", "t/10 + X*2/500"], "")]
     #[case::held_too_well(["t/10 + X*4/500", "t/10 + X*4/500"], "at rest")]
     fn two_pressed_plates(#[case] along: [&str; 2], #[case] violated: &str) {
-        let bind = |source: &str| {
-            let expr = Expr::parse(source).unwrap();
-            Formula::bind(&expr, &Scope::new(), &["X", "Y", "t"]).unwrap()
-        };
+        let bind = |source| bind(source, &["X", "Y", "t"]);
         let [one, other] = bars("X");
         let [one, other] = [(one, along[0]), (other, along[1])].map(|(bar, along)| Problem {
             from: vec![bar.from[0], 0.0],

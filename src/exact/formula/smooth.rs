@@ -72,8 +72,7 @@ impl Unary {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::exact::formula::{Expr, Scope};
+    use crate::exact::tests::bind;
     use rstest::rstest;
 
     #[rstest]
@@ -94,8 +93,6 @@ mod tests {
     #[case("atan(tan(x))", false)]
     #[case("1", true)]
     fn smoothness_is_told_from_the_functions_composed(#[case] text: &str, #[case] smooth: bool) {
-        let expr = Expr::parse(text).unwrap();
-        let formula = Formula::bind(&expr, &Scope::new(), &["x", "t"]).unwrap();
-        assert_eq!(formula.is_smooth(), smooth);
+        assert_eq!(bind(text, &["x", "t"]).is_smooth(), smooth);
     }
 }

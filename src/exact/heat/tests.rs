@@ -2,7 +2,7 @@
 
 use super::check::{HeatMagnitudes, interior};
 use super::{Conduction, HeatFace, HeatFacePoint, HeatForcing, Temperature, ThermalCondition};
-use crate::exact::formula::{Expr, Formula, Scope};
+use crate::exact::formula::Formula;
 use crate::exact::random::Random;
 use crate::exact::{Motion, Violation};
 use rstest::rstest;
@@ -16,7 +16,7 @@ fn bind(source: &str, dimension: usize) -> Formula {
 
 fn bind_to(further: &[&str], source: &str, dimension: usize) -> Formula {
     let names: Vec<&str> = NAMES[..dimension].iter().chain(further).copied().collect();
-    Formula::bind(&Expr::parse(source).unwrap(), &Scope::new(), &names).unwrap()
+    crate::exact::tests::bind(source, &names)
 }
 
 #[derive(Debug)]
