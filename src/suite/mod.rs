@@ -30,7 +30,6 @@ pub use model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 pub use model::stability::{StabilityCase, StabilityPlan};
 pub use model::{
     Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,
-    SameMethod, Suite,
+    SameMethod, StudyPlan, Suite,
 };
-pub use model::{StudyCases, StudyPlan};
 pub use scene::{EffectName, Scene, SceneFace, SceneHeat};

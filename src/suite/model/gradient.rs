@@ -2,7 +2,6 @@
 
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::{Case, ConvergencePlan};
-use super::{StudyCases, kept};
 use crate::exact::ParametricMotion;
 use crate::subject::{Functional, GradientParameter};
 use crate::verify::{Gating, GradientTerms};
@@ -78,21 +77,17 @@ impl GradientPlan {
     }
 }
 
-impl StudyCases for GradientPlan {
-    fn names(&self) -> Vec<&str> {
-        self.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+impl GradientPlan {
+    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (terms, because) = self.cases[case].expected.as_ref()?;
         Some((terms.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { cases: kept(&self.cases, keep), ..self.clone() }
-    }
-
-    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
+    pub(super) fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Option<Self> {
         let ExternalMethod { name, formal_order, precision } = solver;
         let mut plan = self.clone();
         let is_stated = |case: &GradientCase| case.solver.solver.as_deref() == Some(name);

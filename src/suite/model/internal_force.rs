@@ -1,6 +1,5 @@
 //! An internal-force study whose suite has passed all checks.
 
-use super::{StudyCases, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::BasisName;
 
@@ -45,18 +44,10 @@ pub enum ForceExpectation {
     StepsBelow(f64),
 }
 
-impl StudyCases for ForcePlan {
-    fn names(&self) -> Vec<&str> {
-        self.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+impl ForcePlan {
+    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let ForceCase { expected, because, .. } = &self.cases[case];
         Some((expected.as_ref()?.summary(), because))
-    }
-
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { cases: kept(&self.cases, keep), ..self.clone() }
     }
 }
 

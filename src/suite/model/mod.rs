@@ -15,7 +15,7 @@ pub use internal_force::{ForceCase, ForceExpectation, ForcePlan};
 pub use plan::{StudyPlan, Suite};
 pub use refine_plan::SameMethod;
 
-use self::method::{AnyMethod, ExternalMethod, GateTerms, Method};
+use self::method::{AnyMethod, Method};
 use self::refine_plan::{LevelPlan, RefinePlan};
 use super::grammar::{CrossingLevels, EquationName, NormName, WarningName};
 use super::scene::lattice::LatticeOffsets;
@@ -170,25 +170,11 @@ impl Case {
     }
 }
 
-impl StudyCases for ConvergencePlan {
-    fn names(&self) -> Vec<&str> {
-        self.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+impl ConvergencePlan {
+    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         self.cases[case].expected()
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { cases: kept(&self.cases, keep), ..self.clone() }
-    }
-
-    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
-        Some(self.under(solver, terms))
-    }
-}
-
-impl ConvergencePlan {
     /// Returns the problem if its body force is manufactured.
     pub fn manufactured(&self) -> Option<&Problem> {
         self.exact.as_ref().filter(|problem| problem.manufactured)
@@ -210,32 +196,4 @@ impl ConvergencePlan {
     pub fn heat_problem(&self) -> Option<&Conduction> {
         self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
     }
-}
-
-/// The cases of a study of any kind.
-pub trait StudyCases: Sized {
-    /// Returns the case names, in order.
-    fn names(&self) -> Vec<&str>;
-
-    /// Returns summary and reason of the expectation of the case with this index; `None` if the
-    /// suite states no expectations.
-    ///
-    /// # Panics
-    /// If the index is out of range.
-    fn expectation(&self, case: usize) -> Option<(String, &str)>;
-
-    /// Returns the study with only those cases for whose index `keep` returns true.
-    #[must_use]
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self;
-
-    /// Returns the study with an external solver in place of its methods. The solver must meet the
-    /// requirements `terms`, if any. `None` if the study examines the internals of a method.
-    fn of_external(&self, _solver: ExternalMethod<'_>, _terms: Option<&GateTerms>) -> Option<Self> {
-        None
-    }
-}
-
-pub(super) fn kept<T: Clone>(all: &[T], keep: &dyn Fn(usize) -> bool) -> Vec<T> {
-    let kept = all.iter().enumerate().filter(|(i, _)| keep(*i));
-    kept.map(|(_, member)| member.clone()).collect()
 }

@@ -1,11 +1,11 @@
 //! A suite, and its study of any kind.
 
+use super::ConvergencePlan;
 use super::gradient::GradientPlan;
 use super::internal_force::ForcePlan;
 use super::method::{ExternalMethod, GateTerms};
 use super::spectrum::SpectrumPlan;
 use super::stability::StabilityPlan;
-use super::{ConvergencePlan, StudyCases};
 use std::sync::Arc;
 
 /// A suite, ready to run.
@@ -88,7 +88,7 @@ macro_rules! with_plan {
 impl StudyPlan {
     /// Returns the case names, in order.
     pub fn names(&self) -> Vec<&str> {
-        with_plan!(self, plan => plan.names())
+        with_plan!(self, plan => plan.cases.iter().map(|case| case.name.as_str()).collect())
     }
 
     /// Returns summary and reason of the expectation of the case with this index; `None` if the
@@ -101,7 +101,12 @@ impl StudyPlan {
     }
 
     fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        with_plan!(self, plan => plan.only(keep).into())
+        with_plan!(self, plan => {
+            let mut plan = plan.as_ref().clone();
+            let mut index = 0..;
+            plan.cases.retain(|_| index.next().is_some_and(keep));
+            plan.into()
+        })
     }
 
     /// Returns the study with an external solver in place of its methods. The solver must meet the
@@ -111,7 +116,13 @@ impl StudyPlan {
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
     ) -> Option<Self> {
-        with_plan!(self, plan => plan.of_external(solver, terms).map(Self::from))
+        match self {
+            Self::Convergence(plan) => Some(plan.under(solver, terms).into()),
+            Self::InternalForce(_) => None,
+            Self::Stability(plan) => Some(plan.of_external(solver, terms).into()),
+            Self::Gradient(plan) => plan.of_external(solver, terms).map(Self::from),
+            Self::Spectrum(plan) => Some(plan.of_external(solver, terms).into()),
+        }
     }
 }
 

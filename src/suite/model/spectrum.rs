@@ -4,7 +4,6 @@ use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::refine_plan::LevelPlan;
 use super::stability::LatticeEdits;
-use super::{StudyCases, kept};
 use crate::exact::formula::Formula;
 use crate::mpm::WaveMethod;
 use crate::verify::{Gating, SpectrumExpectation};
@@ -83,21 +82,17 @@ impl SpectrumPlan {
     }
 }
 
-impl StudyCases for SpectrumPlan {
-    fn names(&self) -> Vec<&str> {
-        self.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+impl SpectrumPlan {
+    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (expected, because) = self.cases[case].expected.as_ref()?;
         Some((expected.summary(), because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { cases: kept(&self.cases, keep), ..self.clone() }
-    }
-
-    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
+    pub(super) fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Self {
         let ExternalMethod { name, formal_order, precision } = solver;
         let same = self.case_of(name);
         let unknown = || {
@@ -117,6 +112,6 @@ impl StudyCases for SpectrumPlan {
             expected: same.and_then(|case| case.expected.clone()),
             gating,
         };
-        Some(Self { cases: vec![case], ..self.clone() })
+        Self { cases: vec![case], ..self.clone() }
     }
 }

@@ -1,8 +1,8 @@
 //! A stability study whose suite has passed all checks.
 
+use super::Scene;
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::refine_plan::LevelPlan;
-use super::{Scene, StudyCases, kept};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::yaml::Diagnostic;
 use crate::verify::{Gating, RunFigure, Scales, StabilityExpectation};
@@ -107,21 +107,17 @@ pub struct StabilityCase {
     pub gating: Option<Gating>,
 }
 
-impl StudyCases for StabilityPlan {
-    fn names(&self) -> Vec<&str> {
-        self.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    fn expectation(&self, case: usize) -> Option<(String, &str)> {
+impl StabilityPlan {
+    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let RowExpectations { summary, because, .. } = &self.cases[case].expectations;
         Some((summary.clone()?, because))
     }
 
-    fn only(&self, keep: &dyn Fn(usize) -> bool) -> Self {
-        Self { cases: kept(&self.cases, keep), ..self.clone() }
-    }
-
-    fn of_external(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Option<Self> {
+    pub(super) fn of_external(
+        &self,
+        solver: ExternalMethod<'_>,
+        terms: Option<&GateTerms>,
+    ) -> Self {
         let ExternalMethod { name, formal_order, precision } = solver;
         let case = StabilityCase {
             name: name.to_owned(),
@@ -137,6 +133,6 @@ impl StudyCases for StabilityPlan {
                 }
             }),
         };
-        Some(Self { cases: vec![case], ..self.clone() })
+        Self { cases: vec![case], ..self.clone() }
     }
 }
