@@ -10,7 +10,7 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::AnyMethod;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::StepKind;
 
 pub(crate) fn convergence_plan(
@@ -23,9 +23,11 @@ pub(crate) fn convergence_plan(
     let latest = run.until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
     let truth = truth::truth(evaluator, spec, &scene, latest)?;
     let (reference, same_method) = references(evaluator, spec, &scene, &run)?;
-    let scale = spec.judge.scale.as_ref().map(|text| {
-        evaluator.positive(&Path::top("judge").then("scale"), text, "the scale of the error")
-    });
+    let scale = spec
+        .judge
+        .scale
+        .as_ref()
+        .map(|text| evaluator.top("judge.scale").positive(text, "the scale of the error"));
     let RunPlan { until, refine, levels, instants, scatter } = run;
     let StatedTruth { exact, conduction, survey, places } = truth;
     let mut plan = ConvergencePlan {
@@ -73,11 +75,11 @@ fn acknowledged(
 ) -> Result<Vec<WarningName>, Diagnostic> {
     let mut names = Vec::new();
     for (i, spec) in specs.iter().enumerate() {
-        let path = Path::top("acknowledge").then(i);
-        evaluator.because(&path, "this acknowledged warning", &spec.because)?;
+        let path = evaluator.top("acknowledge").then(i);
+        path.because("this acknowledged warning", &spec.because)?;
         if names.contains(&spec.warning) {
             let message = format!("`{}` is acknowledged twice", spec.warning.name());
-            return Err(evaluator.diagnostic(&path.then("warning"), &message));
+            return Err(path.then("warning").diagnostic(&message));
         }
         names.push(spec.warning);
     }

@@ -4,12 +4,12 @@
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
 use crate::suite::compile::check::sums::refuse_law_without_energy;
-use crate::suite::evaluator::{Evaluator, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{AnyMethodSpec, ConvergenceSpec, CrossingsName, DriftSpec, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::{AnyMethod, Method};
 use crate::suite::pattern;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::{
     CaseFigure, Conserved, Expectation, FigureNeed, Limits, OrderHypothesis, Verdict,
 };
@@ -45,16 +45,16 @@ fn expectations(
     let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let both = |(i, spec): (usize, &ExpectSpec)| {
-        let path = Path::top("expect").then(i);
-        Ok((expectation(evaluator, &path, spec, plan)?, in_full(evaluator, &path, spec, plan)?))
+        let path = evaluator.top("expect").then(i);
+        Ok((expectation(&path, spec, plan)?, in_full(&path, spec, plan)?))
     };
     let parsed = spec.iter().enumerate().map(both).collect::<Result<Vec<CaseExpectation>, _>>()?;
     for (owner, case) in owners.iter().zip(&plan.cases) {
         let Some(owner) = *owner else { continue };
-        let path = Path::top("expect").then(owner);
-        check_drift(evaluator, &path, &parsed[owner].0.limits, case.method)?;
+        let path = evaluator.top("expect").then(owner);
+        check_drift(&path, &parsed[owner].0.limits, case.method)?;
         if let Some(full) = &parsed[owner].1 {
-            check_drift(evaluator, &path.then("full"), &full.limits, case.method)?;
+            check_drift(&path.then("full"), &full.limits, case.method)?;
         }
     }
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
@@ -70,7 +70,7 @@ pub(crate) fn assign(
     if selectors.is_empty() {
         return Ok(vec![None; names.len()]);
     }
-    let path = Path::top("expect");
+    let path = evaluator.top("expect");
     let speaks = |i: usize, name: &str| {
         selectors[i]
             .is_none_or(|globs| globs.as_slice().iter().any(|glob| pattern::fits(glob, name)))
@@ -81,7 +81,7 @@ pub(crate) fn assign(
         if let Some(k) = globs.as_slice().iter().position(idle) {
             let at = path.then(i).then("case").alternative(globs, k);
             let message = format!("`{}` matches no case", globs.as_slice()[k]);
-            let diagnostic = evaluator.diagnostic(&at, &message);
+            let diagnostic = at.diagnostic(&message);
             return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
         }
     }
@@ -89,13 +89,10 @@ pub(crate) fn assign(
         let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
         match owners[..] {
             [only] => Ok(Some(only)),
-            [] => {
-                let message = format!("the case `{name}` has no expectation");
-                Err(evaluator.diagnostic_at_key(&path, &message))
-            }
+            [] => Err(path.diagnostic_at_key(&format!("the case `{name}` has no expectation"))),
             [_, second, ..] => {
                 let message = format!("a second expectation for the case `{name}`");
-                Err(evaluator.diagnostic(&path.then(second), &message))
+                Err(path.then(second).diagnostic(&message))
             }
         }
     };
@@ -103,8 +100,7 @@ pub(crate) fn assign(
 }
 
 fn in_full(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Option<Expectation>, Diagnostic> {
@@ -113,41 +109,38 @@ fn in_full(
     for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
         if given {
             let message = format!("the expectation of a full run cannot have its own `{key}`");
-            return Err(evaluator
-                .diagnostic_at_key(&path.then(key), &message)
-                .with_help("remove it"));
+            return Err(path.then(key).diagnostic_at_key(&message).with_help("remove it"));
         }
     }
-    expectation(evaluator, &path, full, plan).map(Some)
+    expectation(&path, full, plan).map(Some)
 }
 
 fn expectation(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Expectation, Diagnostic> {
-    let limits = limits(evaluator, path, spec, plan)?;
+    let limits = limits(path, spec, plan)?;
     let verdict = match &spec.verdict {
-        Some(word) => Some(verdict(evaluator, &path.then("verdict"), word)?),
+        Some(word) => Some(verdict(&path.then("verdict"), word)?),
         None if spec.order.is_some() => Some(Verdict::Converging),
         None if !limits.is_empty() => None,
         None => {
-            let diagnostic = evaluator
-                .diagnostic(path, "this expectation has no order, no verdict and no bound");
+            let diagnostic =
+                path.diagnostic("this expectation has no order, no verdict and no bound");
             let help = "add `order: [1.9, 2.1]`, `verdict: divergent` or `error_below: 1e-12`";
             return Err(diagnostic.with_help(help));
         }
     };
-    let because = evaluator.because(path, "this expectation", &spec.because)?;
+    let because = path.because("this expectation", &spec.because)?;
     let bounds = |key: &str, spec: &Option<Vec<NumberText>>| {
-        spec.as_ref().map(|pair| evaluator.interval(&path.then(key), pair)).transpose()
+        spec.as_ref().map(|pair| path.then(key).interval(pair)).transpose()
     };
     let order = bounds("order", &spec.order)?;
     if let Some((low, high)) = order
         && let Some(reason) = OrderHypothesis::within(low, low, high).diagnostic()
     {
-        let diagnostic = evaluator.diagnostic(&path.then("order"), &reason);
+        let diagnostic = path.then("order").diagnostic(&reason);
         return Err(diagnostic.with_label("expected positive orders, no more than 1 apart"));
     }
     Ok(Expectation {
@@ -161,35 +154,34 @@ fn expectation(
     })
 }
 
-fn verdict(evaluator: &Evaluator<'_>, path: &Path, word: &str) -> Result<Verdict, Diagnostic> {
+fn verdict(path: &SuitePath<'_>, word: &str) -> Result<Verdict, Diagnostic> {
     Verdict::from_str(word).map_err(|_| {
         let known = Verdict::ALL.map(|verdict| verdict.name().replace([' ', '-'], "_"));
         let known = known.each_ref().map(String::as_str);
-        let diagnostic = evaluator.diagnostic(path, &format!("`{word}` is not a verdict"));
+        let diagnostic = path.diagnostic(&format!("`{word}` is not a verdict"));
         diagnostic.with_help(&suggestion("verdicts", word, &known))
     })
 }
 
 fn limits(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ExpectSpec,
     plan: &ConvergencePlan,
 ) -> Result<Limits, Diagnostic> {
     let bound = |(figure, text): (CaseFigure, &NumberText)| {
-        Ok((figure, evaluator.positive(&path.then(figure.name()), text, "a bound")?))
+        Ok((figure, path.then(figure.name()).positive(text, "a bound")?))
     };
     let limits = Limits {
         bounds: spec.bounds().into_iter().map(bound).collect::<Result<_, Diagnostic>>()?,
         drift: match &spec.drift {
-            Some(spec) => drifts(evaluator, &path.then("drift"), spec, plan)?,
+            Some(spec) => drifts(&path.then("drift"), spec, plan)?,
             None => Vec::new(),
         },
         energy_rate: match &spec.energy_rate {
             Some(spec) => {
                 let path = path.then("energy_rate");
-                refuse_law_without_energy(evaluator, &path, &plan.scene)?;
-                Some(evaluator.interval(&path, spec)?)
+                refuse_law_without_energy(&path, &plan.scene)?;
+                Some(path.interval(spec)?)
             }
             None => None,
         },
@@ -199,18 +191,17 @@ fn limits(
         && most < least
     {
         let message = format!("no error is below {most:e} and above {least:e}");
-        return Err(evaluator.diagnostic(&path.then("error_above"), &message));
+        return Err(path.then("error_above").diagnostic(&message));
     }
     for (figure, _) in &limits.bounds {
-        refuse_missing_figure(evaluator, &path.then(figure.name()), *figure, plan)?;
+        refuse_missing_figure(&path.then(figure.name()), *figure, plan)?;
     }
     Ok(limits)
 }
 
 /// Refuses the bound at `path` if the study does not measure the bounded quantity.
 fn refuse_missing_figure(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     figure: CaseFigure,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
@@ -231,12 +222,11 @@ fn refuse_missing_figure(
     if has_figure {
         return Ok(());
     }
-    Err(evaluator.diagnostic_at_key(path, message).with_help(help))
+    Err(path.diagnostic_at_key(message).with_help(help))
 }
 
 fn drifts(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &DriftSpec,
     plan: &ConvergencePlan,
 ) -> Result<Vec<(Conserved, f64)>, Diagnostic> {
@@ -253,24 +243,23 @@ fn drifts(
         let Some(text) = text else { continue };
         let path = path.then(sum.name());
         if sum == Conserved::AngularMomentum && plan.scene.dimension() == 1 {
-            let message = "there is no angular momentum in 1-D";
-            return Err(evaluator.diagnostic_at_key(&path, message));
+            return Err(path.diagnostic_at_key("there is no angular momentum in 1-D"));
         }
         let is_revolved = plan.scene.plane == PlaneState::Axisymmetric;
         if is_revolved && matches!(sum, Conserved::Momentum | Conserved::AngularMomentum) {
             let message = "this sum over the meridian plane is not conserved in a body of \
                            revolution";
-            let diagnostic = evaluator.diagnostic_at_key(&path, message);
+            let diagnostic = path.diagnostic_at_key(message);
             return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
         }
         if sum == Conserved::Energy {
-            refuse_law_without_energy(evaluator, &path, &plan.scene)?;
+            refuse_law_without_energy(&path, &plan.scene)?;
         }
-        drifts.push((sum, evaluator.positive(&path, text, "a bound")?));
+        drifts.push((sum, path.positive(text, "a bound")?));
     }
     if drifts.is_empty() {
         let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
-        let diagnostic = evaluator.diagnostic(path, "`drift` is empty");
+        let diagnostic = path.diagnostic("`drift` is empty");
         return Err(diagnostic.with_help(&format!("add one or more of: {}", names.join(", "))));
     }
     Ok(drifts)
@@ -278,19 +267,14 @@ fn drifts(
 
 /// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
 /// or conserve.
-fn check_drift(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    limits: &Limits,
-    method: Method,
-) -> Result<(), Diagnostic> {
+fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
     let asks_of_energy =
         limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
     if asks_of_energy && method.averages_volume() {
         let message = "the force of `volume: averaged` does not derive from a stored energy";
-        let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+        let diagnostic = path.then(key).diagnostic_at_key(message);
         return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
     }
     if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
@@ -301,7 +285,7 @@ fn check_drift(
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
         _ => "the built-in FEM does not compute the sums whose drift is bounded here",
     };
-    let diagnostic = evaluator.diagnostic_at_key(&path.then(key), message);
+    let diagnostic = path.then(key).diagnostic_at_key(message);
     Err(diagnostic.with_help("restrict this expectation to MPM cases"))
 }
 
@@ -317,38 +301,38 @@ fn any_method(
     spec: &AnyMethodSpec,
     plan: &ConvergencePlan,
 ) -> Result<AnyMethod, Diagnostic> {
-    let path = Path::top("any_method");
-    let because = evaluator.because(&path, "this requirement", &spec.because)?;
+    let path = evaluator.top("any_method");
+    let because = path.because("this requirement", &spec.because)?;
     let order = spec.order.as_ref().map(|text| {
         let path = path.then("order");
-        let order = evaluator.positive(&path, text, "the order")?;
+        let order = path.positive(text, "the order")?;
         if order <= HIGHEST_ORDER {
             return Ok(order);
         }
         let message = format!("the order is {}", shown(order));
         let label = format!("expected an order up to {HIGHEST_ORDER}");
-        Err(evaluator.diagnostic(&path, &message).with_label(&label))
+        Err(path.diagnostic(&message).with_label(&label))
     });
     let error_below = spec
         .error_below
         .as_ref()
-        .map(|text| evaluator.positive(&path.then("error_below"), text, "the bound on errors"));
+        .map(|text| path.then("error_below").positive(text, "the bound on errors"));
     let (order, error_below) = (order.transpose()?, error_below.transpose()?);
     let gated = spec.gated.unwrap_or(true);
     let has_bounds = order.is_some() || error_below.is_some();
     if gated && !has_bounds && !spec.any_law {
-        let diagnostic = evaluator.diagnostic(&path, "this entry states no requirement");
+        let diagnostic = path.diagnostic("this entry states no requirement");
         let help = "add `order: 1`, `error_below: 1e-12`, `any_law: true` or `gated: false`";
         return Err(diagnostic.with_help(help));
     }
     if !gated && has_bounds {
         let message = "with `gated: false`, a required order or bound has no effect";
-        let diagnostic = evaluator.diagnostic_at_key(&path.then("gated"), message);
+        let diagnostic = path.then("gated").diagnostic_at_key(message);
         return Err(diagnostic.with_help("remove `gated`, or `order` and `error_below`"));
     }
     if spec.any_law && !plan.exact.as_ref().is_some_and(is_translation) {
         let message = "the solution depends on the law, because it is not a translation";
-        let diagnostic = evaluator.diagnostic(&path.then("any_law"), message);
+        let diagnostic = path.then("any_law").diagnostic(message);
         return Err(diagnostic.with_help("remove `any_law`"));
     }
     Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })

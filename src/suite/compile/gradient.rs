@@ -1,18 +1,17 @@
 //! Compiles a gradient study: functional, parameters, exact sensitivities, and expectations.
 
-use super::check::refuse_first;
 use super::convergence::convergence_plan;
 use super::expect::assign;
 use super::scene;
 use crate::exact::ParametricMotion;
 use crate::subject::{Functional, GradientParameter, PlaneState, Precision};
-use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, coordinates_and_time, shown, suggestion};
 use crate::suite::grammar::{
     FunctionalSpec, GradientExpectSpec, GradientSpec, MethodSpec, ParameterSpec,
 };
 use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 use crate::suite::model::{Case, ConvergencePlan, Scene};
-use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Source};
 use crate::verify::{Axis, GradientTerms};
 
 const MOST_POINTS: u64 = 1000;
@@ -44,7 +43,7 @@ fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodS
     if let Some(i) = spec.methods.iter().position(is_other) {
         let message =
             "a gradient study needs an external solver: the built-in solvers have no gradients";
-        let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+        let diagnostic = evaluator.top("methods").then(i).diagnostic(message);
         return Err(diagnostic.with_help("write `external: {name: my-solver}`"));
     }
     if !spec.methods.is_empty() {
@@ -62,77 +61,61 @@ fn refuse_unfit_problem(
 ) -> Result<(), Diagnostic> {
     let scene: &Scene = &problem.scene;
     let (key, truth) = spec.truth();
-    let top = |key: &str| Path::top("scene").then(key);
+    let is_displacement =
+        truth.is_some_and(|truth| truth.displacement.is_some() && truth.temperature.is_none());
+    let has_several_ends = spec.run.until.as_ref().is_some_and(|until| until.as_slice().len() > 1);
+    let (study, body) = ("a gradient study", "the body of a gradient study");
+    let (exact, step) =
+        ("the exact solution of a gradient study", "the time step of a gradient study");
     let refused = [
-        (!scene.bodies.is_empty(), top("bodies"), "a gradient study supports a single body only"),
-        (scene.outline.is_some(), top("body"), "the body of a gradient study must be a box"),
-        (
-            scene.plane != PlaneState::Strain,
-            top("plane"),
-            "a gradient study must be in plane strain",
-        ),
+        (!scene.bodies.is_empty(), "scene.bodies", study, "supports a single body only"),
+        (scene.outline.is_some(), "scene.body", body, "must be a box"),
+        (scene.plane != PlaneState::Strain, "scene.plane", study, "must be in plane strain"),
         (
             !scene.initial_displacement.is_empty(),
-            top("initial_displacement"),
-            "the body of a gradient study must start undeformed",
+            "scene.initial_displacement",
+            body,
+            "must start undeformed",
         ),
-        (
-            scene.density.uniform().is_none(),
-            top("material"),
-            "the body of a gradient study must have a uniform density",
-        ),
+        (scene.density.uniform().is_none(), "scene.material", body, "must have a uniform density"),
         (
             !scene.initial_stress.is_none(),
-            top("initial_stress"),
-            "the body of a gradient study must start without stress",
+            "scene.initial_stress",
+            body,
+            "must start without stress",
         ),
-        (
-            spec.run.until.as_ref().is_some_and(|until| until.as_slice().len() > 1),
-            Path::top("run").then("until"),
-            "a gradient study must have a single end time",
-        ),
-        (
-            spec.run.load_steps.is_some(),
-            Path::top("run").then("load_steps"),
-            "a gradient study does not support load steps",
-        ),
+        (has_several_ends, "run.until", study, "must have a single end time"),
+        (spec.run.load_steps.is_some(), "run.load_steps", study, "does not support load steps"),
         (
             spec.run.instants.is_some(),
-            Path::top("run").then("instants"),
-            "a gradient study uses the state at the end of the run only",
+            "run.instants",
+            study,
+            "uses the state at the end of the run only",
         ),
-        (
-            !truth.is_some_and(|truth| truth.displacement.is_some() && truth.temperature.is_none()),
-            Path::top(key),
-            "the exact solution of a gradient study must be a displacement",
-        ),
-        (
-            problem.refine.axis != Axis::Space,
-            Path::top("refine"),
-            "a gradient study must refine `cells`",
-        ),
-        (
-            problem.refine.rule.is_some(),
-            Path::top("run").then("dt"),
-            "the time step of a gradient study must not depend on the method",
-        ),
+        (!is_displacement, key, exact, "must be a displacement"),
+        (problem.refine.axis != Axis::Space, "refine", study, "must refine `cells`"),
+        (problem.refine.rule.is_some(), "run.dt", step, "must not depend on the method"),
     ];
-    refuse_first(&refused, |path, message| evaluator.diagnostic_at_key(path, message))
+    match refused.iter().find(|(applies, ..)| *applies) {
+        Some((_, path, subject, rule)) => {
+            Err(evaluator.top(path).diagnostic_at_key(&format!("{subject} {rule}")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Evaluates an index, which must be an integer from 0 to `count - 1`.
 fn index(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     text: &NumberText,
     what: &str,
     count: usize,
 ) -> Result<usize, Diagnostic> {
-    let value = evaluator.number(path, text)?;
+    let value = path.number(text)?;
     if value >= 0.0 && value.fract() == 0.0 && value < count as f64 {
         return Ok(value as usize);
     }
-    let diagnostic = evaluator.diagnostic(path, &format!("the {what} is {}", shown(value)));
+    let diagnostic = path.diagnostic(&format!("the {what} is {}", shown(value)));
     Err(diagnostic.with_label(&format!("expected a whole number from 0 to {}", count - 1)))
 }
 
@@ -141,10 +124,10 @@ fn functional(
     spec: &GradientSpec,
     problem: &ConvergencePlan,
 ) -> Result<Functional, Diagnostic> {
-    let path = Path::top("gradient").then("of");
+    let path = evaluator.top("gradient.of");
     let axis = |name: &str, text: &NumberText| {
         let count = problem.scene.dimension();
-        index(evaluator, &path.then(name).then("axis"), text, "axis", count)
+        index(&path.then(name).then("axis"), text, "axis", count)
     };
     Ok(match &spec.gradient.of {
         FunctionalSpec::MeanDisplacement { axis: text } => {
@@ -155,7 +138,7 @@ fn functional(
         FunctionalSpec::PositionOf { particle, axis: text } => {
             let count = coarsest_particles(problem);
             let at = path.then("position_of").then("particle");
-            let particle = index(evaluator, &at, particle, "index of the particle", count)?;
+            let particle = index(&at, particle, "index of the particle", count)?;
             Functional::PositionOf { particle, axis: axis("position_of", text)? }
         }
     })
@@ -176,10 +159,10 @@ fn parameters(
     spec: &GradientSpec,
     problem: &ConvergencePlan,
 ) -> Result<Vec<Differentiated>, Diagnostic> {
-    let path = Path::top("gradient").then("with_respect_to");
+    let path = evaluator.top("gradient.with_respect_to");
     let entries = spec.gradient.with_respect_to.as_slice();
     if entries.is_empty() {
-        let diagnostic = evaluator.diagnostic(&path, "`with_respect_to` names no parameter");
+        let diagnostic = path.diagnostic("`with_respect_to` names no parameter");
         return Err(diagnostic.with_help("write `with_respect_to: {young: E}`"));
     }
     let one = |(key, name): &(String, String)| {
@@ -188,10 +171,10 @@ fn parameters(
         let Some(parameter) = all.iter().find(|one| one.name() == key) else {
             let known: Vec<&str> = all.iter().map(|one| one.name()).collect();
             let message = format!("`{key}` is not a parameter of the problem");
-            let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+            let diagnostic = path.diagnostic_at_key(&message);
             return Err(diagnostic.with_help(&suggestion("parameters", key, &known)));
         };
-        differentiated(evaluator, source, spec, problem, &path, *parameter, name)
+        differentiated(&path, source, spec, problem, *parameter, name)
     };
     let all = entries.iter().map(one).collect::<Result<Vec<Differentiated>, Diagnostic>>()?;
     let has_velocity = all.iter().any(|one| one.parameter == GradientParameter::InitialVelocity);
@@ -202,7 +185,7 @@ fn parameters(
         Some(one) if !has_velocity => {
             let name = &one.name;
             let message = format!("the initial velocity depends on `{name}`");
-            let diagnostic = evaluator.diagnostic(&path.then(one.parameter.name()), &message);
+            let diagnostic = path.then(one.parameter.name()).diagnostic(&message);
             Err(diagnostic.with_help("add `initial_velocity` to `with_respect_to`"))
         }
         _ => Ok(all),
@@ -211,11 +194,10 @@ fn parameters(
 
 /// Returns the problem parameter that the suite parameter `name` sets.
 fn differentiated(
-    evaluator: &Evaluator<'_>,
+    path: &SuitePath<'_>,
     source: &Source,
     spec: &GradientSpec,
     problem: &ConvergencePlan,
-    path: &Path,
     parameter: GradientParameter,
     name: &String,
 ) -> Result<Differentiated, Diagnostic> {
@@ -223,24 +205,22 @@ fn differentiated(
     if spec.parameters.get(name).is_none() {
         let known: Vec<&str> = declared.iter().map(|(name, _)| name.as_str()).collect();
         let message = format!("`{name}` is not a parameter of this suite");
-        let diagnostic = evaluator.diagnostic(path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_help(&suggestion("parameters", name, &known)));
     }
-    let value = evaluator.number(path, &NumberText::Formula(name.clone()))?;
+    let value = path.number(&NumberText::Formula(name.clone()))?;
     if value == 0.0 {
         let message = format!("`{name}` is 0, but perturbations are relative to its value");
-        return Err(evaluator
-            .diagnostic(path, &message)
-            .with_label("expected a value other than 0"));
+        return Err(path.diagnostic(&message).with_label("expected a value other than 0"));
     }
-    let motion = motion(evaluator, spec, problem, name, value)?;
+    let motion = motion(path.evaluator, spec, problem, name, value)?;
     let factor = motion.velocity_factor().ok_or_else(|| {
-        let message = format!("the shape of the initial velocity depends on `{name}`");
-        evaluator.diagnostic(path, &message)
+        path.diagnostic(&format!("the shape of the initial velocity depends on `{name}`"))
     })?;
     if spec.equilibrium.is_none() && !motion.starts_at_rest_position() {
         let message = "the body of a gradient study must start undeformed";
-        return Err(evaluator.diagnostic_at_key(&Path::top("exact").then("displacement"), message));
+        let path = path.evaluator.top("exact.displacement");
+        return Err(path.diagnostic_at_key(message));
     }
     let growth = factor * value;
     let other = value * (1.0 + CHANGE);
@@ -258,7 +238,7 @@ fn differentiated(
             }
             _ => format!("write `{key}: {name}` in the scene"),
         };
-        return Err(evaluator.diagnostic(path, &message).with_help(&help));
+        return Err(path.diagnostic(&message).with_help(&help));
     }
     let solver =
         MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
@@ -267,8 +247,7 @@ fn differentiated(
     };
     with_value(source, spec, name, other, check).map_err(|error| {
         let reason = error.message();
-        let message = format!("the suite is not valid for {name} = {}: {reason}", shown(other));
-        evaluator.diagnostic(path, &message)
+        path.diagnostic(&format!("the suite is not valid for {name} = {}: {reason}", shown(other)))
     })?;
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
@@ -316,12 +295,12 @@ fn motion(
 ) -> Result<ParametricMotion, Diagnostic> {
     let free = evaluator.with_free(name, &spec.parameters, &spec.functions)?;
     let (key, truth) = spec.truth();
-    let path = Path::top(key).then("displacement");
+    let path = free.top(key).then("displacement");
     let mut variables = coordinates_and_time(problem.scene.dimension());
     variables.push(name);
     let texts = truth.and_then(|truth| truth.displacement.as_ref());
     let texts = texts.into_iter().flatten().enumerate();
-    let formulas = texts.map(|(i, text)| free.formula(&path.then(i), text, &variables));
+    let formulas = texts.map(|(i, text)| path.then(i).formula(text, &variables));
     Ok(ParametricMotion {
         from: problem.scene.from.clone(),
         to: problem.scene.to.clone(),
@@ -338,11 +317,11 @@ fn level(
 ) -> Result<usize, Diagnostic> {
     let levels = &problem.refine.levels[..problem.refine.usual];
     let Some(text) = &spec.gradient.cells else { return Ok(levels.len().saturating_sub(1)) };
-    let path = Path::top("gradient").then("cells");
-    let cells = evaluator.count(&path, text, "the number of cells")?;
+    let path = evaluator.top("gradient.cells");
+    let cells = path.count(text, "the number of cells")?;
     levels.iter().position(|level| level.cells == cells).ok_or_else(|| {
         let known: Vec<String> = levels.iter().map(|level| level.cells.to_string()).collect();
-        let diagnostic = evaluator.diagnostic(&path, &format!("no level has {cells} cells"));
+        let diagnostic = path.diagnostic(&format!("no level has {cells} cells"));
         diagnostic.with_label(&format!("expected one of {}", known.join(", ")))
     })
 }
@@ -353,24 +332,24 @@ fn sweep(
     parameters: &[Differentiated],
 ) -> Result<Option<SweepPlan>, Diagnostic> {
     let Some(sweep) = &spec.gradient.sweep else { return Ok(None) };
-    let path = Path::top("gradient").then("sweep");
+    let path = evaluator.top("gradient.sweep");
     let found = parameters.iter().find(|one| one.parameter.name() == sweep.parameter);
     let Some(parameter) = found.map(|one| one.parameter) else {
         let known: Vec<&str> = parameters.iter().map(|one| one.parameter.name()).collect();
         let message = format!("`{}` is not among `with_respect_to`", sweep.parameter);
-        let diagnostic = evaluator.diagnostic(&path.then("parameter"), &message);
+        let diagnostic = path.then("parameter").diagnostic(&message);
         return Err(diagnostic.with_help(&suggestion("parameters", &sweep.parameter, &known)));
     };
     let at = path.then("within");
-    let within = evaluator.positive(&at, &sweep.within, "half of the interval")?;
+    let within = at.positive(&sweep.within, "half of the interval")?;
     if !(within < 1.0) {
         let message = format!("half of the interval is {} of the parameter", shown(within));
-        return Err(evaluator.diagnostic(&at, &message).with_label("expected a share below 1"));
+        return Err(at.diagnostic(&message).with_label("expected a share below 1"));
     }
     let at = path.then("points");
-    let points = evaluator.count(&at, &sweep.points, "the number of points")?;
+    let points = at.count(&sweep.points, "the number of points")?;
     if !(2..=MOST_POINTS).contains(&points) {
-        let diagnostic = evaluator.diagnostic(&at, &format!("a sweep of {points} points"));
+        let diagnostic = at.diagnostic(&format!("a sweep of {points} points"));
         return Err(diagnostic.with_label(&format!("expected 2 to {MOST_POINTS}")));
     }
     Ok(Some(SweepPlan { parameter, within, points }))
@@ -400,13 +379,13 @@ fn terms(
     entry: usize,
     spec: &GradientExpectSpec,
 ) -> Result<(GradientTerms, String), Diagnostic> {
-    let path = Path::top("expect").then(entry);
-    let order = spec.order.as_ref().map(|pair| evaluator.interval(&path.then("order"), pair));
+    let path = evaluator.top("expect").then(entry);
+    let order = spec.order.as_ref().map(|pair| path.then("order").interval(pair));
     let order = order.transpose()?;
     if spec.state.is_none() && order.is_none() {
-        let diagnostic = evaluator.diagnostic(&path, "this expectation is empty");
+        let diagnostic = path.diagnostic("this expectation is empty");
         return Err(diagnostic.with_label("expected `state`, `order`, or both"));
     }
-    let because = evaluator.because(&path, "this expectation", &spec.because)?;
+    let because = path.because("this expectation", &spec.because)?;
     Ok((GradientTerms { state: spec.state, order, finest: None }, because))
 }

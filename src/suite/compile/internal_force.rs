@@ -6,10 +6,10 @@
 
 use super::expect::assign;
 use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::ForceRow;
 
 /// Number of full cells on each side of the node: enough to keep wide basis functions away from the
@@ -26,26 +26,22 @@ pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
     spec: &InternalForceSpec,
 ) -> Result<ForcePlan, Diagnostic> {
-    let path = Path::top("internal_force");
+    let path = evaluator.top("internal_force");
     let force = &spec.internal_force;
     let plan = ForcePlan {
-        cell: evaluator.positive(&path.then("cell"), &force.cell, "the cell size")?,
-        ppc: evaluator.count(&path.then("ppc"), &force.ppc, "the number of particles per cell")?,
-        volume: evaluator.positive(&path.then("volume"), &force.volume, "a particle's volume")?,
-        stress: evaluator.number(&path.then("stress"), &force.stress)?,
-        positions: evaluator.count(
-            &path.then("positions"),
-            &force.positions,
-            "the number of positions",
-        )?,
-        prediction: evaluator.formula(&path.then("prediction"), &force.prediction, &VARIABLES)?,
+        cell: path.then("cell").positive(&force.cell, "the cell size")?,
+        ppc: path.then("ppc").count(&force.ppc, "the number of particles per cell")?,
+        volume: path.then("volume").positive(&force.volume, "a particle's volume")?,
+        stress: path.then("stress").number(&force.stress)?,
+        positions: path.then("positions").count(&force.positions, "the number of positions")?,
+        prediction: path.then("prediction").formula(&force.prediction, &VARIABLES)?,
         cases: Vec::new(),
     };
     if plan.ppc.saturating_mul(plan.positions) > MOST_SUMMANDS {
         let (ppc, positions) = (plan.ppc, plan.positions);
         let message = format!("{positions} positions with {ppc} particles per cell each");
         let label = format!("expected at most {MOST_SUMMANDS} particles over all positions");
-        return Err(evaluator.diagnostic(&path.then("positions"), &message).with_label(&label));
+        return Err(path.then("positions").diagnostic(&message).with_label(&label));
     }
     Ok(ForcePlan { cases: cases(evaluator, spec)?, ..plan })
 }
@@ -57,24 +53,24 @@ fn cases(
     let bases = |ForceMethodSpec::Mpm { basis }: &ForceMethodSpec| basis.as_slice().to_vec();
     let bases: Vec<BasisName> = spec.methods.iter().flat_map(bases).collect();
     if bases.is_empty() {
-        let path = Path::top("methods");
-        return Err(evaluator.diagnostic(&path, "the suite has no cases: `methods` is empty"));
+        let path = evaluator.top("methods");
+        return Err(path.diagnostic("the suite has no cases: `methods` is empty"));
     }
     let names: Vec<String> =
         bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         let message = format!("the case `{}` appears twice", twice.1);
-        return Err(evaluator.diagnostic(&Path::top("methods"), &message));
+        return Err(evaluator.top("methods").diagnostic(&message));
     }
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, &str), Option<usize>)| {
         let (name, mut expected, mut because) = (name.to_owned(), None, String::new());
         if let Some(owner) = owner {
-            let (path, spec) = (Path::top("expect").then(owner), &spec.expect[owner]);
-            expected = Some(expectation(evaluator, &path, spec)?);
-            because = evaluator.because(&path, "this expectation", &spec.because)?;
+            let (path, spec) = (evaluator.top("expect").then(owner), &spec.expect[owner]);
+            expected = Some(expectation(&path, spec)?);
+            because = path.because("this expectation", &spec.because)?;
         }
         Ok(ForceCase { name, basis, expected, because })
     };
@@ -82,16 +78,15 @@ fn cases(
 }
 
 fn expectation(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ForceExpectSpec,
 ) -> Result<ForceExpectation, Diagnostic> {
-    let share = |key: &str, text| evaluator.positive(&path.then(key), text, "the share");
+    let share = |key: &str, text| path.then(key).positive(text, "the share");
     match (&spec.agrees_within, &spec.steps_below) {
         (Some(text), None) => share("agrees_within", text).map(ForceExpectation::AgreesWithin),
         (None, Some(text)) => share("steps_below", text).map(ForceExpectation::StepsBelow),
-        _ => Err(evaluator
-            .diagnostic(path, "this expectation must state exactly one bound")
+        _ => Err(path
+            .diagnostic("this expectation must state exactly one bound")
             .with_label("expected either `agrees_within` or `steps_below`")),
     }
 }

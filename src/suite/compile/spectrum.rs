@@ -7,14 +7,14 @@ use crate::suite::compile::check::refuse_first;
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::compile::scene;
-use crate::suite::evaluator::{Evaluator, coordinates_and_time, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, coordinates_and_time, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, SpectrumExpectSpec, SpectrumSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::suite::scene::cell_size;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{AMPLITUDE, SpectrumExpectation, steps_of_run};
 use std::f64::consts::TAU;
 
@@ -43,20 +43,20 @@ pub(crate) fn plan(
 ) -> Result<SpectrumPlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
     refuse_unfit_scene(evaluator, &scene)?;
-    let path = Path::top("particles");
+    let path = evaluator.top("particles");
     let at = path.then("cells");
-    let cells = evaluator.count(&at, &spec.particles.cells, "the number of cells")?;
+    let cells = at.count(&spec.particles.cells, "the number of cells")?;
     let ppc_at = path.then("ppc");
-    let ppc = evaluator.count(&ppc_at, &spec.particles.ppc, "the number of particles per cell")?;
+    let ppc = ppc_at.count(&spec.particles.ppc, "the number of particles per cell")?;
     if ppc > MOST_PPC {
-        let diagnostic = evaluator.diagnostic(&ppc_at, &format!("{ppc} particles per cell"));
+        let diagnostic = ppc_at.diagnostic(&format!("{ppc} particles per cell"));
         return Err(diagnostic.with_label(&format!("expected at most {MOST_PPC}")));
     }
     let h = cell_size(&scene, cells);
     let level = LevelPlan { cells, h, dt: 0.0, ppc: Some(ppc) };
     if let Some((what, amount)) = level.too_large(&scene) {
         let message = format!("{cells} cells make {amount:.1e} {what}");
-        return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
+        return Err(at.diagnostic(&message).with_label("expected fewer"));
     }
     let shift = shift(evaluator, spec, h / ppc as f64)?;
     let waves = waves(evaluator, spec, &scene, cells, h)?;
@@ -70,45 +70,44 @@ pub(crate) fn plan(
     Ok(plan)
 }
 
-fn needs(evaluator: &Evaluator<'_>, path: &Path, property: &str) -> Diagnostic {
-    evaluator.diagnostic(path, &format!("a spectrum study needs {property}"))
+fn needs(path: &SuitePath<'_>, property: &str) -> Diagnostic {
+    path.diagnostic(&format!("a spectrum study needs {property}"))
 }
 
 /// Refuses a scene that is not a periodic row of a linear elastic body at rest.
 fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
-    let top = |key: &str| Path::top("scene").then(key);
     let fills = scene.grid.as_ref().is_none_or(|(from, to)| *from == scene.from && *to == scene.to);
     let is_linear = matches!(scene.material, MaterialPlan::LinearElastic { .. });
     let is_periodic = scene.faces.iter().all(|face| face.hold.is_periodic());
     // Without the key `boundary`, all faces are free.
     let is_free = scene.faces.iter().all(|face| face.hold.is_free());
-    let boundary = if is_free { Path::top("scene") } else { top("boundary") };
+    let boundary = if is_free { "scene" } else { "scene.boundary" };
     let starts_at_rest = scene.initial_displacement.is_empty() && scene.initial_velocity.is_empty();
     let refused = [
-        (scene.dimension() != 1, top("dimension"), "one dimension"),
-        (!scene.bodies.is_empty(), top("bodies"), "one body"),
-        (!is_linear, top("material"), "a linear law: `linear_elastic`"),
+        (scene.dimension() != 1, "scene.dimension", "one dimension"),
+        (!scene.bodies.is_empty(), "scene.bodies", "one body"),
+        (!is_linear, "scene.material", "a linear law: `linear_elastic`"),
         (!is_periodic, boundary, "periodic faces: `{left: periodic, right: periodic}`"),
-        (!fills, top("grid"), "a body that fills the grid"),
-        (!scene.loads.is_empty(), top("loads"), "a body without loads"),
-        (!scene.initial_stress.is_none(), top("initial_stress"), "a body without stress"),
-        (!starts_at_rest, Path::top("scene"), "a body at rest, whose wave the study starts"),
+        (!fills, "scene.grid", "a body that fills the grid"),
+        (!scene.loads.is_empty(), "scene.loads", "a body without loads"),
+        (!scene.initial_stress.is_none(), "scene.initial_stress", "a body without stress"),
+        (!starts_at_rest, "scene", "a body at rest, whose wave the study starts"),
     ];
-    refuse_first(&refused, |path, property| needs(evaluator, path, property))
+    refuse_first(evaluator, &refused, needs)
 }
 
 /// Compiles the translation of the particles (m). The translation must keep every particle in its
 /// cell.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
-    let path = Path::top("particles").then("shift");
-    let shift = evaluator.point(&path, texts, 1)?.iter().sum::<f64>();
+    let path = evaluator.top("particles.shift");
+    let shift = path.point(texts, 1)?.iter().sum::<f64>();
     if shift.abs() < 0.5 * spacing {
         return Ok(shift);
     }
     let message = format!("particles {} m apart are shifted by {} m", shown(spacing), shown(shift));
     let label = "expected less than half of their distance";
-    Err(evaluator.diagnostic(&path, &message).with_label(label))
+    Err(path.diagnostic(&message).with_label(label))
 }
 
 fn waves(
@@ -118,37 +117,37 @@ fn waves(
     cells: u64,
     h: f64,
 ) -> Result<Vec<Wave>, Diagnostic> {
-    let path = Path::top("spectrum");
+    let path = evaluator.top("spectrum");
     let lengths = path.then("cells_per_wavelength");
     let listed = &spec.spectrum.cells_per_wavelength;
     let courants = &spec.spectrum.courant;
     if listed.as_slice().len().saturating_mul(courants.as_slice().len()) > MOST {
-        let diagnostic = evaluator.diagnostic(&path, "too many waves");
+        let diagnostic = path.diagnostic("too many waves");
         return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
     }
     let mut waves = Vec::new();
     for (i, text) in listed.as_slice().iter().enumerate() {
         let at = lengths.alternative(listed, i);
-        let length = evaluator.number(&at, text)?;
+        let length = at.number(text)?;
         if !(length >= 2.0) {
             let label = format!("the wavelength is {}", shown(length));
-            return Err(needs(evaluator, &at, "at least 2 cells per wavelength").with_label(&label));
+            return Err(needs(&at, "at least 2 cells per wavelength").with_label(&label));
         }
         let periods = cells as f64 / length;
         if !((periods - libm::round(periods)).abs() <= ROUNDING && periods >= 0.5) {
             let label = format!("the row of {cells} cells has {} wavelengths", shown(periods));
             let property = "a whole number of wavelengths in the row of cells";
-            return Err(needs(evaluator, &at, property).with_label(&label));
+            return Err(needs(&at, property).with_label(&label));
         }
-        let velocity = velocity(evaluator, &at, scene, length * h)?;
+        let velocity = velocity(&at, scene, length * h)?;
         for (k, text) in courants.as_slice().iter().enumerate() {
             let at = path.then("courant").alternative(courants, k);
-            let courant = evaluator.positive(&at, text, "the Courant number")?;
+            let courant = at.positive(text, "the Courant number")?;
             let steps = steps_of_run(length, courant, None) as f64;
             if !(steps <= MOST_STEPS) {
                 let message = format!("a wave of {} cells needs {steps:.1e} steps", shown(length));
                 let label = format!("expected a Courant number for at most {MOST_STEPS:.0e} steps");
-                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+                return Err(at.diagnostic(&message).with_label(&label));
             }
             waves.push(Wave { cells: length, courant, velocity: velocity.clone() });
         }
@@ -157,15 +156,10 @@ fn waves(
 }
 
 /// Returns the initial velocity (m/s) of a standing wave of this `length` (m).
-fn velocity(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-    length: f64,
-) -> Result<Formula, Diagnostic> {
+fn velocity(path: &SuitePath<'_>, scene: &Scene, length: f64) -> Result<Formula, Diagnostic> {
     let (size, k, from) = (AMPLITUDE * scene.wave_speed(), TAU / length, scene.from[0]);
     let text = NumberText::Formula(format!("{size:e}*sin({k:e}*(X - ({from:e})))"));
-    evaluator.formula(path, &text, &coordinates_and_time(1))
+    path.formula(&text, &coordinates_and_time(1))
 }
 
 /// Compiles the cases, one for each combination of the list values in `methods`.
@@ -176,14 +170,14 @@ fn cases(
 ) -> Result<Vec<SpectrumCase>, Diagnostic> {
     for (i, spec) in spec.methods.iter().enumerate() {
         if !matches!(spec, MethodSpec::Mpm { .. }) || spec.is_quasi_static() {
-            let path = Path::top("methods").then(i);
+            let path = evaluator.top("methods").then(i);
             let help = "an external solver takes part with `run SUITE --solver COMMAND`";
-            return Err(needs(evaluator, &path, "methods of MPM in time").with_help(help));
+            return Err(needs(&path, "methods of MPM in time").with_help(help));
         }
     }
     let limit = CaseLimit { most: MOST, of_each_method: 1 };
     let named = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
-    let curves = named.iter().map(|named| curve(evaluator, &named.path(), named.method, plan));
+    let curves = named.iter().map(|named| curve(&named.path(evaluator), named.method, plan));
     let curves = curves.collect::<Result<Vec<_>, Diagnostic>>()?;
     let names: Vec<&str> = named.iter().map(|named| named.name.as_str()).collect();
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
@@ -200,31 +194,30 @@ fn cases(
 }
 
 fn curve(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     method: Method,
     plan: &SpectrumPlan,
 ) -> Result<WaveMethod, Diagnostic> {
     let at = path.then("mpm");
     if method.is_single_precision() {
         let property = "double precision, because the wave is small";
-        return Err(needs(evaluator, &at.then("precision"), property));
+        return Err(needs(&at.then("precision"), property));
     }
     let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
-        return Err(needs(evaluator, path, "methods of MPM in time"));
+        return Err(needs(path, "methods of MPM in time"));
     };
     combine(basis, transfer, mass, frame).map_err(|reason| {
         let help = "list compatible settings in separate entries of `methods`";
-        evaluator.diagnostic(path, &reason.to_string()).with_help(help)
+        path.diagnostic(&reason.to_string()).with_help(help)
     })?;
     if volume == VolumeName::Averaged {
         let property = "the volume ratio of each particle: `volume: particle`";
-        return Err(needs(evaluator, &at.then("volume"), property));
+        return Err(needs(&at.then("volume"), property));
     }
     let Some(transfer) = WaveTransfer::of(transfer, mass) else {
         let (name, mass) = (transfer.name(), mass.name());
         let message = format!("`{name}` with a {mass} mass matrix has none");
-        let diagnostic = needs(evaluator, &at.then("transfer"), "a transfer with a closed form");
+        let diagnostic = needs(&at.then("transfer"), "a transfer with a closed form");
         return Err(diagnostic.with_label(&message));
     };
     let ppc = plan.ppc as u32;
@@ -237,18 +230,18 @@ fn expectation(
     i: usize,
     spec: &SpectrumExpectSpec,
 ) -> Result<(SpectrumExpectation, String), Diagnostic> {
-    let path = Path::top("expect").then(i);
+    let path = evaluator.top("expect").then(i);
     let share = |key: &str, text: &Option<NumberText>| {
         let at = path.then(key);
-        text.as_ref().map(|text| evaluator.positive(&at, text, "the deviation")).transpose()
+        text.as_ref().map(|text| at.positive(text, "the deviation")).transpose()
     };
     let phase_within = share("phase_within", &spec.phase_within)?;
     let damping_within = share("damping_within", &spec.damping_within)?;
     if phase_within.is_none() && damping_within.is_none() {
-        let diagnostic = evaluator.diagnostic(&path, "this expectation is empty");
+        let diagnostic = path.diagnostic("this expectation is empty");
         return Err(diagnostic.with_label("expected `phase_within` or `damping_within`"));
     }
-    let because = evaluator.because(&path, "this expectation", &spec.because)?;
+    let because = path.because("this expectation", &spec.because)?;
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
@@ -260,8 +253,8 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     else {
         return Ok(());
     };
-    let path = Path::top("spectrum").then("solvers").then(solver.as_str());
-    let diagnostic = evaluator.diagnostic(&path, &format!("there is no case `{case}`"));
+    let path = evaluator.top("spectrum.solvers").then(solver.as_str());
+    let diagnostic = path.diagnostic(&format!("there is no case `{case}`"));
     Err(diagnostic.with_help(&suggestion("cases", case, &names)))
 }
 
@@ -274,7 +267,7 @@ fn refuse_unfit_waves(
     case: &SpectrumCase,
 ) -> Result<(), Diagnostic> {
     let (Some(curve), Some(limit)) = (&case.curve, case.limit) else { return Ok(()) };
-    let path = Path::top("spectrum");
+    let path = evaluator.top("spectrum");
     let (listed, courants) = (&spec.spectrum.cells_per_wavelength, &spec.spectrum.courant);
     for (i, wave) in plan.waves.iter().enumerate() {
         let (length, k) = (i / courants.as_slice().len(), i % courants.as_slice().len());
@@ -284,7 +277,7 @@ fn refuse_unfit_waves(
             let property = "a wave that the grid represents";
             let label =
                 format!("the symbol s of the mass of `{}` is 0 at {} cells", case.name, wave.cells);
-            return Err(needs(evaluator, &at, property).with_label(&label));
+            return Err(needs(&at, property).with_label(&label));
         }
         if !matches!(curve.spline, Spline::Quadratic) && wave.cells < 2.0 + ROUNDING {
             let at = path.then("cells_per_wavelength").alternative(listed, length);
@@ -293,19 +286,19 @@ fn refuse_unfit_waves(
                 "the nodes of `{}` are on cell faces, where a sine of 2 cells is 0",
                 case.name
             );
-            return Err(needs(evaluator, &at, property).with_label(&label));
+            return Err(needs(&at, property).with_label(&label));
         }
         if matches!(curve.transfer, WaveTransfer::Tpic)
             && !(symbols.taylor[1].abs() <= LARGEST_ASYMMETRY)
         {
             let property = "particles that are symmetric in their cells for `tpic`";
-            return Err(needs(evaluator, &Path::top("particles").then("shift"), property));
+            return Err(needs(&evaluator.top("particles.shift"), property));
         }
         if !(wave.courant < limit) {
             let at = path.then("courant").alternative(courants, k);
             let label = format!("the limit of `{}` is {limit:.4}", case.name);
             let property = "a Courant number below the stability limit";
-            return Err(needs(evaluator, &at, property).with_label(&label));
+            return Err(needs(&at, property).with_label(&label));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, SuiteSpec};
 use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{Scene, Suite};
-use crate::suite::yaml::{Diagnostic, NumberText, Path, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Source};
 
 /// Creates a suite from its keys and the study that an expression compiles. Group and fingerprint
 /// are set by [`Suite::load`] only: changed copies of a study have none.
@@ -114,6 +114,6 @@ fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Dia
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {
         return Ok(());
     }
-    let diagnostic = evaluator.diagnostic(&Path::top("suite"), "this is not a name for a suite");
+    let diagnostic = evaluator.top("suite").diagnostic("this is not a name for a suite");
     Err(diagnostic.with_label("expected lower-case letters, digits and hyphens, at most 64"))
 }

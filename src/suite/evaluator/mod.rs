@@ -5,7 +5,8 @@ mod names;
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
 use crate::nearest::nearest;
 use crate::suite::yaml::{
-    Diagnostic, InPlaceOfNumber, NumberOr, NumberText, Ordered, Path, Place, Source, Step,
+    Diagnostic, InPlaceOfNumber, NumberOr, NumberText, OneOrMany, Ordered, Path, Place, Source,
+    Step,
 };
 use serde::Deserialize;
 use std::cell::RefCell;
@@ -78,91 +79,55 @@ impl<'a> Evaluator<'a> {
         }
         let mut values = Vec::new();
         for (name, spec) in parameters.as_slice() {
-            let path = Path::top("parameters").then(name.as_str());
             let (text, value) = match spec {
                 ParameterSpec::Number(text) => {
-                    let value = evaluator.number(&path, text)?;
+                    let value = evaluator.parameter(name).number(text)?;
                     let declared = evaluator.scope.constant(name, value);
-                    declared.map_err(|error| evaluator.at_key(&path, &error))?;
+                    declared.map_err(|error| evaluator.parameter(name).at_key(&error))?;
                     (text.to_string(), Some(value))
                 }
-                ParameterSpec::Map(spec) => evaluator.declare_table(&path, name, spec)?,
+                ParameterSpec::Map(spec) => evaluator.declare_table(name, spec)?,
             };
             values.push((name.clone(), text, value));
         }
         Ok((evaluator, values))
     }
 
+    /// Returns the place of a value, given by its keys from the top of the file, such as `run.dt`.
+    pub(crate) fn top(&self, keys: &str) -> SuitePath<'_> {
+        SuitePath { evaluator: self, path: Path::top(keys) }
+    }
+
+    fn function(&self, head: &str) -> SuitePath<'_> {
+        self.top("functions").then(head)
+    }
+
+    /// Returns the place of the parameter `name`.
+    pub(super) fn parameter(&self, name: &str) -> SuitePath<'_> {
+        self.top("parameters").then(name)
+    }
+
     /// Declares a function, such as `s(tau): "..."` with one argument.
     fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
-        let path = Path::top("functions").then(head);
+        let help = "write the name and its arguments: `s(tau)`";
         let (name, arguments) = head
             .split_once('(')
             .and_then(|(name, rest)| Some((name.trim(), rest.trim_end().strip_suffix(')')?)))
             .ok_or_else(|| {
-                self.diagnostic_at_key(&path, &format!("`{head}` is not a function declaration"))
-                    .with_help("write the name and its arguments: `s(tau)`")
+                let message = format!("`{head}` is not a function declaration");
+                self.function(head).diagnostic_at_key(&message).with_help(help)
             })?;
         let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
         if name.is_empty() || arguments.iter().any(String::is_empty) {
             let message = format!("`{head}` lacks a name or an argument");
-            let diagnostic = self.diagnostic_at_key(&path, &message);
-            return Err(diagnostic.with_help("write the name and its arguments: `s(tau)`"));
+            return Err(self.function(head).diagnostic_at_key(&message).with_help(help));
         }
-        let body = Expr::parse(body).map_err(|error| self.in_text(&path, &error))?;
+        let body = Expr::parse(body).map_err(|error| self.function(head).in_text(&error))?;
         let declared = self.scope.function(name, &arguments, body);
         declared.map_err(|error| match error.within {
-            Some(_) => self.in_text(&path, &error),
-            None => self.at_key(&path, &error),
+            Some(_) => self.function(head).in_text(&error),
+            None => self.function(head).at_key(&error),
         })
-    }
-
-    /// Parses a formula of the given `variables` and of declared names.
-    pub(crate) fn formula(
-        &self,
-        path: &Path,
-        text: &NumberText,
-        variables: &[&str],
-    ) -> Result<Formula, Diagnostic> {
-        self.refuse_taken(variables)?;
-        let bound = bind(text, &self.scope, variables);
-        let formula = bound.map_err(|error| self.in_text(path, &error))?;
-        self.used.borrow_mut().extend(formula.uses().iter().cloned());
-        Ok(formula)
-    }
-
-    /// Parses `dimension` formulas, one for each component.
-    pub(crate) fn vector(
-        &self,
-        path: &Path,
-        texts: &[NumberText],
-        dimension: usize,
-        variables: &[&str],
-    ) -> Result<Vec<Formula>, Diagnostic> {
-        if texts.len() != dimension {
-            let (got, d) = (texts.len(), dimension);
-            let message = format!("{got} components in a scene of dimension {d}");
-            return Err(self.diagnostic(path, &message).with_label(&format!("expected {d}")));
-        }
-        let bind = |(i, text): (usize, &NumberText)| {
-            let path = path.then(i);
-            let formula = self.formula(&path, text, variables)?;
-            match formula.constant() {
-                Some(value) if !value.is_finite() => Err(self.not_finite(&path, text, value)),
-                _ => Ok(formula),
-            }
-        };
-        texts.iter().enumerate().map(bind).collect()
-    }
-
-    /// Evaluates a finite number, or a formula of parameters.
-    pub(crate) fn number(&self, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
-        let formula = self.formula(path, text, &[])?;
-        let value = formula.constant().unwrap_or(f64::NAN);
-        if value.is_finite() {
-            return Ok(value);
-        }
-        Err(self.not_finite(path, text, value))
     }
 
     /// Whether `text` cannot be a number because it depends on a coordinate.
@@ -170,115 +135,161 @@ impl<'a> Evaluator<'a> {
         let unknown = bind(text, &self.scope, &[]).err().and_then(|error| error.unknown);
         unknown.is_some_and(|name| COORDINATES.contains(&name.as_str()))
     }
+}
 
-    pub(crate) fn positive(
+/// Place of a value in a suite file. Its methods evaluate the text of the value, or create
+/// diagnostics at this place.
+#[derive(Clone)]
+pub(crate) struct SuitePath<'a> {
+    pub(crate) evaluator: &'a Evaluator<'a>,
+    path: Path,
+}
+
+impl SuitePath<'_> {
+    pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
+        Self { path: self.path.then(step), ..*self }
+    }
+
+    /// Returns the place of value number `i` if the setting at this place is a list of
+    /// `alternatives`, and otherwise this place.
+    pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
+        if alternatives.is_listed() { self.then(i) } else { self.clone() }
+    }
+
+    /// Parses a formula of the given `variables` and of declared names.
+    pub(crate) fn formula(
         &self,
-        path: &Path,
         text: &NumberText,
-        what: &str,
-    ) -> Result<f64, Diagnostic> {
-        let value = self.number(path, text)?;
+        variables: &[&str],
+    ) -> Result<Formula, Diagnostic> {
+        self.evaluator.refuse_taken(variables)?;
+        let bound = bind(text, &self.evaluator.scope, variables);
+        let formula = bound.map_err(|error| self.in_text(&error))?;
+        self.evaluator.used.borrow_mut().extend(formula.uses().iter().cloned());
+        Ok(formula)
+    }
+
+    /// Parses `dimension` formulas, one for each component.
+    pub(crate) fn vector(
+        &self,
+        texts: &[NumberText],
+        dimension: usize,
+        variables: &[&str],
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        if texts.len() != dimension {
+            let (got, d) = (texts.len(), dimension);
+            let message = format!("{got} components in a scene of dimension {d}");
+            return Err(self.diagnostic(&message).with_label(&format!("expected {d}")));
+        }
+        let bind = |(i, text): (usize, &NumberText)| {
+            let path = self.then(i);
+            let formula = path.formula(text, variables)?;
+            match formula.constant() {
+                Some(value) if !value.is_finite() => Err(path.not_finite(text, value)),
+                _ => Ok(formula),
+            }
+        };
+        texts.iter().enumerate().map(bind).collect()
+    }
+
+    /// Evaluates a finite number, or a formula of parameters.
+    pub(crate) fn number(&self, text: &NumberText) -> Result<f64, Diagnostic> {
+        let value = self.formula(text, &[])?.constant().unwrap_or(f64::NAN);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        Err(self.not_finite(text, value))
+    }
+
+    pub(crate) fn positive(&self, text: &NumberText, what: &str) -> Result<f64, Diagnostic> {
+        let value = self.number(text)?;
         if value > 0.0 {
             return Ok(value);
         }
         let message = format!("{what} is {}, but must be above zero", shown(value));
-        Err(self.unusable(path, text, &message, "expected a positive number"))
+        Err(self.unusable(text, &message, "expected a positive number"))
     }
 
-    pub(crate) fn count(
-        &self,
-        path: &Path,
-        text: &NumberText,
-        what: &str,
-    ) -> Result<u64, Diagnostic> {
-        self.count_up_to(MOST, path, text, what)
+    pub(crate) fn count(&self, text: &NumberText, what: &str) -> Result<u64, Diagnostic> {
+        self.count_up_to(MOST, text, what)
     }
 
     pub(crate) fn count_up_to(
         &self,
         most: f64,
-        path: &Path,
         text: &NumberText,
         what: &str,
     ) -> Result<u64, Diagnostic> {
-        let value = self.number(path, text)?;
+        let value = self.number(text)?;
         if (1.0..=most).contains(&value) && value.fract() == 0.0 {
             return Ok(value as u64);
         }
         let message = format!("{what} is {}", shown(value));
         let label = format!("expected a whole number from 1 to {most:e}");
-        Err(self.unusable(path, text, &message, &label))
+        Err(self.unusable(text, &message, &label))
     }
 
     pub(crate) fn point(
         &self,
-        path: &Path,
         texts: &[NumberText],
         dimension: usize,
     ) -> Result<Vec<f64>, Diagnostic> {
-        self.vector(path, texts, dimension, &[])?;
-        texts.iter().enumerate().map(|(i, text)| self.number(&path.then(i), text)).collect()
+        self.vector(texts, dimension, &[])?;
+        texts.iter().enumerate().map(|(i, text)| self.then(i).number(text)).collect()
     }
 
     /// Evaluates both ends of an interval, the lower end first.
-    pub(crate) fn interval(
-        &self,
-        path: &Path,
-        pair: &[NumberText],
-    ) -> Result<(f64, f64), Diagnostic> {
+    pub(crate) fn interval(&self, pair: &[NumberText]) -> Result<(f64, f64), Diagnostic> {
+        let label = "expected [low, high]";
         let [low, high] = pair else {
-            let diagnostic = self.diagnostic(path, "an interval has two ends");
-            return Err(diagnostic.with_label("expected [low, high]"));
+            return Err(self.diagnostic("an interval has two ends").with_label(label));
         };
-        let low = self.number(&path.then(0), low)?;
-        let high = self.number(&path.then(1), high)?;
+        let (low, high) = (self.then(0).number(low)?, self.then(1).number(high)?);
         if low <= high {
             return Ok((low, high));
         }
         let message = format!("the interval ends at {high} and starts at {low}");
-        Err(self.diagnostic(path, &message).with_label("expected [low, high]"))
+        Err(self.diagnostic(&message).with_label(label))
     }
 
-    /// Returns the text of a key `because`. An error message names the `stated` value that needs
-    /// the reason. Refuses an empty reason.
-    pub(crate) fn because(
-        &self,
-        path: &Path,
-        stated: &str,
-        text: &str,
-    ) -> Result<String, Diagnostic> {
+    /// Returns the text of the key `because` in the map at this place. An error message names the
+    /// `stated` value that needs the reason. Refuses an empty reason.
+    pub(crate) fn because(&self, stated: &str, text: &str) -> Result<String, Diagnostic> {
         let text = text.trim();
         if !text.is_empty() {
             return Ok(text.to_owned());
         }
         let message = format!("`because` is empty: state the reason for {stated}");
-        let diagnostic = self.diagnostic(&path.then("because"), &message);
-        Err(diagnostic.with_label("expected a text"))
+        Err(self.then("because").diagnostic(&message).with_label("expected a text"))
     }
 
-    pub(crate) fn diagnostic(&self, path: &Path, message: &str) -> Diagnostic {
-        self.source.diagnostic_at(path.steps(), message)
+    pub(crate) fn diagnostic(&self, message: &str) -> Diagnostic {
+        self.evaluator.source.diagnostic_at(self.path.steps(), message)
     }
 
-    pub(crate) fn diagnostic_at_key(&self, path: &Path, message: &str) -> Diagnostic {
-        match self.source.key_at(path.steps()) {
-            Some(place) => self.source.diagnostic(place, message),
-            None => self.diagnostic(path, message),
+    pub(crate) fn diagnostic_at_key(&self, message: &str) -> Diagnostic {
+        let source = self.evaluator.source;
+        match source.key_at(self.path.steps()) {
+            Some(place) => source.diagnostic(place, message),
+            None => self.diagnostic(message),
         }
     }
 
-    /// Returns a diagnostic about a part of the formula at `path`, or of a function that it calls.
-    fn in_text(&self, path: &Path, error: &FormulaError) -> Diagnostic {
-        let function = error.within.as_ref().and_then(|name| self.head_of(name));
+    /// Returns a diagnostic about a part of the formula at this place, or of a function that it
+    /// calls.
+    fn in_text(&self, error: &FormulaError) -> Diagnostic {
+        let Self { evaluator, path } = self;
+        let function = error.within.as_ref().and_then(|name| evaluator.head_of(name));
         let path = function
             .map_or_else(|| path.clone(), |head| Path::top("functions").then(head.as_str()));
-        let diagnostic = match self.source.within(path.steps(), error.span.clone()) {
-            Some(place) => self.source.diagnostic(place, &error.message),
-            None => self.diagnostic(&path, &error.message),
+        let diagnostic = match evaluator.source.within(path.steps(), error.span.clone()) {
+            Some(place) => evaluator.source.diagnostic(place, &error.message),
+            None => evaluator.source.diagnostic_at(path.steps(), &error.message),
         };
-        match error.unknown.as_deref().filter(|name| self.comes_later(name)) {
+        match error.unknown.as_deref().filter(|name| evaluator.comes_later(name)) {
             Some(name) => {
-                let line = self.line_of(name).map_or_else(String::new, |n| format!(" (line {n})"));
+                let line = evaluator.line_of(name);
+                let line = line.map_or_else(String::new, |n| format!(" (line {n})"));
                 let help = format!("`{name}` is declared further down{line}: move it up");
                 diagnostic.with_help(&help)
             }
@@ -286,8 +297,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn at_key(&self, path: &Path, error: &FormulaError) -> Diagnostic {
-        with_help(self.diagnostic_at_key(path, &error.message), error)
+    fn at_key(&self, error: &FormulaError) -> Diagnostic {
+        with_help(self.diagnostic_at_key(&error.message), error)
     }
 }
 
@@ -321,44 +332,42 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
 /// cause.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
-impl Evaluator<'_> {
-    /// Returns a diagnostic about an invalid number at `path`, with the parameters of its formula.
-    pub(crate) fn unusable(
-        &self,
-        path: &Path,
-        text: &NumberText,
-        message: &str,
-        label: &str,
-    ) -> Diagnostic {
-        let read = self.read_by(text);
-        let read: Vec<String> = read.iter().map(|(name, value)| self.found(name, *value)).collect();
-        self.diagnostic(path, message).with_label(label).with_help(&read.join(", "))
+impl SuitePath<'_> {
+    /// Returns a diagnostic about an invalid number at this place, with the parameters of its
+    /// formula.
+    pub(crate) fn unusable(&self, text: &NumberText, message: &str, label: &str) -> Diagnostic {
+        let read = self.evaluator.read_by(text);
+        let read: Vec<String> =
+            read.iter().map(|(name, value)| self.evaluator.found(name, *value)).collect();
+        self.diagnostic(message).with_label(label).with_help(&read.join(", "))
     }
 
-    pub(super) fn not_finite(&self, path: &Path, text: &NumberText, value: f64) -> Diagnostic {
+    fn not_finite(&self, text: &NumberText, value: f64) -> Diagnostic {
         let (label, value) = ("expected a finite number", shown(value));
-        let what = match path.steps() {
+        let what = match self.path.steps() {
             [Step::Key(top), Step::Key(name)] if top == "parameters" => name.clone(),
             _ => text.to_string(),
         };
-        let read = self.read_by(text);
+        let read = self.evaluator.read_by(text);
         let suspected = |(name, value): &&(String, f64)| {
             let mut instead = HARMLESS.into_iter().chain([value.abs()]);
-            instead.any(|instead| self.is_finite_with(text, name, instead))
+            instead.any(|instead| self.evaluator.is_finite_with(text, name, instead))
         };
         let suspects: Vec<_> = read.iter().filter(suspected).collect();
         if suspects.is_empty() {
             let message = format!("`{text}` is {value}, which is not finite");
-            return self.unusable(path, text, &message, label);
+            return self.unusable(text, &message, label);
         }
         let causes: Vec<String> =
             suspects.iter().map(|(name, value)| format!("`{name}` is {}", shown(*value))).collect();
         let message = format!("`{what}` is {value} because {}", causes.join(" and "));
         let places: Vec<String> =
-            suspects.iter().map(|(name, value)| self.found(name, *value)).collect();
-        self.diagnostic(path, &message).with_label(label).with_help(&places.join(", "))
+            suspects.iter().map(|(name, value)| self.evaluator.found(name, *value)).collect();
+        self.diagnostic(&message).with_label(label).with_help(&places.join(", "))
     }
+}
 
+impl Evaluator<'_> {
     /// Returns names and values of the parameters that a formula uses, directly or through
     /// functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
@@ -384,7 +393,6 @@ impl Evaluator<'_> {
     }
 
     pub(super) fn line_of(&self, parameter: &str) -> Option<usize> {
-        let path = Path::top("parameters").then(parameter);
-        self.source.key_at(path.steps()).map(Place::line)
+        self.source.key_at(self.parameter(parameter).path.steps()).map(Place::line)
     }
 }

@@ -1,25 +1,23 @@
 //! Declares tables, and refuses reserved, unused and undeclared names.
 
-use super::{Evaluator, ParameterSpec, TableSpec, shown, with_help};
+use super::{Evaluator, ParameterSpec, SuitePath, TableSpec, shown, with_help};
 use crate::exact::formula::{Expr, Formula, Scope};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 
 impl Evaluator<'_> {
     /// Refuses declared names that equal one of the formula `variables`.
     pub(crate) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
-        let diagnostic = |path: &Path, name: &str| {
-            let message = format!("`{name}` is a variable of formulas and cannot be declared");
-            let help = format!("rename it; the variables are {}", variables.join(", "));
-            Err(self.diagnostic_at_key(path, &message).with_help(&help))
-        };
         for name in variables {
             let declared = self.scope.constants().map(|(known, _)| known);
-            if declared.chain(self.scope.tables()).any(|known| known == *name) {
-                return diagnostic(&Path::top("parameters").then(*name), name);
-            }
-            if let Some(head) = self.head_of(name) {
-                return diagnostic(&Path::top("functions").then(head.as_str()), name);
-            }
+            let is_parameter = declared.chain(self.scope.tables()).any(|known| known == *name);
+            let path = match self.head_of(name) {
+                _ if is_parameter => self.parameter(name),
+                Some(head) => self.function(head),
+                None => continue,
+            };
+            let message = format!("`{name}` is a variable of formulas and cannot be declared");
+            let help = format!("rename it; the variables are {}", variables.join(", "));
+            return Err(path.diagnostic_at_key(&message).with_help(&help));
         }
         Ok(())
     }
@@ -29,27 +27,17 @@ impl Evaluator<'_> {
         parameters: &Ordered<ParameterSpec>,
         functions: &Ordered<String>,
     ) -> Result<(), Diagnostic> {
+        let parameters = parameters.as_slice().iter().map(|(name, _)| ("parameter", name));
+        let functions = functions.as_slice().iter().map(|(head, _)| ("function", head));
         let used = self.used.borrow();
-        for (name, _) in parameters.as_slice() {
-            if !used.contains(name) {
-                let path = Path::top("parameters").then(name.as_str());
-                let message = format!("the parameter `{name}` is never used");
-                return Err(self
-                    .diagnostic_at_key(&path, &message)
-                    .with_help("remove it, or use it"));
-            }
-        }
-        for (head, _) in functions.as_slice() {
-            let name = name_in(head);
-            if !used.contains(name) {
-                let path = Path::top("functions").then(head.as_str());
-                let message = format!("the function `{name}` is never used");
-                return Err(self
-                    .diagnostic_at_key(&path, &message)
-                    .with_help("remove it, or use it"));
-            }
-        }
-        Ok(())
+        let mut declared = parameters.chain(functions);
+        let Some((kind, key)) = declared.find(|(_, key)| !used.contains(name_in(key))) else {
+            return Ok(());
+        };
+        let message = format!("the {kind} `{}` is never used", name_in(key));
+        let diagnostic =
+            self.top(&format!("{kind}s")).then(key.as_str()).diagnostic_at_key(&message);
+        Err(diagnostic.with_help("remove it, or use it"))
     }
 
     /// Whether `name` is a parameter that is declared later in the file.
@@ -78,11 +66,10 @@ impl<'a> Evaluator<'a> {
             Evaluator::new(self.source, &Ordered::default(), functions).map(|(new, _)| new)?;
         evaluator.parameters.clone_from(&self.parameters);
         for (key, spec) in parameters.as_slice() {
-            let path = Path::top("parameters").then(key.as_str());
             let text = match spec {
                 ParameterSpec::Number(text) => text.to_string(),
                 ParameterSpec::Map(spec) => {
-                    evaluator.declare_table(&path, key, spec)?;
+                    evaluator.declare_table(key, spec)?;
                     continue;
                 }
             };
@@ -97,7 +84,7 @@ impl<'a> Evaluator<'a> {
                     }
                 })
             };
-            declared.map_err(|error| evaluator.at_key(&path, &error))?;
+            declared.map_err(|error| evaluator.parameter(key).at_key(&error))?;
         }
         Ok(evaluator)
     }
@@ -113,27 +100,24 @@ impl Evaluator<'_> {
     /// returns the value of the table at this parameter.
     pub(super) fn declare_table(
         &mut self,
-        path: &Path,
         name: &str,
         spec: &TableSpec,
     ) -> Result<(String, Option<f64>), Diagnostic> {
-        let rows = self.rows(&path.then("table"), spec)?;
+        let path = self.parameter(name);
+        let rows = rows(&path.then("table"), spec)?;
         let (by, by_path) = (&spec.by, path.then("by"));
-        Scope::named(by)
-            .map_err(|error| with_help(self.diagnostic(&by_path, &error.message), &error))?;
+        Scope::named(by).map_err(|error| with_help(by_path.diagnostic(&error.message), &error))?;
         if by == name {
-            return Err(self.diagnostic(
-                &by_path,
-                &format!("the table of `{name}` depends on `{name}` itself"),
-            ));
+            let message = format!("the table of `{name}` depends on `{name}` itself");
+            return Err(by_path.diagnostic(&message));
         }
         let by_parameter = self.parameters.contains(by);
         if by_parameter {
-            self.number(&by_path, &NumberText::Formula(by.clone()))?;
+            by_path.number(&NumberText::Formula(by.clone()))?;
         }
         let declared = self.scope.table(name, by, &rows);
-        declared.map_err(|error| self.at_key(path, &error))?;
-        let of_name = || self.number(path, &NumberText::Formula(name.to_owned()));
+        declared.map_err(|error| self.parameter(name).at_key(&error))?;
+        let of_name = || self.parameter(name).number(&NumberText::Formula(name.to_owned()));
         let value = by_parameter.then(of_name).transpose()?;
         if value.is_some() {
             self.used.borrow_mut().remove(name);
@@ -141,30 +125,28 @@ impl Evaluator<'_> {
         let written = spec.table.iter().map(|row| format!("{} at {by} = {}", row[1], row[0]));
         Ok((format!("({})", written.collect::<Vec<_>>().join(", ")), value))
     }
+}
 
-    /// Evaluates the rows of a table: at least two, in ascending order.
-    fn rows(&self, path: &Path, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagnostic> {
-        let mut rows: Vec<(f64, f64)> = Vec::new();
-        for (i, row) in spec.table.iter().enumerate() {
-            let path = path.then(i);
-            let [at, value] = row.as_slice() else {
-                let diagnostic = self.diagnostic(&path, "this row does not have two numbers");
-                let label =
-                    format!("expected a value of `{}` and the value of the parameter", spec.by);
-                return Err(diagnostic.with_label(&label));
-            };
-            let row = (self.number(&path.then(0), at)?, self.number(&path.then(1), value)?);
-            if let Some((before, _)) = rows.last().filter(|(before, _)| !(*before < row.0)) {
-                let message = format!("{} follows {}", shown(row.0), shown(*before));
-                let label = "expected rows in ascending order";
-                return Err(self.diagnostic(&path.then(0), &message).with_label(label));
-            }
-            rows.push(row);
+/// Evaluates the rows of the table at `path`: at least two, in ascending order.
+fn rows(path: &SuitePath<'_>, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagnostic> {
+    let mut rows: Vec<(f64, f64)> = Vec::new();
+    for (i, row) in spec.table.iter().enumerate() {
+        let path = path.then(i);
+        let [at, value] = row.as_slice() else {
+            let label = format!("expected a value of `{}` and the value of the parameter", spec.by);
+            return Err(path.diagnostic("this row does not have two numbers").with_label(&label));
+        };
+        let row = (path.then(0).number(at)?, path.then(1).number(value)?);
+        if let Some((before, _)) = rows.last().filter(|(before, _)| !(*before < row.0)) {
+            let message = format!("{} follows {}", shown(row.0), shown(*before));
+            let label = "expected rows in ascending order";
+            return Err(path.then(0).diagnostic(&message).with_label(label));
         }
-        if rows.len() < 2 {
-            let diagnostic = self.diagnostic(path, "a table needs at least two rows");
-            return Err(diagnostic.with_help("for a constant parameter, write a number"));
-        }
-        Ok(rows)
+        rows.push(row);
     }
+    if rows.len() < 2 {
+        let diagnostic = path.diagnostic("a table needs at least two rows");
+        return Err(diagnostic.with_help("for a constant parameter, write a number"));
+    }
+    Ok(rows)
 }

@@ -1,8 +1,8 @@
 //! Faces of a body and their names.
 
 use super::boundary::BoundaryCondition;
-use crate::suite::evaluator::{Evaluator, suggestion};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::evaluator::{SuitePath, suggestion};
+use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 /// Names of the faces in axis order, with the low face of each axis before the high face.
@@ -31,8 +31,7 @@ impl SceneFace {
 /// Returns the index in [`FACES`] of the face called `name`. An error points to the key at `path`
 /// if `is_key` is true, otherwise to the value at `path`.
 pub(crate) fn face(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     name: &str,
     dimension: usize,
     is_key: bool,
@@ -40,11 +39,8 @@ pub(crate) fn face(
     let known = &FACES[..2 * dimension];
     known.iter().position(|face| *face == name).ok_or_else(|| {
         let message = format!("a body of dimension {dimension} has no face `{name}`");
-        let diagnostic = if is_key {
-            evaluator.diagnostic_at_key(path, &message)
-        } else {
-            evaluator.diagnostic(path, &message)
-        };
+        let diagnostic =
+            if is_key { path.diagnostic_at_key(&message) } else { path.diagnostic(&message) };
         diagnostic.with_help(&suggestion("faces", name, known))
     })
 }

@@ -1,7 +1,7 @@
 //! Locates a value in a file after parsing.
 
 use super::tree::TreeNode;
-use super::{Diagnostic, OneOrMany, Place, Source};
+use super::{Diagnostic, Place, Source};
 use std::ops::Range;
 
 /// One step into a map or a list.
@@ -29,20 +29,15 @@ impl From<usize> for Step {
 pub(crate) struct Path(Vec<Step>);
 
 impl Path {
-    pub(crate) fn top(key: &str) -> Self {
-        Self(vec![Step::from(key)])
+    /// Creates the path of a value from its keys, separated by points and starting at the top.
+    pub(crate) fn top(keys: &str) -> Self {
+        Self(keys.split('.').map(Step::from).collect())
     }
 
     pub(crate) fn then(&self, step: impl Into<Step>) -> Self {
         let mut longer = self.0.clone();
         longer.push(step.into());
         Self(longer)
-    }
-
-    /// Returns the path of value number `i` if the setting at this path is a list of
-    /// `alternatives`, and otherwise this path.
-    pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
-        if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
 
     pub(crate) fn steps(&self) -> &[Step] {

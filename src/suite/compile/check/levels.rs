@@ -2,13 +2,13 @@
 //! the sets contain particles, and that the time step is valid.
 
 use crate::suite::compile::run::refine::{COARSE_TO_FINE, LevelPaths};
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::refine_plan::{LevelPlan, MOST_POINTS, SameMethod};
 use crate::suite::model::{Against, Case, ConvergencePlan, Scene};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 
 /// Maximum distance (cells) between a fixed face of the body and the grid face next to it.
@@ -20,41 +20,31 @@ pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
-    levels: &[LevelPaths],
+    levels: &[LevelPaths<'_>],
 ) -> Result<(), Diagnostic> {
     references(evaluator, plan)?;
     if !spec.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
         for (level, place) in plan.refine.levels.iter().zip(levels) {
-            fits(evaluator, &place.size, &plan.scene, *level)?;
+            fits(&place.size, &plan.scene, *level)?;
         }
     }
     refuse_unusable_steps(evaluator, plan, levels)
 }
 
-fn fits(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-    level: LevelPlan,
-) -> Result<(), Diagnostic> {
+fn fits(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Diagnostic> {
     if let Some((what, amount)) = level.too_large(scene) {
         let cells = level.cells;
         let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
-        let diagnostic = evaluator.diagnostic(path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_label(&format!("expected at most {MOST_POINTS:e} {what}")));
     }
-    vacant(evaluator, path, scene, level)?;
-    held_faces(evaluator, path, scene, level.cells)?;
-    sets(evaluator, path, scene, level)
+    vacant(path, scene, level)?;
+    held_faces(path, scene, level.cells)?;
+    sets(path, scene, level)
 }
 
 /// Refuses a round or polygonal body that is smaller than one particle volume.
-fn vacant(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-    level: LevelPlan,
-) -> Result<(), Diagnostic> {
+fn vacant(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Diagnostic> {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
         return Ok(());
@@ -63,15 +53,14 @@ fn vacant(
     let message =
         format!("with {cells} cells along the first axis the body is smaller than a particle");
     let label = "expected cells small enough that the body contains a particle";
-    Err(evaluator.diagnostic(path, &message).with_label(label))
+    Err(path.diagnostic(&message).with_label(label))
 }
 
 /// Refuses a grid whose high face does not coincide with a fixed face of the body, because the
 /// condition applies to the nodes on the grid face. Also refuses a periodic grid whose length is
 /// not the stated period.
 pub(crate) fn held_faces(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     scene: &Scene,
     cells: u64,
 ) -> Result<(), Diagnostic> {
@@ -91,18 +80,13 @@ pub(crate) fn held_faces(
                 shown(body)
             );
             let label = format!("expected a cell size that divides the length, not {h} m");
-            return Err(evaluator.diagnostic(path, &message).with_label(&label));
+            return Err(path.diagnostic(&message).with_label(&label));
         }
     }
     Ok(())
 }
 
-fn sets(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-    level: LevelPlan,
-) -> Result<(), Diagnostic> {
+fn sets(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Diagnostic> {
     let cells = level.cells;
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     for set in &scene.sets {
@@ -125,7 +109,7 @@ fn sets(
             let message = format!(
                 "with {cells} cells along the first axis the set `{name}` contains no particle"
             );
-            return Err(evaluator.diagnostic(path, &message).with_label("expected more cells"));
+            return Err(path.diagnostic(&message).with_label("expected more cells"));
         }
     }
     Ok(())
@@ -134,22 +118,22 @@ fn sets(
 /// Refuses a reference on an invalid fine grid, or whose states at all instants need too much
 /// memory.
 fn references(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
-    let fits_into_memory = |path: &Path, count: f64, text: &str, what: &str| {
+    let fits_into_memory = |path: &SuitePath<'_>, count: f64, text: &str, what: &str| {
         if count * plan.instants as f64 <= MOST_POINTS {
             return Ok(());
         }
         let message = format!("{text} {what} at {} instants are too many to store", plan.instants);
         let label = format!("expected at most {MOST_POINTS:e} {what} times instants");
-        Err(evaluator.diagnostic(path, &message).with_label(&label))
+        Err(path.diagnostic(&message).with_label(&label))
     };
-    let top = Path::top("reference");
+    let top = evaluator.top("reference");
     if let Some(fine) = &plan.reference {
         let path = top.then("fem").then("cells");
         fits_into_memory(&path, fine.cells as f64, &fine.cells.to_string(), "elements")?;
     }
     if let Some(SameMethod::FineGrid(level)) = plan.same_method {
         let path = top.then("same_method").then("cells");
-        fits(evaluator, &path, &plan.scene, level)?;
+        fits(&path, &plan.scene, level)?;
         let particles = level.particles(&plan.scene);
         fits_into_memory(&path, particles, &format!("{particles:.1e}"), "particles")?;
     }
@@ -170,44 +154,43 @@ struct StatedStep {
 fn refuse_unusable_steps(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
-    places: &[LevelPaths],
+    places: &[LevelPaths<'_>],
 ) -> Result<(), Diagnostic> {
     for case in &plan.cases {
         let mut coarser: Option<StatedStep> = None;
         for (level, place) in plan.refine.levels.iter().zip(places) {
             let clock = case.clock(plan, level.dt);
-            let clock = usable(evaluator, &place.dt, clock, level.cells, level.dt)?;
+            let clock = usable(&place.dt, clock, level.cells, level.dt)?;
             let step = StatedStep { dt: level.dt, clock };
             if plan.refine.axis == Axis::Time || plan.refine.steps.len() > 1 {
                 if let Some(coarser) = coarser {
-                    finer(evaluator, &place.dt, coarser, step)?;
+                    finer(&place.dt, coarser, step)?;
                 }
                 coarser = Some(step);
             }
             if case.against.is_computed() && plan.refine.rule.is_none() {
-                as_wanted(evaluator, &place.dt, case, step)?;
+                as_wanted(&place.dt, case, step)?;
             }
         }
         if let Some(fine) = case.against.fine_grid() {
-            let path = Path::top("reference").then("same_method").then("cells");
-            let clock = usable(evaluator, &path, case.clock(plan, fine.dt), fine.cells, fine.dt)?;
+            let path = evaluator.top("reference.same_method.cells");
+            let clock = usable(&path, case.clock(plan, fine.dt), fine.cells, fine.dt)?;
             if plan.refine.rule.is_none() {
-                as_wanted(evaluator, &path, case, StatedStep { dt: fine.dt, clock })?;
+                as_wanted(&path, case, StatedStep { dt: fine.dt, clock })?;
             }
         }
         if let Some(fine) = &plan.reference {
-            let path = Path::top("reference").then("fem").then("dt");
+            let path = evaluator.top("reference.fem.dt");
             let dt = fine.dt.eval(&[cell_size(&plan.scene, fine.cells)]);
             let clock = plan.clock(Against::Reference, case.until, dt);
-            usable(evaluator, &path, clock, fine.cells, dt)?;
+            usable(&path, clock, fine.cells, dt)?;
         }
     }
     Ok(())
 }
 
 fn usable(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     clock: Option<Clock>,
     cells: u64,
     dt: f64,
@@ -215,38 +198,28 @@ fn usable(
     clock.ok_or_else(|| {
         let message = format!("with {cells} cells the time step is {}", shown(dt));
         let label = "expected a positive step, and at most 1e9 of them";
-        evaluator.diagnostic(path, &message).with_label(label)
+        path.diagnostic(&message).with_label(label)
     })
 }
 
 /// Refuses a level whose stated or rounded time step is not smaller than on the previous level.
-fn finer(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    coarse: StatedStep,
-    fine: StatedStep,
-) -> Result<(), Diagnostic> {
+fn finer(path: &SuitePath<'_>, coarse: StatedStep, fine: StatedStep) -> Result<(), Diagnostic> {
     let (wide, narrow) = (shown(coarse.dt), shown(fine.dt));
     if !(fine.dt < coarse.dt) {
         let message = format!("a level with dt = {narrow} after one with {wide}");
-        return Err(evaluator.diagnostic(path, &message).with_label(COARSE_TO_FINE));
+        return Err(path.diagnostic(&message).with_label(COARSE_TO_FINE));
     }
     if fine.clock.steps > coarse.clock.steps {
         return Ok(());
     }
     let message = format!("dt = {narrow} and {wide} both become {} s", shown(fine.clock.dt()));
     let label = format!("both runs take {} steps", fine.clock.steps);
-    Err(evaluator.diagnostic(path, &message).with_label(&label))
+    Err(path.diagnostic(&message).with_label(&label))
 }
 
 /// Refuses a number of instants that changes the time step of `case` by more than
 /// [`STEP_TOLERANCE`].
-fn as_wanted(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    case: &Case,
-    step: StatedStep,
-) -> Result<(), Diagnostic> {
+fn as_wanted(path: &SuitePath<'_>, case: &Case, step: StatedStep) -> Result<(), Diagnostic> {
     let StatedStep { dt: wanted, clock } = step;
     let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;
     if is_near(&clock) {
@@ -265,5 +238,5 @@ fn as_wanted(
         || format!("no step near this length divides a run until {} s", shown(case.until)),
         |fewer| format!("`instants: {fewer}` keeps this step"),
     );
-    Err(evaluator.diagnostic(path, &message).with_label(label).with_help(&help))
+    Err(path.diagnostic(&message).with_label(label).with_help(&help))
 }

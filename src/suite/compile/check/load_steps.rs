@@ -2,12 +2,12 @@
 //! loads, boundary conditions and laws that the quasi-static solver does not support.
 
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{COORDINATES, Evaluator};
+use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::Quantity;
 
 /// Refuses suites that combine load steps with keys for time or with features that the quasi-static
@@ -25,47 +25,23 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
     let method = |wanted: &dyn Fn(&MethodSpec) -> bool| spec.methods.iter().position(wanted);
     if spec.run.load_steps.is_none() {
         let Some(i) = method(&MethodSpec::is_quasi_static) else { return Ok(()) };
-        let path = Path::top("methods").then(i).then("mpm").then("scheme");
+        let path = evaluator.top("methods").then(i).then("mpm").then("scheme");
         let message = "`quasi_static` needs a number of load steps";
-        let diagnostic = evaluator.diagnostic(&path, message);
+        let diagnostic = path.diagnostic(message);
         return Err(diagnostic.with_help("write `run: {load_steps: 20}` instead of `until`"));
     }
-    let run = Path::top("run");
+    let after_the_last_step = "errors are computed after the last step only";
     let refused = [
-        (
-            spec.run.dt.is_some(),
-            run.then("dt"),
-            "`dt` is not supported with load steps: they have no duration",
-        ),
-        (
-            spec.refine.dt.is_some(),
-            Path::top("refine").then("dt"),
-            "`dt` is not supported with load steps: they have no duration",
-        ),
-        (
-            spec.run.instants.is_some(),
-            run.then("instants"),
-            "`instants` is not supported with load steps: errors are computed after the last step \
-             only",
-        ),
-        (
-            spec.exact.is_some(),
-            Path::top("exact"),
-            "`exact` is not supported with load steps: it is a motion in time",
-        ),
-        (
-            spec.manufactured.is_some(),
-            Path::top("manufactured"),
-            "`manufactured` is not supported with load steps: it is a motion in time",
-        ),
-        (
-            spec.has_fem_reference(),
-            Path::top("reference").then("fem"),
-            "`reference.fem` is not supported with load steps: it is computed in time",
-        ),
+        ("run.dt", "dt", spec.run.dt.is_some(), "they have no duration"),
+        ("refine.dt", "dt", spec.refine.dt.is_some(), "they have no duration"),
+        ("run.instants", "instants", spec.run.instants.is_some(), after_the_last_step),
+        ("exact", "exact", spec.exact.is_some(), "it is a motion in time"),
+        ("manufactured", "manufactured", spec.manufactured.is_some(), "it is a motion in time"),
+        ("reference.fem", "reference.fem", spec.has_fem_reference(), "it is computed in time"),
     ];
-    if let Some((_, path, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        let diagnostic = evaluator.diagnostic_at_key(&path, message);
+    if let Some((path, key, _, reason)) = refused.iter().find(|(_, _, is_stated, _)| *is_stated) {
+        let message = format!("`{key}` is not supported with load steps: {reason}");
+        let diagnostic = evaluator.top(path).diagnostic_at_key(&message);
         return Err(diagnostic.with_help("state the `equilibrium` under the full load"));
     }
     if OF_VELOCITIES.contains(&spec.judge.of) {
@@ -73,12 +49,12 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
             "`{}` is not supported with load steps: they have no velocity",
             spec.judge.of.name()
         );
-        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("of"), &message);
+        let diagnostic = evaluator.top("judge.of").diagnostic(&message);
         return Err(diagnostic.with_help("judge the `displacement` or the `stress`"));
     }
     if spec.equilibrium.is_none() && spec.reference.is_none() {
         let message = "load steps need an `equilibrium` or a `reference`: they end in equilibrium";
-        let diagnostic = evaluator.diagnostic_at_key(&run.then("load_steps"), message);
+        let diagnostic = evaluator.top("run.load_steps").diagnostic_at_key(message);
         return Err(diagnostic.with_help("add `equilibrium: {equation: ..., displacement: [...]}`"));
     }
     let is_dynamic =
@@ -86,7 +62,7 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
     match method(&is_dynamic) {
         Some(i) => {
             let message = "this method needs time steps, and the suite has load steps";
-            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+            let diagnostic = evaluator.top("methods").then(i).diagnostic(message);
             Err(diagnostic.with_help("use `mpm: {basis: cpgimp, scheme: quasi_static}`"))
         }
         None => Ok(()),
@@ -98,36 +74,29 @@ fn refuse_unfit_scene(
     spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let top = Path::top("scene");
+    let top = evaluator.top("scene");
     let help = "load steps need loads and walls that depend neither on time nor on the motion";
+    let in_plane_stress =
+        "load steps are not supported in plane stress, whose laws have no tangent";
+    let displaced = "`initial_displacement` is not supported with load steps: they start from the \
+                     reference configuration";
+    let moving = "`initial_velocity` is not supported with load steps: they have no velocity";
+    let is_displaced = !scene.initial_displacement.is_empty();
     let refused = [
         (!scene.bodies.is_empty(), "bodies", "load steps are supported for a single body only"),
-        (
-            scene.plane == PlaneState::Stress,
-            "plane",
-            "load steps are not supported in plane stress, whose laws have no tangent",
-        ),
-        (
-            !scene.initial_displacement.is_empty(),
-            "initial_displacement",
-            "`initial_displacement` is not supported with load steps: they start from the \
-             reference configuration",
-        ),
-        (
-            !scene.initial_velocity.is_empty(),
-            "initial_velocity",
-            "`initial_velocity` is not supported with load steps: they have no velocity",
-        ),
+        (scene.plane == PlaneState::Stress, "plane", in_plane_stress),
+        (is_displaced, "initial_displacement", displaced),
+        (!scene.initial_velocity.is_empty(), "initial_velocity", moving),
         (scene.loads.is_empty(), "material", "load steps need a load, but the scene has none"),
     ];
     if let Some((_, key, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
-        return Err(evaluator.diagnostic_at_key(&top.then(key), message));
+        return Err(top.then(key).diagnostic_at_key(message));
     }
-    for (listed, stated) in scene.loads.iter().zip(listed_paths(spec, scene)) {
+    for (listed, stated) in scene.loads.iter().zip(listed_paths(evaluator, spec, scene)) {
         if let Some(reason) = against_load(listed, scene.dimension()) {
             let message =
                 format!("`{}` is not supported in load steps: {reason}", listed.effect.name());
-            return Err(evaluator.diagnostic(&stated, &message).with_help(help));
+            return Err(stated.diagnostic(&message).with_help(help));
         }
     }
     let moving = |face: &&SceneFace| !KNOWN_CONDITIONS.contains(&face.condition());
@@ -135,11 +104,11 @@ fn refuse_unfit_scene(
         let message =
             format!("the {} face {}, which load steps do not support", face.name, face.hold.verb());
         let at = top.then("boundary").then(face.name);
-        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
+        return Err(at.diagnostic_at_key(&message).with_help(help));
     }
     if let Some(axis) = (0..scene.dimension()).find(|axis| !is_held(scene, *axis)) {
         let message = format!("nothing holds the body along {}", COORDINATES[axis]);
-        let diagnostic = evaluator.diagnostic_at_key(&top.then("body"), &message);
+        let diagnostic = top.then("body").diagnostic_at_key(&message);
         return Err(diagnostic.with_help("fix a face, or add a roller with this normal"));
     }
     let is_built_in = spec.methods.iter().any(MethodSpec::is_quasi_static);
@@ -148,7 +117,7 @@ fn refuse_unfit_scene(
             let name = scene.material.name();
             let message = format!("`quasi_static` does not support `{name}`: {reason}");
             let help = "laws with a tangent: neo_hookean, hencky, j2, drucker_prager, mohr_coulomb";
-            Err(evaluator.diagnostic(&top.then("material"), &message).with_help(help))
+            Err(top.then("material").diagnostic(&message).with_help(help))
         }
         _ => Ok(()),
     }
@@ -199,17 +168,21 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
 }
 
 /// Returns the paths of the loads in the suite file, in the order of `scene`.
-fn listed_paths(spec: &ConvergenceSpec, scene: &Scene) -> Vec<Path> {
-    let mut stated: Vec<(EffectName, Path)> = spec
+fn listed_paths<'a>(
+    evaluator: &'a Evaluator<'a>,
+    spec: &ConvergenceSpec,
+    scene: &Scene,
+) -> Vec<SuitePath<'a>> {
+    let mut stated: Vec<(EffectName, SuitePath<'_>)> = spec
         .scene
         .loads
         .iter()
         .enumerate()
-        .map(|(i, load)| (load.effect(), load.path(i)))
+        .map(|(i, load)| (load.effect(), load.path(evaluator, i)))
         .collect();
     let mut path_of = |load: &ListedLoad| {
         let place = stated.iter().position(|(effect, _)| *effect == load.effect)?;
         Some(stated.remove(place).1)
     };
-    scene.loads.iter().map(|load| path_of(load).unwrap_or_else(|| Path::top("scene"))).collect()
+    scene.loads.iter().map(|load| path_of(load).unwrap_or_else(|| evaluator.top("scene"))).collect()
 }

@@ -11,11 +11,11 @@ use crate::subject::PlaneState;
 use crate::suite::compile::run::methods::law_of_bar;
 use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::compile::truth;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 
 /// A convergence study after its scene, exact solution, levels and cases have been compiled.
 pub(crate) struct CompiledStudy<'a> {
@@ -25,7 +25,7 @@ pub(crate) struct CompiledStudy<'a> {
     /// Sampled positions and largest terms of the exact motion of a single body.
     pub(crate) survey: Option<Survey>,
     /// Paths of the levels in the file.
-    pub(crate) levels: Vec<LevelPaths>,
+    pub(crate) levels: Vec<LevelPaths<'a>>,
 }
 
 type CrossCheck = fn(&CompiledStudy<'_>) -> Result<(), Diagnostic>;
@@ -53,7 +53,7 @@ fn refuse_conditions_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Dia
     if !spec.has_fem_reference() && spec.fem_method().is_none() {
         return Ok(());
     }
-    let path = Path::top("scene");
+    let path = evaluator.top("scene");
     let help = "remove the FEM (also as `reference`), or the condition";
     for face in &scene.faces {
         if face.hold.is_lacked_by_fem() {
@@ -63,20 +63,20 @@ fn refuse_conditions_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Dia
                 face.hold.verb()
             );
             let at = path.then("boundary").then(face.name);
-            return Err(evaluator.diagnostic(&at, &message).with_help(help));
+            return Err(at.diagnostic(&message).with_help(help));
         }
     }
     if !scene.initial_stress.is_none() {
         let at = path.then("initial_stress");
         let message = "the built-in FEM does not support an initial stress";
-        return Err(evaluator.diagnostic_at_key(&at, message).with_help(help));
+        return Err(at.diagnostic_at_key(message).with_help(help));
     }
     if let Some(set) = scene.driven_set() {
         let message = format!(
             "the set `{set}` has a given velocity, which the built-in FEM does not support"
         );
         let at = path.then("sets").then(set);
-        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
+        return Err(at.diagnostic_at_key(&message).with_help(help));
     }
     Ok(())
 }
@@ -89,7 +89,7 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
     let of_fluid =
         || format!("the built-in FEM is a solid bar, but `{name}` has no Young's modulus");
     if spec.has_fem_reference() && !elastic {
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &of_fluid()));
+        return Err(evaluator.top("reference").diagnostic_at_key(&of_fluid()));
     }
     let foreign = |law: EquationName| {
         let known = BarLaw::find(law.name()).is_some();
@@ -97,21 +97,21 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
     };
     let reference = spec.reference.as_ref().and_then(|reference| reference.equation);
     if let Some(message) = reference.and_then(foreign) {
-        return Err(evaluator.diagnostic(&Path::top("reference").then("equation"), &message));
+        return Err(evaluator.top("reference.equation").diagnostic(&message));
     }
     for (i, method) in spec.methods.iter().enumerate() {
         let MethodSpec::Fem { law, .. } = method else { continue };
-        let path = Path::top("methods").then(i);
+        let path = evaluator.top("methods").then(i);
         if !elastic {
-            return Err(evaluator.diagnostic(&path, &of_fluid()));
+            return Err(path.diagnostic(&of_fluid()));
         }
         let laws = law.as_ref().map_or(&[][..], |laws| laws.as_slice());
         if let Some(message) = laws.iter().copied().find_map(foreign) {
-            return Err(evaluator.diagnostic(&path, &message));
+            return Err(path.diagnostic(&message));
         }
         if law.is_none() && law_of_bar(&scene.material).is_none() {
-            let diagnostic = evaluator
-                .diagnostic(&path, &format!("the built-in FEM does not support the law `{name}`"));
+            let diagnostic =
+                path.diagnostic(&format!("the built-in FEM does not support the law `{name}`"));
             return Err(diagnostic.with_help("name the `law` of an elastic bar to compare with"));
         }
     }
@@ -126,7 +126,7 @@ fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let facts = StudyFacts { manufactured: spec.manufactured.is_some(), until };
     let scene = &plan.scene;
     for (i, load) in spec.scene.loads.iter().enumerate() {
-        let entry = LoadEntry { evaluator, effect: load.effect(), path: load.path(i), scene };
+        let entry = LoadEntry { effect: load.effect(), path: load.path(evaluator, i), scene };
         load.keys().check(&entry, &facts)?;
         if let Some(lacked) = load.keys().lacked_by_fem() {
             refuse_fem_without(evaluator, spec, lacked)?;
@@ -143,10 +143,10 @@ fn refuse_fem_without(
 ) -> Result<(), Diagnostic> {
     let message = format!("the built-in FEM does not support {effect}");
     if spec.has_fem_reference() {
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message));
+        return Err(evaluator.top("reference").diagnostic_at_key(&message));
     }
     match spec.fem_method() {
-        Some(i) => Err(evaluator.diagnostic(&Path::top("methods").then(i), &message)),
+        Some(i) => Err(evaluator.top("methods").then(i).diagnostic(&message)),
         None => Ok(()),
     }
 }
@@ -160,13 +160,13 @@ fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagn
     let help = "judge the displacement or the velocity";
     if plan.reference.is_some() || plan.same_method.is_some() {
         let message = format!("a reference does not provide the {name} that this suite judges");
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), &message).with_help(help));
+        return Err(evaluator.top("reference").diagnostic_at_key(&message).with_help(help));
     }
     match spec.fem_method() {
         Some(i) => {
             let message =
                 format!("the built-in FEM does not provide the {name} that this suite judges");
-            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), &message);
+            let diagnostic = evaluator.top("methods").then(i).diagnostic(&message);
             Err(diagnostic.with_help(help))
         }
         None => Ok(()),
@@ -189,27 +189,27 @@ fn refuse_unknown_stress(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let absent = format!("there is no {} in {d}-D", of.words());
     let of_law = format!("the out-of-plane stress of `{law}` in plane strain is not computed");
     let of_average = "the out-of-plane stress of averaged volume ratios is not computed";
-    let path = Path::top("judge").then("of");
     let entries = [
-        (is_beyond || (d == 1 && needs_across), path.clone(), absent.as_str()),
-        (is_plane && lacking.is_some(), path.clone(), &of_law),
-        (is_plane && is_averaged, path, of_average),
+        (is_beyond || (d == 1 && needs_across), "judge.of", absent.as_str()),
+        (is_plane && lacking.is_some(), "judge.of", &of_law),
+        (is_plane && is_averaged, "judge.of", of_average),
     ];
     let help = "judge the `stress`, or use a scene with more dimensions";
-    refuse_first(&entries, |path, text| evaluator.diagnostic(path, text).with_help(help))
+    refuse_first(evaluator, &entries, |path, text| path.diagnostic(text).with_help(help))
 }
 
 /// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is true
-/// if it applies, the place in the file, and the text for the `diagnostic`.
+/// if it applies, the keys of the value from the top of the file, and the text for the `diagnostic`.
 ///
 /// # Errors
 /// The diagnostic of the first entry that applies.
 pub(crate) fn refuse_first(
-    entries: &[(bool, Path, &str)],
-    diagnostic: impl FnOnce(&Path, &str) -> Diagnostic,
+    evaluator: &Evaluator<'_>,
+    entries: &[(bool, &str, &str)],
+    diagnostic: impl FnOnce(&SuitePath<'_>, &str) -> Diagnostic,
 ) -> Result<(), Diagnostic> {
     match entries.iter().find(|(applies, ..)| *applies) {
-        Some((_, path, text)) => Err(diagnostic(path, text)),
+        Some((_, path, text)) => Err(diagnostic(&evaluator.top(path), text)),
         None => Ok(()),
     }
 }

@@ -4,11 +4,11 @@
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::face::face;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub(crate) fn judged(
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
 ) -> Result<Option<Arc<JudgedSum>>, Diagnostic> {
-    let path = Path::top("judge");
+    let path = evaluator.top("judge");
     let Some(need) = plan.of.sum_need() else {
         return match spec.judge.face {
             None => Ok(None),
@@ -37,7 +37,7 @@ pub(crate) fn judged(
         let message = format!(
             "the {name} is one number for the whole body, so a norm over particles does not apply"
         );
-        let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
+        let diagnostic = path.then("norm").diagnostic(&message);
         return Err(
             diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
         );
@@ -48,7 +48,7 @@ pub(crate) fn judged(
             "the {name} is one number for the whole body, so `{norm}`, a norm over particles, does \
              not apply"
         );
-        let diagnostic = evaluator.diagnostic(&path.then("norm"), &message);
+        let diagnostic = path.then("norm").diagnostic(&message);
         return Err(
             diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
         );
@@ -57,61 +57,59 @@ pub(crate) fn judged(
     if plan.scene.plane == PlaneState::Axisymmetric {
         let message =
             format!("the exact solution does not provide the {name} of a body of revolution");
-        return Err(evaluator.diagnostic(&path, &message));
+        return Err(path.diagnostic(&message));
     }
     let Some(problem) = &plan.exact else {
         let message = format!("the {name} of the body needs an exact solution");
-        let diagnostic = evaluator.diagnostic(&path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_help("state an `exact` or a `manufactured` motion"));
     };
     let walls = match need {
         SumNeed::Nothing => Vec::new(),
         SumNeed::StoredEnergy => {
-            stored_energy(evaluator, &path, problem, plan)?;
+            stored_energy(&path, problem, plan)?;
             averaged_volume(evaluator, spec)?;
             Vec::new()
         }
         SumNeed::Rotation => {
-            rotation(evaluator, &path, plan)?;
+            rotation(&path, plan)?;
             Vec::new()
         }
         SumNeed::Wall => walls(evaluator, spec, plan)?,
     };
-    let sum = JudgedSum::new(plan.of, problem, &walls).map_err(|reason| {
-        evaluator.diagnostic(&path, &format!("the exact {name} of the body {reason}"))
-    })?;
+    let sum = JudgedSum::new(plan.of, problem, &walls)
+        .map_err(|reason| path.diagnostic(&format!("the exact {name} of the body {reason}")))?;
     Ok(Some(Arc::new(sum)))
 }
 
 fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     let message = format!("the {} is not a quantity of a face", plan.of.words());
-    let diagnostic = evaluator.diagnostic_at_key(&Path::top("judge").then("face"), &message);
+    let diagnostic = evaluator.top("judge.face").diagnostic_at_key(&message);
     diagnostic.with_help("remove `face`, or judge the `reaction`")
 }
 
 /// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     problem: &Problem,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
-    refuse_law_without_energy(evaluator, path, &plan.scene)?;
+    refuse_law_without_energy(path, &plan.scene)?;
     if problem.heat.is_some() {
         let message = "the stored energy is not supported with `heat`: the body also stores heat";
-        return Err(evaluator.diagnostic(path, message));
+        return Err(path.diagnostic(message));
     }
     if plan.scene.each().iter().any(|body| !body.initial_stress.is_none()) {
         let message = "the exact solution does not provide the stored energy of a body with an \
                        initial stress";
-        return Err(evaluator.diagnostic(path, message));
+        return Err(path.diagnostic(message));
     }
     if problem.equation.energy(&[[0.0; 3]; 3]).is_none() {
         let message = format!(
             "the exact solution does not provide the stored energy of `{}`",
             problem.equation.name()
         );
-        let diagnostic = evaluator.diagnostic(path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_help("judge the `kinetic_energy`"));
     }
     Ok(())
@@ -128,22 +126,17 @@ fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     };
     let Some(i) = spec.methods.iter().position(is_averaged) else { return Ok(()) };
     let message = "the force of `volume: averaged` does not derive from a stored energy";
-    let path = Path::top("methods").then(i).then("mpm").then("volume");
-    Err(evaluator.diagnostic(&path, message).with_help("use `particle` to judge an energy"))
+    let path = evaluator.top("methods").then(i).then("mpm").then("volume");
+    Err(path.diagnostic(message).with_help("use `particle` to judge an energy"))
 }
 
 /// Refuses an angular momentum in 1-D, and for a periodic body.
-fn rotation(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    plan: &ConvergencePlan,
-) -> Result<(), Diagnostic> {
+fn rotation(path: &SuitePath<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     if plan.scene.dimension() == 1 {
-        return Err(evaluator.diagnostic(path, "there is no angular momentum in 1-D"));
+        return Err(path.diagnostic("there is no angular momentum in 1-D"));
     }
     if plan.scene.faces.iter().any(|face| face.hold.is_periodic()) {
-        let message = "the angular momentum of a periodic body is not defined";
-        return Err(evaluator.diagnostic(path, message));
+        return Err(path.diagnostic("the angular momentum of a periodic body is not defined"));
     }
     Ok(())
 }
@@ -153,30 +146,29 @@ fn walls(
     spec: &ConvergenceSpec,
     plan: &ConvergencePlan,
 ) -> Result<Vec<usize>, Diagnostic> {
-    let (path, faces) = (Path::top("judge"), &plan.scene.faces);
+    let (path, faces) = (evaluator.top("judge"), &plan.scene.faces);
     let of = path.then("of");
     if !plan.scene.bodies.is_empty() {
         let message = "the reaction is not supported for several bodies: they share the walls";
-        return Err(evaluator.diagnostic(&of, message));
+        return Err(of.diagnostic(message));
     }
     consistent_mass(evaluator, spec)?;
     let Some(name) = &spec.judge.face else {
         let held: Vec<usize> = (0..faces.len()).filter(|i| faces[*i].hold.is_held()).collect();
         if held.is_empty() {
-            let diagnostic =
-                evaluator.diagnostic(&of, "there is no reaction, because no face is held");
+            let diagnostic = of.diagnostic("there is no reaction, because no face is held");
             return Err(diagnostic.with_help("hold a face: `fixed` or `roller`"));
         }
         return match held.iter().find(|i| !faces[**i].hold.stays()) {
-            Some(moving) => Err(no_reaction(evaluator, &of, &faces[*moving])),
+            Some(moving) => Err(no_reaction(&of, &faces[*moving])),
             None => Ok(held),
         };
     };
     let path = path.then("face");
-    let number = face(evaluator, &path, name, plan.scene.dimension(), false)?;
+    let number = face(&path, name, plan.scene.dimension(), false)?;
     let wall = &faces[number];
     if !wall.hold.stays() {
-        return Err(no_reaction(evaluator, &path, wall));
+        return Err(no_reaction(&path, wall));
     }
     let slides = |face: &SceneFace| face.hold.stays() && !face.hold.holds_all_components();
     let is_shared = |other: &&SceneFace| {
@@ -188,16 +180,16 @@ fn walls(
              common edge",
             other.name
         );
-        let diagnostic = evaluator.diagnostic(&path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_help("leave `face` out to judge all walls together"));
     }
     Ok(vec![number])
 }
 
-fn no_reaction(evaluator: &Evaluator<'_>, path: &Path, face: &SceneFace) -> Diagnostic {
+fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
     let (name, verb) = (face.name, face.hold.verb());
     let message = format!("the {name} face {verb}: only a fixed face or a roller has a reaction");
-    evaluator.diagnostic(path, &message)
+    path.diagnostic(&message)
 }
 
 /// Refuses a consistent mass matrix if the error of a wall reaction is measured, because the
@@ -209,14 +201,13 @@ fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     };
     let Some(i) = spec.methods.iter().position(is_consistent) else { return Ok(()) };
     let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
-    let path = Path::top("methods").then(i).then("mpm").then("mass");
-    Err(evaluator.diagnostic(&path, message).with_help("use `lumped` to judge a reaction"))
+    let path = evaluator.top("methods").then(i).then("mpm").then("mass");
+    Err(path.diagnostic(message).with_help("use `lumped` to judge a reaction"))
 }
 
 /// Refuses the key at `path`, which needs the energy of the body, if the law has no energy.
 pub(crate) fn refuse_law_without_energy(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
     let material = &scene.material;
@@ -227,6 +218,6 @@ pub(crate) fn refuse_law_without_energy(
     }
     let Err(reason) = energy else { return Ok(()) };
     let message = format!("the law `{}` {reason}", material.name());
-    let diagnostic = evaluator.diagnostic_at_key(path, &message);
+    let diagnostic = path.diagnostic_at_key(&message);
     Err(diagnostic.with_help("use `neo_hookean` or `hencky`"))
 }

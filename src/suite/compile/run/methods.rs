@@ -4,10 +4,10 @@ use crate::exact::Equation;
 use crate::fem::{BarLaw, Sampling};
 use crate::mpm::{FrameName, MassName, MaterialPlan, SchemeName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{EquationName, MethodSpec};
 use crate::suite::model::method::Method;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use std::collections::BTreeMap;
 
 /// A method before its name is final.
@@ -31,8 +31,8 @@ pub(crate) struct NamedMethod {
 
 impl NamedMethod {
     /// Returns the path of the entry of `methods`.
-    pub(crate) fn path(&self) -> Path {
-        Path::top("methods").then(self.entry)
+    pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>) -> SuitePath<'a> {
+        evaluator.top("methods").then(self.entry)
     }
 }
 
@@ -78,7 +78,7 @@ fn few(
         all = all.saturating_add(count(spec).saturating_mul(*of_each_method));
         if all > *most {
             let message = format!("these lists give {all} cases");
-            let diagnostic = evaluator.diagnostic(&Path::top("methods").then(entry), &message);
+            let diagnostic = evaluator.top("methods").then(entry).diagnostic(&message);
             return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
         }
     }
@@ -144,9 +144,9 @@ fn combinations(
         }
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
             let Some(transfer) = transfer else {
-                let path = Path::top("methods").then(entry).then("mpm");
-                let diagnostic = evaluator
-                    .diagnostic_at_key(&path, "a scheme with time steps needs a `transfer`");
+                let path = evaluator.top("methods").then(entry).then("mpm");
+                let diagnostic =
+                    path.diagnostic_at_key("a scheme with time steps needs a `transfer`");
                 return Err(diagnostic.with_help("add `transfer: flip` in `mpm`"));
             };
             let scheme: Vec<SchemeName> =
@@ -210,12 +210,12 @@ fn combinations(
             }
         }
         MethodSpec::External { name, formal_order, precision } => {
-            let path = Path::top("methods").then(entry).then("external");
+            let path = evaluator.top("methods").then(entry).then("external");
             let method = Method::External {
-                formal_order: stated_order(evaluator, &path, formal_order.as_ref())?,
+                formal_order: stated_order(&path, formal_order.as_ref())?,
                 precision: precision.unwrap_or_default(),
             };
-            let solver = Some(solver_name(evaluator, &path, name)?);
+            let solver = Some(solver_name(&path, name)?);
             drafts.push(MethodDraft { entry, method, solver, said: Vec::new() });
         }
     }
@@ -232,12 +232,12 @@ fn refuse_keys_of_dynamics(
     else {
         return Ok(());
     };
-    let path = Path::top("methods").then(entry).then("mpm");
+    let path = evaluator.top("methods").then(entry).then("mpm");
     let own = "list the other schemes in a separate entry of `methods`";
     if scheme.as_slice().len() > 1 {
         let message = "`quasi_static` cannot be listed with time-stepping schemes: only `basis` \
                        applies to both";
-        return Err(evaluator.diagnostic_at_key(&path.then("scheme"), message).with_help(own));
+        return Err(path.then("scheme").diagnostic_at_key(message).with_help(own));
     }
     let refused = [
         ("transfer", transfer.is_some(), "there are no velocities to transfer"),
@@ -250,7 +250,7 @@ fn refuse_keys_of_dynamics(
     match refused.into_iter().find(|(_, is_stated, _)| *is_stated) {
         Some((key, _, reason)) => {
             let message = format!("`quasi_static` does not support `{key}`: {reason}");
-            Err(evaluator.diagnostic_at_key(&path.then(key), &message).with_help("remove it"))
+            Err(path.then(key).diagnostic_at_key(&message).with_help("remove it"))
         }
         None => Ok(()),
     }
@@ -286,9 +286,9 @@ fn named(
     evaluator: &Evaluator<'_>,
     mut drafts: Vec<MethodDraft>,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
-    let path = Path::top("methods");
+    let path = evaluator.top("methods");
     if drafts.is_empty() {
-        return Err(evaluator.diagnostic(&path, "the suite has no cases: `methods` is empty"));
+        return Err(path.diagnostic("the suite has no cases: `methods` is empty"));
     }
     tell_apart(&mut drafts);
     let mut named: Vec<NamedMethod> = Vec::new();
@@ -296,7 +296,7 @@ fn named(
         let name = draft.name();
         if named.iter().any(|known| known.name == name) {
             let message = format!("the case `{name}` appears twice");
-            let diagnostic = evaluator.diagnostic(&path.then(draft.entry), &message);
+            let diagnostic = path.then(draft.entry).diagnostic(&message);
             return Err(diagnostic.with_label("the second time"));
         }
         let MethodDraft { entry, method, solver, .. } = draft;
@@ -351,27 +351,23 @@ fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
     length(list) > 1
 }
 
-fn solver_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<String, Diagnostic> {
+fn solver_name(path: &SuitePath<'_>, name: &str) -> Result<String, Diagnostic> {
     if is_solver_name(name) {
         return Ok(name.to_owned());
     }
-    let diagnostic = evaluator.diagnostic(&path.then("name"), "this is not a name for a solver");
+    let diagnostic = path.then("name").diagnostic("this is not a name for a solver");
     let label = format!("expected up to {LONGEST_NAME} letters, digits, `-`, `_` or `.`");
     Err(diagnostic.with_label(&label))
 }
 
 /// Returns the stated theoretical order of a solver; 2 by default.
-fn stated_order(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: Option<&NumberText>,
-) -> Result<f64, Diagnostic> {
+fn stated_order(path: &SuitePath<'_>, text: Option<&NumberText>) -> Result<f64, Diagnostic> {
     let (Some(text), path) = (text, path.then("formal_order")) else { return Ok(2.0) };
-    let order = evaluator.positive(&path, text, "the formal order")?;
+    let order = path.positive(text, "the formal order")?;
     if order <= HIGHEST_ORDER {
         return Ok(order);
     }
     let message = format!("the formal order is {}", shown(order));
-    let diagnostic = evaluator.diagnostic(&path, &message);
+    let diagnostic = path.diagnostic(&message);
     Err(diagnostic.with_label(&format!("expected one up to {HIGHEST_ORDER}")))
 }

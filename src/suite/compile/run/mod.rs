@@ -9,14 +9,14 @@ use crate::mpm::{
     CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
     combine_precision, combine_volume,
 };
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec, ScatterSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::RefinePlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 use methods::{CaseLimit, NamedMethod, methods};
 use refine::LevelPaths;
@@ -29,27 +29,27 @@ const MOST_LOAD_STEPS: f64 = 1e5;
 const INSTANTS: u64 = 50;
 
 /// Ends, levels and particles of the runs of a study.
-pub(crate) struct RunPlan {
+pub(crate) struct RunPlan<'a> {
     /// Ends of the runs, each as the text for case names and the value (s, or number of load
     /// steps).
     pub(crate) until: Vec<(String, f64)>,
     pub(crate) refine: RefinePlan,
     /// Paths of the levels in the file.
-    pub(crate) levels: Vec<LevelPaths>,
+    pub(crate) levels: Vec<LevelPaths<'a>>,
     /// Number of instants at which the error is measured.
     pub(crate) instants: u64,
     pub(crate) scatter: LatticeOffsets,
 }
 
-pub(crate) fn plan(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
+pub(crate) fn plan<'a>(
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
     scene: &Scene,
-) -> Result<RunPlan, Diagnostic> {
+) -> Result<RunPlan<'a>, Diagnostic> {
     let until = ends(evaluator, &spec.run)?;
     let (refine, levels) = refine::plan(evaluator, spec, scene)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
-        evaluator.count(&Path::top("run").then("instants"), text, "the number of instants")
+        evaluator.top("run.instants").count(text, "the number of instants")
     })?;
     Ok(RunPlan { until, refine, levels, instants, scatter: scatter(evaluator, spec, scene)? })
 }
@@ -60,13 +60,13 @@ fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, 
         (Some(spec), None) => until(evaluator, spec),
         (None, Some(spec)) => load_steps(evaluator, spec),
         (Some(_), Some(_)) => {
-            let path = Path::top("run").then("until");
+            let path = evaluator.top("run.until");
             let message = "`until` is not supported with `load_steps`: load steps have no time";
-            Err(evaluator.diagnostic_at_key(&path, message).with_help("keep one of them"))
+            Err(path.diagnostic_at_key(message).with_help("keep one of them"))
         }
         (None, None) => {
             let message = "a run needs an end";
-            let diagnostic = evaluator.diagnostic(&Path::top("run"), message);
+            let diagnostic = evaluator.top("run").diagnostic(message);
             Err(diagnostic.with_help("add `until`, or `load_steps` for `scheme: quasi_static`"))
         }
     }
@@ -76,16 +76,16 @@ fn load_steps(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
 ) -> Result<Vec<(String, f64)>, Diagnostic> {
-    let path = Path::top("run").then("load_steps");
+    let path = evaluator.top("run.load_steps");
     let mut counts: Vec<(String, f64)> = Vec::new();
     for (i, text) in spec.as_slice().iter().enumerate() {
         let path = path.alternative(spec, i);
         let what = "the number of load steps";
-        let count = evaluator.count_up_to(MOST_LOAD_STEPS, &path, text, what)?;
+        let count = path.count_up_to(MOST_LOAD_STEPS, text, what)?;
         let name = format!("load-steps-{count}");
         if counts.iter().any(|(known, _)| *known == name) {
             let message = format!("{count} load steps appear twice");
-            return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
+            return Err(path.diagnostic(&message).with_label("the second time"));
         }
         counts.push((name, count as f64));
     }
@@ -96,15 +96,15 @@ fn until(
     evaluator: &Evaluator<'_>,
     spec: &OneOrMany<NumberText>,
 ) -> Result<Vec<(String, f64)>, Diagnostic> {
-    let path = Path::top("run").then("until");
+    let path = evaluator.top("run.until");
     let mut ends: Vec<(String, f64)> = Vec::new();
     for (i, text) in spec.as_slice().iter().enumerate() {
         let path = path.alternative(spec, i);
-        let until = evaluator.positive(&path, text, "the end of the run")?;
+        let until = path.positive(text, "the end of the run")?;
         let text = format!("until-{}", shown(until));
         if ends.iter().any(|(known, _)| *known == text) {
             let message = format!("the end {} s appears twice", shown(until));
-            return Err(evaluator.diagnostic(&path, &message).with_label("the second time"));
+            return Err(path.diagnostic(&message).with_label("the second time"));
         }
         ends.push((text, until));
     }
@@ -130,22 +130,21 @@ fn scatter(
     let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
         return Ok(LatticeOffsets::default());
     };
-    let path = Path::top("particles");
+    let path = evaluator.top("particles");
     if scene.each().iter().any(|body| body.outline.is_some()) {
         let message = "`particles` is supported for boxes only: it moves particles off a regular \
                        lattice";
-        return Err(evaluator.diagnostic_at_key(&path, message));
+        return Err(path.diagnostic_at_key(message));
     }
-    let numbers =
-        |texts: &[NumberText]| evaluator.point(&path.then("shift"), texts, scene.dimension());
+    let numbers = |texts: &[NumberText]| path.then("shift").point(texts, scene.dimension());
     let shift = shift.as_deref().map(numbers).transpose()?.unwrap_or_default();
     let at = path.then("perturb");
-    let number = |text: &NumberText| evaluator.positive(&at, text, "the share of the spacing");
+    let number = |text: &NumberText| at.positive(text, "the share of the spacing");
     let perturb = perturb.as_ref().map(number).transpose()?.unwrap_or(0.0);
     let at = path.then("seed");
-    let count = |text: &NumberText| evaluator.count(&at, text, "the seed");
+    let count = |text: &NumberText| at.count(text, "the seed");
     if seed.is_some() && perturb == 0.0 {
-        let diagnostic = evaluator.diagnostic_at_key(&at, "`seed` has no effect without `perturb`");
+        let diagnostic = at.diagnostic_at_key("`seed` has no effect without `perturb`");
         return Err(diagnostic.with_help("add `perturb: 0.2`, or remove the seed"));
     }
     let seed = seed.as_ref().map(count).transpose()?.unwrap_or(SEED);
@@ -154,18 +153,18 @@ fn scatter(
         let message = format!("particles are moved by up to {} of their spacing", shown(furthest));
         let label =
             format!("expected at most {MOST_OFFSET}, so that they stay in the body and apart");
-        return Err(evaluator.diagnostic(&path, &message).with_label(&label));
+        return Err(path.diagnostic(&message).with_label(&label));
     }
     let at_face =
         |load: &ListedLoad| matches!(load.target(), LoadTarget::Face(_) | LoadTarget::Rim(_));
     if perturb > MOST_OFFSET_AT_LOADS && scene.loads.iter().any(at_face) {
         let message = format!("particles are moved by up to {} of their spacing", shown(perturb));
         let label = format!("expected at most {MOST_OFFSET_AT_LOADS} at a face or rim with a load");
-        return Err(evaluator.diagnostic(&path.then("perturb"), &message).with_label(&label));
+        return Err(path.then("perturb").diagnostic(&message).with_label(&label));
     }
     let scatter = LatticeOffsets { shift, perturb, seed };
     if scatter.is_none() {
-        let diagnostic = evaluator.diagnostic_at_key(&path, "`particles` moves no particle");
+        let diagnostic = path.diagnostic_at_key("`particles` moves no particle");
         return Err(diagnostic.with_help("add `shift: [0.25]` or `perturb: 0.2`, or remove it"));
     }
     Ok(scatter)
@@ -179,7 +178,7 @@ pub(crate) fn cases(
 ) -> Result<Vec<Case>, Diagnostic> {
     let truths = truths(plan);
     for (i, method) in spec.methods.iter().enumerate() {
-        possible(evaluator, &Path::top("methods").then(i), method, plan)?;
+        possible(&evaluator.top("methods").then(i), method, plan)?;
     }
     let limit = CaseLimit { most: MOST_CASES, of_each_method: until.len() * truths.len() };
     let found = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
@@ -247,7 +246,7 @@ fn combined(
 ) -> Result<(), Diagnostic> {
     let refuse = |reason: CombinationError| {
         let help = "list compatible settings in separate entries of `methods`";
-        evaluator.diagnostic(&named.path(), &reason.to_string()).with_help(help)
+        named.path(evaluator).diagnostic(&reason.to_string()).with_help(help)
     };
     let method = named.method;
     if let Method::QuasiStatic { basis, .. } = method {
@@ -273,8 +272,7 @@ fn combined(
 
 /// Refuses methods that the scene or the study does not support.
 fn possible(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &MethodSpec,
     plan: &ConvergencePlan,
 ) -> Result<(), Diagnostic> {
@@ -282,21 +280,16 @@ fn possible(
         && mass.as_slice().contains(&MassName::Consistent)
         && let Some(message) = against_consistent_mass(plan)
     {
-        return Err(evaluator.diagnostic(&path.then("mpm").then("mass"), message));
+        return Err(path.then("mpm").then("mass").diagnostic(message));
     }
     match spec {
         MethodSpec::Fem { .. } if plan.scene.dimension() != 1 => {
             let d = plan.scene.dimension();
-            Err(evaluator
-                .diagnostic(path, &format!("the built-in FEM is 1-D, but the scene is {d}-D")))
+            Err(path.diagnostic(&format!("the built-in FEM is 1-D, but the scene is {d}-D")))
         }
-        MethodSpec::Fem { .. } if plan.scene.density.uniform().is_none() => Err(evaluator
-            .diagnostic(
-                path,
-                "the built-in FEM does not support a density that varies over the body",
-            )),
-        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => Err(evaluator.diagnostic(
-            path,
+        MethodSpec::Fem { .. } if plan.scene.density.uniform().is_none() => Err(path
+            .diagnostic("the built-in FEM does not support a density that varies over the body")),
+        MethodSpec::Fem { .. } if !plan.scene.bodies.is_empty() => Err(path.diagnostic(
             "the built-in FEM supports a single body only, but the scene lists `bodies`",
         )),
         MethodSpec::Mpm { frame: Some(frame), .. }
@@ -304,15 +297,14 @@ fn possible(
         {
             let message = "`total_lagrangian` needs a periodic grid as long as the body, which \
                            stays at its reference position";
-            Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message))
+            Err(path.then("mpm").then("frame").diagnostic(message))
         }
         MethodSpec::External { .. } if plan.same_method.is_some() => {
             let message = "`same_method` does not support external solvers";
-            Err(evaluator.diagnostic(path, message).with_help("state `exact` or a `reference`"))
+            Err(path.diagnostic(message).with_help("state `exact` or a `reference`"))
         }
         MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
-            Err(evaluator
-                .diagnostic(path, "the suite refines particles per cell, but an FEM has none"))
+            Err(path.diagnostic("the suite refines particles per cell, but an FEM has none"))
         }
         MethodSpec::Mpm { .. } | MethodSpec::Heat { .. } | MethodSpec::External { .. }
             if !plan.refine.has_particles() =>
@@ -320,7 +312,7 @@ fn possible(
             let solver =
                 if matches!(spec, MethodSpec::External { .. }) { "a solver" } else { "MPM" };
             let message = format!("{solver} needs particles, but `refine` has no `ppc`");
-            Err(evaluator.diagnostic(path, &message).with_help("add `ppc: 4` to `refine`"))
+            Err(path.diagnostic(&message).with_help("add `ppc: 4` to `refine`"))
         }
         _ => Ok(()),
     }

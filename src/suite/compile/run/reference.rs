@@ -3,12 +3,12 @@
 
 use super::RunPlan;
 use super::refine::{STEP_OF_EACH_H, step_formula};
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
 use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan};
 use crate::suite::model::{ReferencePlan, SameMethod, Scene};
 use crate::suite::scene::cell_size;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{Axis, Clock};
 
 /// Compiles the FEM reference and the same-method reference, if the suite states them.
@@ -16,7 +16,7 @@ pub(crate) fn references(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
-    run: &RunPlan,
+    run: &RunPlan<'_>,
 ) -> Result<(Option<ReferencePlan>, Option<SameMethod>), Diagnostic> {
     let Some(stated) = &spec.reference else { return Ok((None, None)) };
     let fem = fem(evaluator, stated, scene.dimension())?;
@@ -28,18 +28,18 @@ fn fem(
     spec: &ReferenceSpec,
     dimension: usize,
 ) -> Result<Option<ReferencePlan>, Diagnostic> {
-    let path = Path::top("reference");
+    let path = evaluator.top("reference");
     let (equation, fem) = match (spec.equation, &spec.fem) {
         (Some(equation), Some(fem)) => (equation, fem),
         (None, None) if spec.same_method.is_some() => return Ok(None),
         _ => {
             let message = "a reference needs `equation` and `fem`, or `same_method`";
-            return Err(evaluator.diagnostic_at_key(&path, message));
+            return Err(path.diagnostic_at_key(message));
         }
     };
     if dimension != 1 {
         let message = format!("the built-in FEM is 1-D, but the scene is {dimension}-D");
-        let diagnostic = evaluator.diagnostic_at_key(&path, &message);
+        let diagnostic = path.diagnostic_at_key(&message);
         return Err(diagnostic.with_help("give this scene an `exact` solution"));
     }
     let path = path.then("fem");
@@ -47,8 +47,8 @@ fn fem(
         equation,
         element: fem.element,
         mass: fem.mass,
-        cells: evaluator.count(&path.then("cells"), &fem.cells, "the number of elements")?,
-        dt: evaluator.formula(&path.then("dt"), &fem.dt, &["h"])?,
+        cells: path.then("cells").count(&fem.cells, "the number of elements")?,
+        dt: path.then("dt").formula(&fem.dt, &["h"])?,
     }))
 }
 
@@ -62,13 +62,13 @@ fn same_method(
     spec: &ConvergenceSpec,
     stated: &ReferenceSpec,
     scene: &Scene,
-    RunPlan { until, refine, instants, .. }: &RunPlan,
+    RunPlan { until, refine, instants, .. }: &RunPlan<'_>,
 ) -> Result<Option<SameMethod>, Diagnostic> {
     let (Some(same), Some(finest)) = (&stated.same_method, refine.levels.last()) else {
         return Ok(None);
     };
-    let path = Path::top("reference").then("same_method");
-    let refused = |message, help| Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
+    let path = evaluator.top("reference.same_method");
+    let refused = |message, help| Err(path.diagnostic_at_key(message).with_help(help));
     match (&same.dt, &same.cells) {
         (Some(_), None) if refine.axis != Axis::Time => {
             let message =
@@ -80,16 +80,16 @@ fn same_method(
             refused(message, "list `cells` in `refine`, or use shorter steps (`dt`)")
         }
         (Some(dt), None) => {
-            let dt = shorter(evaluator, &path.then("dt"), dt, *finest, until, *instants)?;
+            let dt = shorter(&path.then("dt"), dt, *finest, until, *instants)?;
             Ok(Some(SameMethod::ShorterSteps(dt)))
         }
         (None, Some(cells)) => {
-            one_lattice(evaluator, &path, spec, scene)?;
+            one_lattice(&path, spec, scene)?;
             let path = path.then("cells");
-            let cells = evaluator.count(&path, cells, "the number of cells")?;
+            let cells = path.count(cells, "the number of cells")?;
             let level = LevelPlan { cells, ..*finest };
-            let level = with_step(evaluator, &path, spec, scene, level)?;
-            finer(evaluator, &path, *finest, level)?;
+            let level = with_step(&path, spec, scene, level)?;
+            finer(&path, *finest, level)?;
             Ok(Some(SameMethod::FineGrid(level)))
         }
         _ => {
@@ -102,14 +102,13 @@ fn same_method(
 
 /// Returns the time step of the reference run (s). Refuses a step that is too long.
 fn shorter(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     dt: &NumberText,
     finest: LevelPlan,
     until: &[(String, f64)],
     instants: u64,
 ) -> Result<f64, Diagnostic> {
-    let dt = evaluator.formula(path, dt, &["h"])?.eval(&[finest.h]);
+    let dt = path.formula(dt, &["h"])?.eval(&[finest.h]);
     for (_, until) in until {
         let clock = |dt| {
             Clock::with_common_instants(*until, dt, instants)
@@ -122,7 +121,7 @@ fn shorter(
                 shown(finest.dt)
             );
             let label = format!("expected at most 1/{SHORTER} of that, and at most 1e9 steps");
-            return Err(evaluator.diagnostic(path, &message).with_label(&label));
+            return Err(path.diagnostic(&message).with_label(&label));
         }
     }
     Ok(dt)
@@ -130,12 +129,7 @@ fn shorter(
 
 /// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level, because
 /// the error on such a grid is not negligible.
-fn finer(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    finest: LevelPlan,
-    fine: LevelPlan,
-) -> Result<(), Diagnostic> {
+fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(), Diagnostic> {
     if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
         return Ok(());
     }
@@ -144,13 +138,12 @@ fn finer(
         fine.cells, finest.cells
     );
     let label = format!("expected at least {FINE_GRID} times as many");
-    Err(evaluator.diagnostic(path, &message).with_label(&label))
+    Err(path.diagnostic(&message).with_label(&label))
 }
 
 /// Returns `level` with the cell size and the time step that belong to its number of cells.
 fn with_step(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
     level: LevelPlan,
@@ -160,20 +153,19 @@ fn with_step(
     }
     let Some(stated) = &spec.run.dt else {
         let message = "`refine` lists a time step for each level, but none for the fine grid";
-        return Err(evaluator.diagnostic(path, message).with_help(STEP_OF_EACH_H));
+        return Err(path.diagnostic(message).with_help(STEP_OF_EACH_H));
     };
-    let at_run = Path::top("run").then("dt");
-    let text = step_formula(evaluator, &at_run, stated, scene)?;
+    let at_run = path.evaluator.top("run.dt");
+    let text = step_formula(&at_run, stated, scene)?;
     let h = cell_size(scene, level.cells);
-    let dt = evaluator.formula(&at_run, &text, &["h"])?.eval(&[h]);
+    let dt = at_run.formula(&text, &["h"])?.eval(&[h]);
     Ok(LevelPlan { h, dt, ..level })
 }
 
 /// Refuses bodies whose particles form no lattice, because the fine-grid reference is interpolated
 /// on a lattice.
 fn one_lattice(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ConvergenceSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
@@ -188,6 +180,5 @@ fn one_lattice(
         "a fine grid is interpolated between regular particles of a single box, but the scene has \
          {body}"
     );
-    let diagnostic = evaluator.diagnostic_at_key(path, &message);
-    Err(diagnostic.with_help("give this scene an `exact` solution"))
+    Err(path.diagnostic_at_key(&message).with_help("give this scene an `exact` solution"))
 }

@@ -2,48 +2,48 @@
 //! stated in the suite, or are a fraction of the stable time step.
 
 use crate::exact::formula::Formula;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RefineSpec, StepSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::scene::{cell_size, per_axis};
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 
 /// Paths of a level in the file.
-pub(crate) struct LevelPaths {
-    pub(crate) size: Path,
-    pub(crate) dt: Path,
+pub(crate) struct LevelPaths<'a> {
+    pub(crate) size: SuitePath<'a>,
+    pub(crate) dt: SuitePath<'a>,
 }
 
 /// Label under the caret for a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
-struct Located<T> {
+struct Located<'a, T> {
     value: T,
-    at: Path,
+    at: SuitePath<'a>,
 }
 
 /// Compiles the levels of a suite. Also returns their positions in the file, for diagnostics.
-pub(crate) fn plan(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
+pub(crate) fn plan<'a>(
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
     scene: &Scene,
-) -> Result<(RefinePlan, Vec<LevelPaths>), Diagnostic> {
+) -> Result<(RefinePlan, Vec<LevelPaths<'a>>), Diagnostic> {
     let axis = axis(evaluator, &spec.refine)?;
     no_idle_expectation(evaluator, spec)?;
     let d = scene.dimension();
-    let cells = counts(evaluator, &listed(spec, Axis::Space, axis), "cells")?;
-    let ppc = counts(evaluator, &listed(spec, Axis::Particles, axis), "particles per cell")?;
+    let cells = counts(&listed(evaluator, spec, Axis::Space, axis), "cells")?;
+    let ppc = counts(&listed(evaluator, spec, Axis::Particles, axis), "particles per cell")?;
     for entry in &ppc {
-        equally_spaced(evaluator, entry, d)?;
+        equally_spaced(entry, d)?;
     }
-    let at_run = Path::top("run").then("dt");
-    let rule = spec.run.dt.as_ref().map(|spec| stable_share(evaluator, &at_run, spec));
+    let at_run = evaluator.top("run.dt");
+    let rule = spec.run.dt.as_ref().map(|spec| stable_share(&at_run, spec));
     let rule = rule.transpose()?.flatten();
     refuse_methods_without_rule(evaluator, &spec.methods, rule)?;
     let stated = spec.run.dt.as_ref();
-    let stated = stated.map(|spec| step_formula(evaluator, &at_run, spec, scene));
+    let stated = stated.map(|spec| step_formula(&at_run, spec, scene));
     let dt = steps(evaluator, spec, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
@@ -73,14 +73,14 @@ fn no_idle_expectation(
 ) -> Result<(), Diagnostic> {
     let idle = spec.expect.iter().position(|entry| entry.full.is_some());
     let (Some(i), None) = (idle, &spec.refine.full) else { return Ok(()) };
-    let path = Path::top("expect").then(i).then("full");
-    let diagnostic = evaluator
-        .diagnostic_at_key(&path, "this expectation needs a full run, but `refine` has no `full`");
+    let path = evaluator.top("expect").then(i).then("full");
+    let diagnostic =
+        path.diagnostic_at_key("this expectation needs a full run, but `refine` has no `full`");
     Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"))
 }
 
 /// Returns the entry for level `k`, which is the only entry if all levels share one.
-fn of_level<T>(entries: &[Located<T>], k: usize) -> Option<&Located<T>> {
+fn of_level<'s, 'a, T>(entries: &'s [Located<'a, T>], k: usize) -> Option<&'s Located<'a, T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
 
@@ -91,11 +91,11 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
 /// Returns the refined axis. At most one key is a list, except that `cells` and `dt` may both have
 /// one entry per level.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
-    let path = Path::top("refine");
+    let path = evaluator.top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
     if ppc && (cells || dt) {
-        let diagnostic = evaluator
-            .diagnostic(&path.then("ppc"), "`ppc` is refined together with `cells` or `dt`");
+        let diagnostic =
+            path.then("ppc").diagnostic("`ppc` is refined together with `cells` or `dt`");
         let help = "to refine `ppc`, state one number of cells and one `dt`";
         return Err(diagnostic.with_help(help));
     }
@@ -103,14 +103,12 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
         .map(|list| list.map_or(0, |list| list.as_slice().len()));
     if cells && dt && lengths[0] != lengths[1] {
         let message = format!("{} time steps for {} levels of cells", lengths[1], lengths[0]);
-        let diagnostic = evaluator.diagnostic(&path.then("dt"), &message);
+        let diagnostic = path.then("dt").diagnostic(&message);
         return Err(diagnostic.with_label("expected one for each").with_help(STEP_OF_EACH_H));
     }
     if let (true, Some(_)) = (cells && dt, &spec.full) {
         let message = "`full` is one list, so it cannot refine both cells and time steps";
-        return Err(evaluator
-            .diagnostic_at_key(&path.then("full"), message)
-            .with_help(STEP_OF_EACH_H));
+        return Err(path.then("full").diagnostic_at_key(message).with_help(STEP_OF_EACH_H));
     }
     Ok(match (dt && !cells, ppc) {
         (true, _) => Axis::Time,
@@ -122,7 +120,12 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
 pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a formula of h";
 
 /// Returns the entries of a key of `refine`. If the key is refined, the entries of `full` follow.
-fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Located<&'w NumberText>> {
+fn listed<'a>(
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
+    key: Axis,
+    refined: Axis,
+) -> Vec<Located<'a, &'a NumberText>> {
     let refine = &spec.refine;
     let (name, list) = match key {
         Axis::Space => ("cells", Some(&refine.cells)),
@@ -130,8 +133,8 @@ fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Locate
         Axis::Particles => ("ppc", refine.ppc.as_ref()),
     };
     let further = refine.full.as_ref().filter(|_| key == refined);
-    let entries = |name: &str, list: &'w OneOrMany<NumberText>| {
-        let path = Path::top("refine").then(name);
+    let entries = |name: &str, list: &'a OneOrMany<NumberText>| {
+        let path = evaluator.top("refine").then(name);
         let texts = list.as_slice().iter().enumerate();
         texts.map(|(i, value)| Located { value, at: path.alternative(list, i) }).collect::<Vec<_>>()
     };
@@ -141,74 +144,67 @@ fn listed<'w>(spec: &'w ConvergenceSpec, key: Axis, refined: Axis) -> Vec<Locate
 }
 
 /// Evaluates counts, which must increase from level to level.
-fn counts(
-    evaluator: &Evaluator<'_>,
-    texts: &[Located<&NumberText>],
+fn counts<'a>(
+    texts: &[Located<'a, &NumberText>],
     what: &str,
-) -> Result<Vec<Located<u64>>, Diagnostic> {
-    let mut counts: Vec<Located<u64>> = Vec::new();
+) -> Result<Vec<Located<'a, u64>>, Diagnostic> {
+    let mut counts: Vec<Located<'a, u64>> = Vec::new();
     for Located { value, at } in texts {
-        let count = evaluator.count(at, value, &format!("the number of {what}"))?;
+        let count = at.count(value, &format!("the number of {what}"))?;
         if counts.iter().any(|known| known.value == count) {
             let message = format!("a level with {count} {what} appears twice");
-            return Err(evaluator.diagnostic(at, &message).with_label("the second time"));
+            return Err(at.diagnostic(&message).with_label("the second time"));
         }
         if let Some(coarser) = counts.last().filter(|coarser| coarser.value > count) {
             let message = format!("a level with {count} {what} after one with {}", coarser.value);
-            return Err(evaluator.diagnostic(at, &message).with_label(COARSE_TO_FINE));
+            return Err(at.diagnostic(&message).with_label(COARSE_TO_FINE));
         }
         counts.push(Located { value: count, at: at.clone() });
     }
     Ok(counts)
 }
 
-fn equally_spaced(
-    evaluator: &Evaluator<'_>,
-    ppc: &Located<u64>,
-    dimension: usize,
-) -> Result<(), Diagnostic> {
+fn equally_spaced(ppc: &Located<'_, u64>, dimension: usize) -> Result<(), Diagnostic> {
     if per_axis(ppc.value, dimension).is_some() {
         return Ok(());
     }
     let message = format!("{} particles per cell cannot be equally spaced", ppc.value);
     let label = format!("expected n^{dimension} in {dimension}-D");
-    Err(evaluator.diagnostic(&ppc.at, &message).with_label(&label))
+    Err(ppc.at.diagnostic(&message).with_label(&label))
 }
 
-fn steps(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
+fn steps<'a>(
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a ConvergenceSpec,
     axis: Axis,
     stated: Option<&NumberText>,
-) -> Result<Vec<Located<Formula>>, Diagnostic> {
-    let at_run = Path::top("run").then("dt");
-    let at_refine = Path::top("refine").then("dt");
+) -> Result<Vec<Located<'a, Formula>>, Diagnostic> {
+    let at_run = evaluator.top("run.dt");
+    let at_refine = evaluator.top("refine.dt");
     if spec.run.load_steps.is_some() {
         // For load steps, the length of a step is one.
-        let value = evaluator.formula(&at_run, &NumberText::Number(1.0), &["h"])?;
-        return Ok(vec![Located { value, at: Path::top("run").then("load_steps") }]);
+        let value = at_run.formula(&NumberText::Number(1.0), &["h"])?;
+        return Ok(vec![Located { value, at: evaluator.top("run.load_steps") }]);
     }
     let texts = match (stated, &spec.refine.dt) {
         (Some(_), Some(_)) => {
             let diagnostic =
-                evaluator.diagnostic_at_key(&at_refine, "the time step is already stated in `run`");
+                at_refine.diagnostic_at_key("the time step is already stated in `run`");
             return Err(diagnostic.with_help("keep one of them"));
         }
         (None, None) => {
-            let diagnostic =
-                evaluator.diagnostic_at_key(&Path::top("run"), "a run needs a time step");
+            let diagnostic = evaluator.top("run").diagnostic_at_key("a run needs a time step");
             return Err(diagnostic.with_help("add `dt`, or a list of them to `refine`"));
         }
         (None, Some(list)) if list.as_slice().len() == 1 => {
-            let diagnostic =
-                evaluator.diagnostic_at_key(&at_refine, "a single time step refines nothing");
+            let diagnostic = at_refine.diagnostic_at_key("a single time step refines nothing");
             return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
         (Some(value), None) => vec![Located { value, at: at_run }],
-        (None, Some(_)) => listed(spec, Axis::Time, axis),
+        (None, Some(_)) => listed(evaluator, spec, Axis::Time, axis),
     };
-    let bind = |Located { value, at }: Located<&NumberText>| {
-        Ok(Located { value: evaluator.formula(&at, value, &["h"])?, at })
+    let bind = |Located { value, at }: Located<'a, &NumberText>| {
+        Ok(Located { value: at.formula(value, &["h"])?, at })
     };
     texts.into_iter().map(bind).collect()
 }
@@ -218,28 +214,26 @@ const AUTO: f64 = 0.5;
 
 /// Returns the share of the stable time step, if the step of `spec` at `path` is automatic.
 pub(crate) fn stable_share(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &StepSpec,
 ) -> Result<Option<f64>, Diagnostic> {
     match spec {
         StepSpec::Length(_) => Ok(None),
         StepSpec::Auto => Ok(Some(AUTO)),
-        StepSpec::Courant(text) => evaluator
-            .positive(&path.then("courant"), text, "the share of the stable step")
-            .map(Some),
+        StepSpec::Courant(text) => {
+            path.then("courant").positive(text, "the share of the stable step").map(Some)
+        }
     }
 }
 
 /// Returns the time step (s) as a formula of h. For an automatic step, this is a preliminary value:
 /// the final step is computed when the particles exist.
 pub(crate) fn step_formula(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &StepSpec,
     scene: &Scene,
 ) -> Result<NumberText, Diagnostic> {
-    let share = match (spec, stable_share(evaluator, path, spec)?) {
+    let share = match (spec, stable_share(path, spec)?) {
         (StepSpec::Length(text), _) => return Ok(text.clone()),
         (_, share) => share.unwrap_or(AUTO),
     };
@@ -249,7 +243,7 @@ pub(crate) fn step_formula(
         return Ok(NumberText::Formula(format!("{share}*h/{speed}")));
     }
     let message = "an automatic time step needs a wave speed, but this body has none";
-    Err(evaluator.diagnostic(path, message).with_label("expected a number"))
+    Err(path.diagnostic(message).with_label("expected a number"))
 }
 
 fn refuse_methods_without_rule(
@@ -263,7 +257,7 @@ fn refuse_methods_without_rule(
     let other = methods.iter().position(|method| !steps(method));
     let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
     let message = "an automatic time step is available for MPM only";
-    let diagnostic = evaluator.diagnostic(&Path::top("methods").then(i), message);
+    let diagnostic = evaluator.top("methods").then(i).diagnostic(message);
     Err(diagnostic.with_help(
         "state `dt` as a number or a formula of h, or move this method to a separate suite",
     ))

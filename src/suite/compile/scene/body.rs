@@ -4,36 +4,35 @@ use super::material::{self, Substance};
 use super::outline::{self, Shape};
 use super::sets;
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{OneBodySpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::{BoundaryCondition, FaceAtRest, FaceEntry, FreeFace};
 use crate::suite::scene::face::{FACES, face};
 use crate::suite::scene::load;
 use crate::suite::scene::load::LoadSpec;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Compiles the body `own`, whose keys are in the map at `path`.
 pub(crate) fn body(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     own: &OneBodySpec,
     spec: &SceneSpec,
 ) -> Result<Scene, Diagnostic> {
-    let top = Path::top("scene");
-    let dimension = dimension(evaluator, &top, &spec.dimension)?;
-    let plane = plane(evaluator, &top, spec, dimension)?;
+    let top = path.evaluator.top("scene");
+    let dimension = dimension(&top, &spec.dimension)?;
+    let plane = plane(&top, spec, dimension)?;
     let at = path.then("body");
-    let shape = outline::shape(evaluator, &at, &own.body, spec, dimension, plane)?;
+    let shape = outline::shape(&at, &own.body, spec, dimension, plane)?;
     let grid = spec.grid.as_ref();
     let at = top.then("grid");
-    let grid = grid.map(|grid| outline::corners(evaluator, &at, grid, dimension)).transpose()?;
-    let sets = sets::declared(evaluator, &top, spec, &shape)?;
-    let substance = material::substance(evaluator, path, own, &shape, &spec.loads)?;
+    let grid = grid.map(|grid| outline::corners(&at, grid, dimension)).transpose()?;
+    let sets = sets::declared(&top, spec, &shape)?;
+    let substance = material::substance(path, own, &shape, &spec.loads)?;
     let is_free = shape.outline.is_some() && shape.mapped.is_none();
     let has_faces = !is_free || spec.bodies.is_some();
-    let faces = if has_faces { faces(evaluator, &top, spec, dimension)? } else { Vec::new() };
+    let faces = if has_faces { faces(&top, spec, dimension)? } else { Vec::new() };
     let Shape { from, to, outline, mapped, plane } = shape;
     let Substance { material, density, initial_stress, initial_displacement, initial_velocity } =
         substance;
@@ -55,43 +54,37 @@ pub(crate) fn body(
         initial_displacement,
         initial_velocity,
     };
-    revolves(evaluator, &top, &scene)?;
+    revolves(&top, &scene)?;
     if scene.is_at_rest() {
-        settle(evaluator, path, spec, &mut scene.faces)?;
+        settle(path, spec, &mut scene.faces)?;
     }
-    load::add(evaluator, &spec.loads, &mut scene)?;
+    load::add(path.evaluator, &spec.loads, &mut scene)?;
     Ok(scene)
 }
 
-fn dimension(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-) -> Result<usize, Diagnostic> {
+fn dimension(path: &SuitePath<'_>, text: &NumberText) -> Result<usize, Diagnostic> {
     let path = path.then("dimension");
-    let dimension = evaluator.number(&path, text)?;
+    let dimension = path.number(text)?;
     match [1.0, 2.0, 3.0].iter().position(|d| *d == dimension) {
         Some(index) => Ok(index + 1),
-        None => Err(evaluator
-            .diagnostic(&path, &format!("a scene of dimension {}", shown(dimension)))
+        None => Err(path
+            .diagnostic(&format!("a scene of dimension {}", shown(dimension)))
             .with_label("expected 1, 2 or 3")),
     }
 }
 
 fn faces(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<SceneFace>, Diagnostic> {
-    let holds = holds(evaluator, path, spec, dimension)?;
+    let holds = holds(path, spec, dimension)?;
     let build = |(i, hold)| SceneFace { name: FACES[i], axis: i / 2, high: i % 2 == 1, hold };
     Ok(holds.into_iter().enumerate().map(build).collect())
 }
 
 fn holds(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     dimension: usize,
 ) -> Result<Vec<Arc<dyn BoundaryCondition>>, Diagnostic> {
@@ -100,27 +93,23 @@ fn holds(
     let mut holds = vec![free; 2 * dimension];
     for (name, spec) in spec.boundary.as_slice() {
         let at = path.then(name.as_str());
-        let face = face(evaluator, &at, name, dimension, true)?;
+        let face = face(&at, name, dimension, true)?;
         let (condition, spec) = spec.named();
-        let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
+        let entry = FaceEntry { path: at.then(condition), dimension };
         holds[face] = spec.compile(&entry)?;
     }
-    both_ends(evaluator, &path, &holds)?;
+    both_ends(&path, &holds)?;
     Ok(holds)
 }
 
 /// Refuses a periodic face whose opposite face is not periodic.
-fn both_ends(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    holds: &[Arc<dyn BoundaryCondition>],
-) -> Result<(), Diagnostic> {
+fn both_ends(path: &SuitePath<'_>, holds: &[Arc<dyn BoundaryCondition>]) -> Result<(), Diagnostic> {
     for (i, hold) in holds.iter().enumerate() {
         let (name, other) = (FACES[i], FACES[i ^ 1]);
         if hold.is_periodic() && !holds[i ^ 1].is_periodic() {
             let verb = holds[i ^ 1].verb();
             let message = format!("the {name} face is periodic, but the {other} face {verb}");
-            let diagnostic = evaluator.diagnostic(&path.then(name), &message);
+            let diagnostic = path.then(name).diagnostic(&message);
             return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
         }
     }
@@ -130,13 +119,12 @@ fn both_ends(
 /// Sets the condition of free faces to [`FaceAtRest`], for a rigid body. Refuses a list of bodies,
 /// and keys that fix, load or move the body. `path` is the map that contains the body.
 fn settle(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     faces: &mut [SceneFace],
 ) -> Result<(), Diagnostic> {
-    let idle = |at: &Path, message: &str| {
-        let diagnostic = evaluator.diagnostic_at_key(at, message);
+    let idle = |at: &SuitePath<'_>, message: &str| {
+        let diagnostic = at.diagnostic_at_key(message);
         Err(diagnostic
             .with_help("a `rigid` body does not move: remove this, or choose another material"))
     };
@@ -173,34 +161,34 @@ fn settle(
 
 /// Compiles the stated plane state; the default is plane strain.
 fn plane(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     dimension: usize,
 ) -> Result<PlaneState, Diagnostic> {
     let Some(plane) = spec.plane else { return Ok(PlaneState::Strain) };
     if dimension != 2 {
         let message = format!("`plane` needs a 2-D scene, but this scene is {dimension}-D");
-        return Err(evaluator
-            .diagnostic(&path.then("plane"), &message)
+        return Err(path
+            .then("plane")
+            .diagnostic(&message)
             .with_label("expected in a scene of `dimension: 2`"));
     }
     if plane == PlaneState::Axisymmetric && spec.bodies.is_some() {
         let message = "`plane: axisymmetric` is not supported for several bodies";
-        return Err(evaluator.diagnostic_at_key(&path.then("bodies"), message));
+        return Err(path.then("bodies").diagnostic_at_key(message));
     }
     for (i, load) in spec.loads.iter().enumerate() {
         if let Some(reason) = load.keys().against_plane(plane) {
             let (plane, name) = (plane.name(), load.effect().name());
             let message = format!("`plane: {plane}` is not supported with `{name}`: {reason}");
-            return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
+            return Err(load.path(path.evaluator, i).diagnostic_at_key(&message));
         }
     }
     Ok(plane)
 }
 
 /// Refuses a body that cannot be revolved about the axis where the first coordinate is zero.
-fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
+fn revolves(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     if scene.plane != PlaneState::Axisymmetric {
         return Ok(());
     }
@@ -208,20 +196,20 @@ fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(),
     let body = path.then("body");
     if scene.mapped.is_some() {
         let message = "`plane: axisymmetric` is not supported for a quadrilateral";
-        return Err(evaluator.diagnostic_at_key(&body, message));
+        return Err(body.diagnostic_at_key(message));
     }
     if !scene.initial_stress.is_none() {
         let message = "`plane: axisymmetric` is not supported with an initial stress, which has no \
                        key for the hoop stress";
-        return Err(evaluator.diagnostic_at_key(&path.then("initial_stress"), message));
+        return Err(path.then("initial_stress").diagnostic_at_key(message));
     }
     if scene.from[0] < 0.0 {
         let message = format!("the body starts at the negative radius {}", shown(scene.from[0]));
-        return Err(evaluator.diagnostic_at_key(&body, &message).with_help(help));
+        return Err(body.diagnostic_at_key(&message).with_help(help));
     }
     if scene.outline.is_some() && scene.from[0] == 0.0 {
         let message = "the free rim of the body touches the axis, where a roller is needed";
-        let diagnostic = evaluator.diagnostic_at_key(&body, message);
+        let diagnostic = body.diagnostic_at_key(message);
         return Err(diagnostic.with_help("move it to larger radii, or use a `box`"));
     }
     let mut faces = scene.faces.iter().filter(|face| face.axis == 0);
@@ -229,12 +217,12 @@ fn revolves(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(),
         let message =
             format!("the face `{}` cannot be periodic, because a radius has no period", face.name);
         let at = path.then("boundary").then(face.name);
-        return Err(evaluator.diagnostic_at_key(&at, &message).with_help(help));
+        return Err(at.diagnostic_at_key(&message).with_help(help));
     }
     let is_axis = |face: &SceneFace| !face.high && scene.from[0] == 0.0;
     if let Some(face) = faces.find(|face| is_axis(face) && face.hold.name() != "roller") {
         let message = format!("the {} face lies on the axis, but {}", face.name, face.hold.verb());
-        let diagnostic = evaluator.diagnostic_at_key(&path.then("boundary"), &message);
+        let diagnostic = path.then("boundary").diagnostic_at_key(&message);
         return Err(diagnostic.with_help("state `left: roller`: nothing crosses the axis"));
     }
     Ok(())

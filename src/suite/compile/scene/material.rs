@@ -5,11 +5,11 @@ use crate::exact::formula::Formula;
 use crate::exact::{Density, InitialStress, NoDensity};
 use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Matrix, Range};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time, shown};
+use crate::suite::evaluator::{COORDINATES, SuitePath, coordinates_and_time, shown};
 use crate::suite::grammar::{OneBodySpec, StressSpec};
 use crate::suite::scene::holds;
 use crate::suite::scene::load::{EffectName, LoadSpec};
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Material, density and initial state of a body.
 pub(crate) struct Substance {
@@ -26,23 +26,22 @@ pub(crate) struct Substance {
 /// Compiles the material of the body `own`, whose keys are in the map at `path`, and its initial
 /// state. Refuses what the law does not support in a body of this shape under these loads.
 pub(crate) fn substance(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     own: &OneBodySpec,
     shape: &Shape,
     loads: &[LoadSpec],
 ) -> Result<Substance, Diagnostic> {
     let (at, d) = (path.then("material"), shape.from.len());
-    let material = material(evaluator, &at, &own.material)?;
-    refuse_plane(evaluator, &at, &material, shape.plane)?;
+    let material = material(&at, &own.material)?;
+    refuse_plane(&at, &material, shape.plane)?;
     let at = at.then(own.material.name()).then("density");
-    let density = density(evaluator, &at, own.material.density(), &material, shape, loads)?;
+    let density = density(&at, own.material.density(), &material, shape, loads)?;
     let at = path.then("initial_stress");
-    let initial_stress = stress(evaluator, &at, own.initial_stress.as_ref(), d, &material)?;
-    refuse_outside_yield_surface(evaluator, &at, &initial_stress, &material, shape)?;
+    let initial_stress = stress(&at, own.initial_stress.as_ref(), d, &material)?;
+    refuse_outside_yield_surface(&at, &initial_stress, &material, shape)?;
     Ok(Substance {
-        initial_displacement: displacement(evaluator, path, own, d, &material)?,
-        initial_velocity: velocity(evaluator, path, own, d)?,
+        initial_displacement: displacement(path, own, d, &material)?,
+        initial_velocity: velocity(path, own, d)?,
         material,
         density,
         initial_stress,
@@ -50,15 +49,14 @@ pub(crate) fn substance(
 }
 
 fn material(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &MaterialSpec<NumberText>,
 ) -> Result<MaterialPlan, Diagnostic> {
     let path = path.then(spec.name());
     let material = spec.numbers(|key, parameter, text| {
-        let value = number_in_range(evaluator, &path.then(key), text, parameter);
+        let value = number_in_range(&path.then(key), text, parameter);
         value.map_err(|diagnostic| {
-            if !evaluator.depends_on_coordinate(text) {
+            if !path.evaluator.depends_on_coordinate(text) {
                 return diagnostic;
             }
             diagnostic.with_help(
@@ -69,21 +67,20 @@ fn material(
     })?;
     if let Some(Contradiction { key, reason, explanation }) = material.properties().contradiction()
     {
-        return Err(evaluator.diagnostic(&path.then(key), reason).with_label(explanation));
+        return Err(path.then(key).diagnostic(reason).with_label(explanation));
     }
     Ok(material)
 }
 
 /// Evaluates a parameter of a material, which must be in its range.
 fn number_in_range(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     text: &NumberText,
     parameter: &MaterialParameter,
 ) -> Result<f64, Diagnostic> {
-    let (what, value) = (parameter.what, evaluator.number(path, text)?);
+    let (what, value) = (parameter.what, path.number(text)?);
     let (is_valid, reason, expected) = match parameter.range {
-        Range::Positive => return evaluator.positive(path, text, what),
+        Range::Positive => return path.positive(text, what),
         Range::NotNegative => {
             (value >= 0.0, ", but must not be below zero", "expected zero or a positive number")
         }
@@ -100,14 +97,12 @@ fn number_in_range(
     if is_valid {
         return Ok(value);
     }
-    let message = format!("{what} is {}{reason}", shown(value));
-    Err(evaluator.unusable(path, text, &message, expected))
+    Err(path.unusable(text, &format!("{what} is {}{reason}", shown(value)), expected))
 }
 
 /// Refuses the material at `path` if its law is not implemented for the plane state.
 fn refuse_plane(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     material: &MaterialPlan,
     plane: PlaneState,
 ) -> Result<(), Diagnostic> {
@@ -116,52 +111,46 @@ fn refuse_plane(
     }
     let name = material.name();
     let message = format!("the law `{name}` is not supported in plane stress, where sigma_33 = 0");
-    let diagnostic = evaluator.diagnostic_at_key(&path.then(name), &message);
+    let diagnostic = path.then(name).diagnostic_at_key(&message);
     Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
 }
 
 /// Compiles the density at `path`: a number, or a formula of the coordinates.
 fn density(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     text: &NumberText,
     material: &MaterialPlan,
     shape: &Shape,
     loads: &[LoadSpec],
 ) -> Result<Density, Diagnostic> {
-    if !evaluator.depends_on_coordinate(text) {
-        return Ok(evaluator.positive(path, text, "the density")?.into());
+    if !path.evaluator.depends_on_coordinate(text) {
+        return Ok(path.positive(text, "the density")?.into());
     }
-    let formula = evaluator.formula(path, text, &COORDINATES[..shape.from.len()])?;
+    let formula = path.formula(text, &COORDINATES[..shape.from.len()])?;
     if let Some(reason) = against_varying_density(material, shape, loads) {
         let message =
             format!("a density that varies over the body is not supported here: {reason}");
-        return Err(evaluator.diagnostic(path, &message));
+        return Err(path.diagnostic(&message));
     }
     let density = Density::of_place(formula, &shape.from, &shape.to, shape.outline.as_deref())
-        .map_err(|place| not_positive(evaluator, path, text, &place))?;
+        .map_err(|place| not_positive(path, text, &place))?;
     if density.smallest() == 0.0 && !material.properties().wave_speed(0.0).is_finite() {
         let message = format!(
             "the density is zero on the rim, where the wave speed of `{}` is unbounded",
             material.name()
         );
-        let diagnostic = evaluator.unusable(path, text, &message, "expected a positive density");
+        let diagnostic = path.unusable(text, &message, "expected a positive density");
         return Err(diagnostic.with_help("use a `polytropic` gas, or add a constant"));
     }
     Ok(density)
 }
 
-fn not_positive(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    text: &NumberText,
-    place: &NoDensity,
-) -> Diagnostic {
+fn not_positive(path: &SuitePath<'_>, text: &NumberText, place: &NoDensity) -> Diagnostic {
     let label: Vec<String> = place.label.iter().map(|x| shown(*x)).collect();
     let value = shown(place.value);
     let message = format!("the density is {value} kg/m3 at ({}) m", label.join(", "));
     let label = "expected a positive density inside the body, and at least zero on its rim";
-    evaluator.unusable(path, text, &message, label)
+    path.unusable(text, &message, label)
 }
 
 /// Returns the reason why a density must be uniform; `None` if it may vary over the body.
@@ -191,8 +180,7 @@ const COMPONENTS: [(&str, usize, usize); 6] =
 
 /// Compiles the initial displacement (m); empty if not stated.
 fn displacement(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     own: &OneBodySpec,
     dimension: usize,
     material: &MaterialPlan,
@@ -200,32 +188,30 @@ fn displacement(
     let path = path.then("initial_displacement");
     let Some(texts) = &own.initial_displacement else { return Ok(Vec::new()) };
     let admitted = material.properties().starts_deformed();
-    admit(evaluator, &path, material, admitted, "cannot start deformed")?;
-    evaluator.vector(&path, texts, dimension, &coordinates_and_time(dimension))
+    admit(&path, material, admitted, "cannot start deformed")?;
+    path.vector(texts, dimension, &coordinates_and_time(dimension))
 }
 
 /// Compiles the initial velocity (m/s); empty if not stated.
 fn velocity(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     own: &OneBodySpec,
     dimension: usize,
 ) -> Result<Vec<Formula>, Diagnostic> {
     let Some(texts) = &own.initial_velocity else { return Ok(Vec::new()) };
     let variables = coordinates_and_time(dimension);
-    evaluator.vector(&path.then("initial_velocity"), texts, dimension, &variables)
+    path.then("initial_velocity").vector(texts, dimension, &variables)
 }
 
 fn stress(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: Option<&StressSpec>,
     dimension: usize,
     material: &MaterialPlan,
 ) -> Result<InitialStress, Diagnostic> {
     let Some(spec) = spec else { return Ok(InitialStress::default()) };
     let admitted = material.properties().starts_stressed();
-    admit(evaluator, path, material, admitted, "does not support an initial stress")?;
+    admit(path, material, admitted, "does not support an initial stress")?;
     let yields = material.properties().yield_function(&Matrix::zeros()).is_some();
     let texts = [&spec.xx, &spec.yy, &spec.zz, &spec.xy, &spec.yz, &spec.xz];
     let mut components = Vec::new();
@@ -237,19 +223,19 @@ fn stress(
                 let message = format!("`initial_stress` does not state `{name}`");
                 let help = "the yield condition depends on all three normal stresses, also on \
                             those out of the plane";
-                return Err(evaluator.diagnostic_at_key(path, &message).with_help(help));
+                return Err(path.diagnostic_at_key(&message).with_help(help));
             }
             continue;
         };
         if i.max(j) >= dimension && !(yields && is_across) {
             let message = format!("`{name}` is not a stress component in {dimension}-D");
             let help = known(dimension, yields);
-            return Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help));
+            return Err(at.diagnostic_at_key(&message).with_help(&help));
         }
-        components.push((i, j, evaluator.formula(&at, text, &COORDINATES[..dimension])?));
+        components.push((i, j, at.formula(text, &COORDINATES[..dimension])?));
     }
     if components.is_empty() {
-        let diagnostic = evaluator.diagnostic(path, "`initial_stress` states no component");
+        let diagnostic = path.diagnostic("`initial_stress` states no component");
         return Err(diagnostic.with_help(&known(dimension, yields)));
     }
     Ok(InitialStress::new(components))
@@ -270,8 +256,7 @@ const YIELD_POSITIONS: [usize; 3] = [1025, 65, 17];
 /// Refuses an initial stress outside the yield surface. The positions are a regular grid that
 /// contains the corners of the bounding box. The solver checks each particle.
 fn refuse_outside_yield_surface(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     initial_stress: &InitialStress,
     material: &MaterialPlan,
     shape: &Shape,
@@ -302,27 +287,25 @@ fn refuse_outside_yield_surface(
     let place: Vec<String> = label.iter().map(|x| shown(*x)).collect();
     if !value.is_finite() {
         let message = format!("the initial stress at ({}) m is not finite", place.join(", "));
-        return Err(evaluator.diagnostic_at_key(path, &message));
+        return Err(path.diagnostic_at_key(&message));
     }
     let message = format!(
         "the initial stress violates the yield condition of `{}`: f = {value:.3e} Pa at ({}) m",
         material.name(),
         place.join(", ")
     );
-    Err(evaluator.diagnostic_at_key(path, &message).with_help("f must not be positive"))
+    Err(path.diagnostic_at_key(&message).with_help("f must not be positive"))
 }
 
 /// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows
 /// the name of the law.
 fn admit(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     material: &MaterialPlan,
     admitted: Result<(), &'static str>,
     lacks: &str,
 ) -> Result<(), Diagnostic> {
     admitted.map_err(|reason| {
-        let message = format!("a `{}` body {lacks}", material.name());
-        evaluator.diagnostic_at_key(path, &message).with_help(reason)
+        path.diagnostic_at_key(&format!("a `{}` body {lacks}", material.name())).with_help(reason)
     })
 }

@@ -9,50 +9,48 @@ pub(crate) mod outline;
 mod sets;
 
 use crate::exact::Polygon;
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{OneBodySpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::FreeFace;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 /// Maximum number of bodies.
 const MOST: usize = 100;
 
 pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
-    let path = Path::top("scene");
-    let bodies = listed(evaluator, &path, spec)?;
-    let contact = contact(evaluator, &path, spec)?;
-    let each = bodies.iter().map(|(at, own)| body::body(evaluator, at, own, spec));
+    let path = evaluator.top("scene");
+    let bodies = listed(&path, spec)?;
+    let contact = contact(&path, spec)?;
+    let each = bodies.iter().map(|(at, own)| body::body(at, own, spec));
     let each = each.collect::<Result<Vec<Scene>, _>>()?;
-    let scene = together(evaluator, &path, each, spec.bodies.is_some(), contact)?;
-    sets::refuse_idle(evaluator, &path, &scene)?;
-    on_grid(evaluator, &path, &scene)?;
+    let scene = together(&path, each, spec.bodies.is_some(), contact)?;
+    sets::refuse_idle(&path, &scene)?;
+    on_grid(&path, &scene)?;
     let with_rims = scene.each().iter().filter(|body| body.mapped.is_none());
     for outline in with_rims.filter_map(|body| body.outline.as_deref()) {
-        outline::fits(evaluator, &path, outline, scene.grid.as_ref())?;
+        outline::fits(&path, outline, scene.grid.as_ref())?;
     }
     Ok(scene)
 }
 
 /// Returns the keys of each body, with the path of the map that contains them.
-fn listed(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+fn listed<'a>(
+    path: &SuitePath<'a>,
     spec: &SceneSpec,
-) -> Result<Vec<(Path, OneBodySpec)>, Diagnostic> {
+) -> Result<Vec<(SuitePath<'a>, OneBodySpec)>, Diagnostic> {
     if let Some(bodies) = &spec.bodies {
-        refuse_beside(evaluator, path, spec)?;
+        refuse_beside(path, spec)?;
         let at = path.then("bodies");
         if bodies.is_empty() || bodies.len() > MOST {
-            let diagnostic =
-                evaluator.diagnostic(&at, &format!("the scene has {} bodies", bodies.len()));
+            let diagnostic = at.diagnostic(&format!("the scene has {} bodies", bodies.len()));
             return Err(diagnostic.with_label(&format!("expected 1 to {MOST}")));
         }
         return Ok(bodies.iter().enumerate().map(|(i, own)| (at.then(i), own.clone())).collect());
     }
     let missing = |key: &str| {
-        let diagnostic = evaluator.diagnostic_at_key(path, &format!("the scene has no `{key}`"));
+        let diagnostic = path.diagnostic_at_key(&format!("the scene has no `{key}`"));
         diagnostic.with_help("add `body` and `material`, or a list of `bodies` with one of each")
     };
     let own = OneBodySpec {
@@ -66,11 +64,7 @@ fn listed(
 }
 
 /// Refuses keys of a single body next to a list of bodies.
-fn refuse_beside(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    spec: &SceneSpec,
-) -> Result<(), Diagnostic> {
+fn refuse_beside(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<(), Diagnostic> {
     let alone = [
         ("body", spec.body.is_some()),
         ("material", spec.material.is_some()),
@@ -81,7 +75,7 @@ fn refuse_beside(
     ];
     if let Some((key, _)) = alone.iter().find(|(_, stated)| *stated) {
         let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
-        return Err(evaluator.diagnostic_at_key(&path.then(*key), &message));
+        return Err(path.then(*key).diagnostic_at_key(&message));
     }
     for (i, load) in spec.loads.iter().enumerate() {
         let name = load.effect().name();
@@ -91,30 +85,26 @@ fn refuse_beside(
             None => continue,
         };
         let message = format!("`{name}` {acts}, but the scene lists `bodies`");
-        return Err(evaluator.diagnostic_at_key(&load.path(i), &message));
+        return Err(load.path(path.evaluator, i).diagnostic_at_key(&message));
     }
     Ok(())
 }
 
-fn contact(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    spec: &SceneSpec,
-) -> Result<Option<f64>, Diagnostic> {
+fn contact(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<Option<f64>, Diagnostic> {
     let Some(contact) = &spec.contact else { return Ok(None) };
     let path = path.then("contact").then("friction");
-    let coefficient = evaluator.number(&path, &contact.friction)?;
+    let coefficient = path.number(&contact.friction)?;
     if coefficient >= 0.0 {
         return Ok(Some(coefficient));
     }
     let message = format!("the coefficient of friction is {}", shown(coefficient));
-    Err(evaluator.diagnostic(&path, &message).with_label("expected zero or a positive number"))
+    Err(path.diagnostic(&message).with_label("expected zero or a positive number"))
 }
 
 /// Checks that the grid contains the body. Fixed and periodic faces must lie on grid faces, because
 /// conditions apply to grid nodes. If the body may start deformed, the grid period is checked later
 /// against the period of the motion.
-fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), Diagnostic> {
+fn on_grid(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
     let given = |face: &&SceneFace| !(deforms && face.hold.is_periodic());
@@ -140,7 +130,7 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
             let beyond = if face.high { "at least" } else { "at most" };
             let label = if apart { "exactly" } else { beyond };
             let label = format!("expected {label} {}", shown(body));
-            return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+            return Err(at.diagnostic(&message).with_label(&label));
         }
     }
     Ok(())
@@ -148,14 +138,13 @@ fn on_grid(evaluator: &Evaluator<'_>, path: &Path, scene: &Scene) -> Result<(), 
 
 /// Combines all `bodies` into one scene. If `several` is false, returns the only body.
 fn together(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     mut bodies: Vec<Scene>,
     several: bool,
     contact: Option<f64>,
 ) -> Result<Scene, Diagnostic> {
     let Some(first) = bodies.first() else {
-        return Err(evaluator.diagnostic(path, "the scene has no body"));
+        return Err(path.diagnostic("the scene has no body"));
     };
     let mut scene = Scene { contact, ..first.clone() };
     if !several {
@@ -168,11 +157,11 @@ fn together(
             scene.to[axis] = scene.to[axis].max(body.to[axis]);
         }
     }
-    apart(evaluator, path, &bodies)?;
+    apart(path, &bodies)?;
     let mut faces = scene.faces.iter();
     let against = faces.find_map(|face| Some((face.name, face.hold.against_several_bodies()?)));
     if let Some((name, why)) = against {
-        return Err(evaluator.diagnostic_at_key(&path.then("boundary").then(name), why));
+        return Err(path.then("boundary").then(name).diagnostic_at_key(why));
     }
     for body in &mut bodies {
         inner_faces_are_free(body, &scene);
@@ -200,12 +189,12 @@ fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     }
 }
 
-fn apart(evaluator: &Evaluator<'_>, path: &Path, bodies: &[Scene]) -> Result<(), Diagnostic> {
+fn apart(path: &SuitePath<'_>, bodies: &[Scene]) -> Result<(), Diagnostic> {
     for (i, body) in bodies.iter().enumerate() {
         if let Some(k) = bodies[..i].iter().position(|other| overlap(body, other)) {
             let message = format!("body {} and body {} overlap", k + 1, i + 1);
             let at = path.then("bodies").then(i).then("body");
-            return Err(evaluator.diagnostic_at_key(&at, &message));
+            return Err(at.diagnostic_at_key(&message));
         }
     }
     Ok(())

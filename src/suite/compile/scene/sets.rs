@@ -2,31 +2,30 @@
 
 use super::outline::{self, Shape};
 use crate::exact::{Outline, Region};
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{SceneSpec, SetSpec};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::{Scene, face::FACES};
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 
 /// A set counts as empty if at most this share of its volume is in the body.
 const SLIVER: f64 = 1e-12;
 
 /// Compiles the particle sets. Their loads are compiled later.
 pub(crate) fn declared(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     shape: &Shape,
 ) -> Result<Vec<Region>, Diagnostic> {
     let declare = |(name, SetSpec::Box(spec)): &(String, SetSpec)| {
         let at = path.then("sets").then(name.as_str());
-        refuse_face_name(evaluator, &at, name)?;
+        refuse_face_name(&at, name)?;
         let at = at.then("box");
-        let (from, to) = outline::corners(evaluator, &at, spec, shape.from.len())?;
+        let (from, to) = outline::corners(&at, spec, shape.from.len())?;
         let set = Region { name: name.clone(), from, to };
-        refuse_outside(evaluator, &at, &set, &shape.from, &shape.to)?;
+        refuse_outside(&at, &set, &shape.from, &shape.to)?;
         if let Some(outline) = shape.outline.as_deref() {
-            refuse_beside(evaluator, &at, &set, outline)?;
+            refuse_beside(&at, &set, outline)?;
         }
         Ok(set)
     };
@@ -34,17 +33,16 @@ pub(crate) fn declared(
 }
 
 /// Refuses a set with the name of a face, which would be ambiguous.
-fn refuse_face_name(evaluator: &Evaluator<'_>, path: &Path, name: &str) -> Result<(), Diagnostic> {
+fn refuse_face_name(path: &SuitePath<'_>, name: &str) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
     }
     let message = format!("`{name}` is the name of a face");
-    Err(evaluator.diagnostic_at_key(path, &message).with_help("give the set another name"))
+    Err(path.diagnostic_at_key(&message).with_help("give the set another name"))
 }
 
 fn refuse_outside(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     set: &Region,
     from: &[f64],
     to: &[f64],
@@ -56,7 +54,7 @@ fn refuse_outside(
                 format!("the set `{}` from {low} to {high} is outside the body", set.name);
             let (from, to) = (shown(from[axis]), shown(to[axis]));
             let label = format!("the body is from {from} to {to}");
-            let diagnostic = evaluator.diagnostic(&path.then("from").then(axis), &message);
+            let diagnostic = path.then("from").then(axis).diagnostic(&message);
             return Err(diagnostic.with_label(&label));
         }
     }
@@ -65,8 +63,7 @@ fn refuse_outside(
 
 /// Refuses a set that contains no part of a round or polygonal body.
 fn refuse_beside(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     set: &Region,
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
@@ -78,19 +75,15 @@ fn refuse_beside(
     }
     let message = format!("the set `{}` contains no part of the {}", set.name, outline.kind());
     let label = format!("the body is a {}", outline.row());
-    Err(evaluator.diagnostic(&path.then("from"), &message).with_label(&label))
+    Err(path.then("from").diagnostic(&message).with_label(&label))
 }
 
 /// Refuses a set without a load, which is probably a mistake.
-pub(crate) fn refuse_idle(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+pub(crate) fn refuse_idle(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let idle = |i: &usize| scene.loads_on(LoadTarget::Set(*i)).next().is_none();
     let Some(i) = (0..scene.sets.len()).find(idle) else { return Ok(()) };
     let name = &scene.sets[i].name;
     let path = path.then("sets").then(name.as_str());
-    let diagnostic = evaluator.diagnostic_at_key(&path, &format!("the set `{name}` is never used"));
+    let diagnostic = path.diagnostic_at_key(&format!("the set `{name}` is never used"));
     Err(diagnostic.with_help("remove it, or let a load act on it"))
 }

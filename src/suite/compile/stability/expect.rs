@@ -1,22 +1,20 @@
 //! Compiles the expectations for the rows of a stability study.
 
 use super::setup::SetupTemplate;
-use crate::suite::evaluator::{Evaluator, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation, format_number};
 
 pub(crate) fn named(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &StabilityExpectSpec,
 ) -> Result<Vec<RunFigure>, Diagnostic> {
     let find = |(name, _): &(String, FigureSpec)| {
         RunFigure::by_name(name).ok_or_else(|| {
             let known: Vec<&str> = RunFigure::ALL.iter().map(|figure| figure.name()).collect();
             let at = path.then("figures").then(name.as_str());
-            evaluator
-                .diagnostic_at_key(&at, &format!("unknown figure `{name}`"))
+            at.diagnostic_at_key(&format!("unknown figure `{name}`"))
                 .with_help(&suggestion("figures", name, &known))
         })
     };
@@ -33,28 +31,29 @@ pub(crate) fn rows(
     rows: &[Vec<(&str, f64)>],
     seeks: bool,
 ) -> Result<Vec<StabilityExpectation>, Diagnostic> {
-    let path = Path::top("expect").then(i);
-    let figures = named(evaluator, &path, spec)?;
-    refuse_idle(evaluator, &path, spec, seeks)?;
+    let path = evaluator.top("expect").then(i);
+    let figures = named(&path, spec)?;
+    refuse_idle(&path, spec, seeks)?;
     if let Some(verdicts) = spec.verdict.as_ref().filter(|list| list.as_slice().len() > 1) {
         let (got, needed) = (verdicts.as_slice().len(), rows.len());
         if got != needed {
             let message = format!("{got} verdicts for {needed} rows");
-            let diagnostic = evaluator.diagnostic(&path.then("verdict"), &message);
+            let diagnostic = path.then("verdict").diagnostic(&message);
             return Err(diagnostic.with_label("expected one for all, or one for each"));
         }
     }
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
-    row(evaluator, &path, spec, &figures, 0)?;
+    row(&path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
-        .map(|(k, values)| row(&template.evaluator(values)?, &path, spec, &figures, k))
+        .map(|(k, values)| {
+            row(&template.evaluator(values)?.top("expect").then(i), spec, &figures, k)
+        })
         .collect()
 }
 
 fn row(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &StabilityExpectSpec,
     figures: &[RunFigure],
     k: usize,
@@ -63,11 +62,10 @@ fn row(
         let list = list.as_slice();
         list.get(k).or_else(|| list.first().filter(|_| list.len() == 1)).copied()
     });
-    let critical =
-        spec.critical.as_ref().map(|spec| wanted(evaluator, &path.then("critical"), spec));
+    let critical = spec.critical.as_ref().map(|spec| wanted(&path.then("critical"), spec));
     let entries = figures.iter().zip(spec.figures.as_slice());
     let figures = entries.map(|(figure, (name, spec))| {
-        Ok((*figure, wanted(evaluator, &path.then("figures").then(name.as_str()), spec)?))
+        Ok((*figure, wanted(&path.then("figures").then(name.as_str()), spec)?))
     });
     Ok(StabilityExpectation {
         verdict,
@@ -79,41 +77,34 @@ fn row(
 /// Refuses an entry without expectations. Also refuses bounds on single runs if the study
 /// determines a stability limit, and a bound on this limit otherwise.
 fn refuse_idle(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &StabilityExpectSpec,
     seeks: bool,
 ) -> Result<(), Diagnostic> {
     let help = "with `critical` the result of each row is a limit, without it that of a single run";
     if seeks && spec.verdict.is_some() {
         let message = "`verdict` is not supported with `critical`: no row is a single run";
-        return Err(evaluator.diagnostic_at_key(&path.then("verdict"), message).with_help(help));
+        return Err(path.then("verdict").diagnostic_at_key(message).with_help(help));
     }
     if seeks && !spec.figures.as_slice().is_empty() {
         let message = "`figures` is not supported with `critical`: no row is a single run";
-        return Err(evaluator.diagnostic_at_key(&path.then("figures"), message).with_help(help));
+        return Err(path.then("figures").diagnostic_at_key(message).with_help(help));
     }
     if !seeks && spec.critical.is_some() {
         let message = "a limit is expected, but the suite has no `critical`";
-        return Err(evaluator.diagnostic_at_key(&path.then("critical"), message).with_help(help));
+        return Err(path.then("critical").diagnostic_at_key(message).with_help(help));
     }
     let nothing = spec.verdict.is_none() && spec.figures.as_slice().is_empty();
     if !seeks && nothing {
         let message = "this expectation is empty";
-        return Err(evaluator
-            .diagnostic(path, message)
-            .with_label("expected `verdict` or `figures`"));
+        return Err(path.diagnostic(message).with_label("expected `verdict` or `figures`"));
     }
     Ok(())
 }
 
-fn wanted(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    spec: &FigureSpec,
-) -> Result<FigureBounds, Diagnostic> {
+fn wanted(path: &SuitePath<'_>, spec: &FigureSpec) -> Result<FigureBounds, Diagnostic> {
     let number = |key: &str, text: &Option<_>| {
-        text.as_ref().map(|text| evaluator.number(&path.then(key), text)).transpose()
+        text.as_ref().map(|text| path.then(key).number(text)).transpose()
     };
     let (above, below) = (number("above", &spec.above)?, number("below", &spec.below)?);
     let is = match (number("is", &spec.is)?, number("within", &spec.within)?) {
@@ -121,11 +112,11 @@ fn wanted(
         (None, None) => None,
         _ => {
             let message = "a closed form needs its value, `is`, and a relative tolerance, `within`";
-            return Err(evaluator.diagnostic(path, message).with_label("expected both"));
+            return Err(path.diagnostic(message).with_label("expected both"));
         }
     };
     if is.is_none() && above.is_none() && below.is_none() {
-        let diagnostic = evaluator.diagnostic(path, "this figure has no bound");
+        let diagnostic = path.diagnostic("this figure has no bound");
         return Err(diagnostic.with_label("expected `is` and `within`, `above` or `below`"));
     }
     Ok(FigureBounds { is, above, below })

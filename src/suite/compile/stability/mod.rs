@@ -13,13 +13,13 @@ pub(crate) mod setup;
 use crate::mpm::{combine, combine_across, combine_volume};
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
-use crate::suite::evaluator::{Evaluator, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilityExpectSpec, StabilitySpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::stability::{
     CompileSetup, RowExpectations, RunSetup, StabilityCase, StabilityPlan,
 };
-use crate::suite::yaml::{Diagnostic, Path, Source};
+use crate::suite::yaml::{Diagnostic, Source};
 use setup::{SetupTemplate, setup};
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ pub(crate) fn plan(
         cases(evaluator, &template, spec, methods, &swept, &values, sought.is_some())?;
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
-        for figure in expect::named(evaluator, &Path::top("expect"), entry)? {
+        for figure in expect::named(&evaluator.top("expect"), entry)? {
             if !figures.contains(&figure) {
                 figures.push(figure);
             }
@@ -66,40 +66,34 @@ fn sweep(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,
 ) -> Result<(String, Vec<f64>), Diagnostic> {
-    let path = Path::top("sweep");
+    let path = evaluator.top("sweep");
     let [(name, list)] = spec.sweep.as_slice() else {
-        let diagnostic = evaluator.diagnostic(&path, "`sweep` must vary exactly one parameter");
+        let diagnostic = path.diagnostic("`sweep` must vary exactly one parameter");
         return Err(diagnostic.with_label("expected one parameter with its values"));
     };
     let path = path.then(name.as_str());
-    declared(evaluator, &path, spec, name)?;
+    declared(&path, spec, name)?;
     let values = list
         .as_slice()
         .iter()
         .enumerate()
-        .map(|(i, text)| evaluator.number(&path.alternative(list, i), text))
+        .map(|(i, text)| path.alternative(list, i).number(text))
         .collect::<Result<Vec<f64>, _>>()?;
     if values.len() > MOST {
         let message = format!("{} values of one parameter", values.len());
-        let diagnostic = evaluator.diagnostic(&path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
     }
     Ok((name.clone(), values))
 }
 
-fn declared(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    spec: &StabilitySpec,
-    name: &str,
-) -> Result<(), Diagnostic> {
+fn declared(path: &SuitePath<'_>, spec: &StabilitySpec, name: &str) -> Result<(), Diagnostic> {
     if spec.parameters.get(name).is_some() {
         return Ok(());
     }
     let known: Vec<&str> =
         spec.parameters.as_slice().iter().map(|(name, _)| name.as_str()).collect();
-    let diagnostic =
-        evaluator.diagnostic(path, &format!("`{name}` is not a parameter of this suite"));
+    let diagnostic = path.diagnostic(&format!("`{name}` is not a parameter of this suite"));
     Err(diagnostic.with_help(&suggestion("parameters", name, &known)))
 }
 
@@ -109,19 +103,19 @@ fn sought(
     swept: &str,
 ) -> Result<Option<(String, f64, f64)>, Diagnostic> {
     let Some(critical) = &spec.critical else { return Ok(None) };
-    let path = Path::top("critical");
-    declared(evaluator, &path.then("parameter"), spec, &critical.parameter)?;
+    let path = evaluator.top("critical");
+    declared(&path.then("parameter"), spec, &critical.parameter)?;
     if critical.parameter == swept {
         let message = format!("`{swept}` cannot be the parameter of both `sweep` and `critical`");
-        return Err(evaluator.diagnostic(&path.then("parameter"), &message));
+        return Err(path.then("parameter").diagnostic(&message));
     }
-    let from = evaluator.positive(&path.then("from"), &critical.from, "the start of the range")?;
-    let to = evaluator.positive(&path.then("to"), &critical.to, "the end of the range")?;
+    let from = path.then("from").positive(&critical.from, "the start of the range")?;
+    let to = path.then("to").positive(&critical.to, "the end of the range")?;
     if from < to {
         return Ok(Some((critical.parameter.clone(), from, to)));
     }
     let message = format!("the range ends at {} and starts at {}", shown(to), shown(from));
-    Err(evaluator.diagnostic(&path.then("to"), &message).with_label("expected a larger number"))
+    Err(path.then("to").diagnostic(&message).with_label("expected a larger number"))
 }
 
 /// Compiles the methods, which must take time steps of the built-in MPM. Refuses methods that the
@@ -132,24 +126,24 @@ fn time_stepping_methods(
     RunSetup { scene, ledger, .. }: &RunSetup,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     for (i, spec) in specs.iter().enumerate() {
-        let path = Path::top("methods").then(i);
+        let path = evaluator.top("methods").then(i);
         if matches!(spec, MethodSpec::Fem { .. } | MethodSpec::External { .. }) {
-            return Err(evaluator.diagnostic(&path, "a stability study supports MPM only"));
+            return Err(path.diagnostic("a stability study supports MPM only"));
         }
         if spec.is_quasi_static() {
             let message = "a stability study needs time steps, but `quasi_static` has none";
-            return Err(evaluator.diagnostic(&path.then("mpm").then("scheme"), message));
+            return Err(path.then("mpm").then("scheme").diagnostic(message));
         }
     }
     let limit = CaseLimit { most: MOST, of_each_method: 1 };
     let methods = methods(evaluator, specs, &scene.material, &limit)?;
     let plane = scene.plane;
     for named in &methods {
-        let path = named.path();
+        let path = named.path(evaluator);
         if named.method.is_single_precision() {
             let message = "a stability study needs double precision: small perturbations vanish \
                            in single precision";
-            return Err(evaluator.diagnostic(&path.then("mpm").then("precision"), message));
+            return Err(path.then("mpm").then("precision").diagnostic(message));
         }
         if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = named.method {
             let across = |()| combine_across(plane, basis, transfer);
@@ -162,11 +156,11 @@ fn time_stepping_methods(
             let known = combine(basis, transfer, mass, frame).and_then(across);
             known.and_then(averaged).map_err(|reason| {
                 let help = "list compatible settings in separate entries of `methods`";
-                evaluator.diagnostic(&path, &reason.to_string()).with_help(help)
+                path.diagnostic(&reason.to_string()).with_help(help)
             })?;
         }
         if *ledger {
-            requested::refuse_unledgered(evaluator, &path, &named.method)?;
+            requested::refuse_unledgered(&path, &named.method)?;
         }
     }
     Ok(methods)
@@ -188,9 +182,9 @@ fn cases(
     let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
     let predicted = seeks && spec.run.frozen;
     let entry = |(i, spec): (usize, &StabilityExpectSpec)| {
-        let path = Path::top("expect").then(i);
+        let path = evaluator.top("expect").then(i);
         let expected = expect::rows(evaluator, template, spec, i, &rows, seeks)?;
-        let because = evaluator.because(&path, "this expectation", &spec.because)?;
+        let because = path.because("this expectation", &spec.because)?;
         let summary = Some(expect::summary(spec, &expected, &rows, predicted));
         Ok(RowExpectations { expected, summary, because })
     };
@@ -210,17 +204,17 @@ fn split<'a>(
     evaluator: &Evaluator<'_>,
     spec: &'a StabilitySpec,
 ) -> Result<(&'a [StabilityExpectSpec], bool), Diagnostic> {
-    let at = |i: usize, key: &str| Path::top("expect").then(i).then(key);
+    let at = |i: usize, key: &str| evaluator.top("expect").then(i).then(key);
     let Some(first) = spec.expect.iter().position(|entry| entry.any_method) else {
         return Ok((&spec.expect, false));
     };
     if first + 1 < spec.expect.len() {
         let message = "only the last entry can have `any_method`";
-        return Err(evaluator.diagnostic_at_key(&at(first, "any_method"), message));
+        return Err(at(first, "any_method").diagnostic_at_key(message));
     }
     if spec.expect[first].case.is_some() {
         let message = "an entry with `any_method` applies to no case of the suite";
-        return Err(evaluator.diagnostic_at_key(&at(first, "case"), message));
+        return Err(at(first, "case").diagnostic_at_key(message));
     }
     Ok((&spec.expect[..first], true))
 }

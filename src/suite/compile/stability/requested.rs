@@ -4,22 +4,23 @@
 use crate::mpm::TransferKind;
 use crate::subject::PlaneState;
 use crate::suite::compile::check::sums::refuse_law_without_energy;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::StabilitySpec;
 use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::RunFigure;
 
 /// Returns the first quantity in `show` or `expect` for which `is_meant` is true, with its path.
-fn first(
+fn first<'a>(
+    evaluator: &'a Evaluator<'a>,
     spec: &StabilitySpec,
     is_meant: impl Fn(RunFigure) -> bool,
-) -> Option<(Path, &'static str)> {
+) -> Option<(SuitePath<'a>, &'static str)> {
     let shown = spec.show.iter().enumerate();
-    let shown = shown.map(|(i, figure)| (Path::top("show").then(i), *figure));
+    let shown = shown.map(|(i, figure)| (evaluator.top("show").then(i), *figure));
     let expected = spec.expect.iter().enumerate().flat_map(|(i, entry)| {
-        let path = Path::top("expect").then(i).then("figures");
+        let path = evaluator.top("expect").then(i).then("figures");
         let named =
             entry.figures.as_slice().iter().filter_map(|(name, _)| RunFigure::by_name(name));
         named.map(move |figure| (path.then(figure.name()), figure))
@@ -29,8 +30,7 @@ fn first(
 }
 
 fn refuse_several_bodies(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     name: &str,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
@@ -39,7 +39,7 @@ fn refuse_several_bodies(
     }
     let message =
         format!("`{name}` is supported for a single body only, but the scene lists `bodies`");
-    Err(evaluator.diagnostic(path, &message))
+    Err(path.diagnostic(&message))
 }
 
 /// Whether a requested quantity needs the null space of the grid. Refuses several bodies, for which
@@ -49,8 +49,10 @@ pub(crate) fn null_space(
     spec: &StabilitySpec,
     scene: &Scene,
 ) -> Result<bool, Diagnostic> {
-    let Some((path, name)) = first(spec, RunFigure::is_of_null_space) else { return Ok(false) };
-    refuse_several_bodies(evaluator, &path, name, scene)?;
+    let Some((path, name)) = first(evaluator, spec, RunFigure::is_of_null_space) else {
+        return Ok(false);
+    };
+    refuse_several_bodies(&path, name, scene)?;
     Ok(true)
 }
 
@@ -61,29 +63,27 @@ pub(crate) fn ledger(
     spec: &StabilitySpec,
     scene: &Scene,
 ) -> Result<bool, Diagnostic> {
-    let Some((path, name)) = first(spec, RunFigure::is_of_ledger) else { return Ok(false) };
-    refuse_several_bodies(evaluator, &path, name, scene)?;
+    let Some((path, name)) = first(evaluator, spec, RunFigure::is_of_ledger) else {
+        return Ok(false);
+    };
+    refuse_several_bodies(&path, name, scene)?;
     if spec.critical.is_some() {
         let message = format!(
             "`{name}` is not supported with `critical`: the search for a limit has many runs"
         );
-        return Err(evaluator.diagnostic(&path, &message));
+        return Err(path.diagnostic(&message));
     }
     if scene.plane == PlaneState::Axisymmetric {
         let message = "the energy ledger is not supported in `plane: axisymmetric`: it has no entry \
                        for the hoop stress";
-        return Err(evaluator.diagnostic(&path, message));
+        return Err(path.diagnostic(message));
     }
-    refuse_law_without_energy(evaluator, &path, scene)?;
+    refuse_law_without_energy(&path, scene)?;
     Ok(true)
 }
 
 /// Refuses the method at `path` if the energy ledger does not describe its steps.
-pub(crate) fn refuse_unledgered(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    method: &Method,
-) -> Result<(), Diagnostic> {
+pub(crate) fn refuse_unledgered(path: &SuitePath<'_>, method: &Method) -> Result<(), Diagnostic> {
     let Method::Mpm { transfer, .. } = method else { return Ok(()) };
     let path = path.then("mpm");
     if transfer.kind() == TransferKind::Cells {
@@ -91,12 +91,12 @@ pub(crate) fn refuse_unledgered(
             "the energy ledger is not supported with the transfer `{}`, which integrates over cells",
             transfer.name()
         );
-        return Err(evaluator.diagnostic(&path.then("transfer"), &message));
+        return Err(path.then("transfer").diagnostic(&message));
     }
     if method.averages_volume() {
         let message = "the energy ledger is not supported with `volume: averaged`: its force does not \
                        derive from a stored energy";
-        let diagnostic = evaluator.diagnostic(&path.then("volume"), message);
+        let diagnostic = path.then("volume").diagnostic(message);
         return Err(diagnostic.with_help("use `particle` for a study of the energy"));
     }
     Ok(())

@@ -12,7 +12,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::{LatticeEdits, ParameterValues, RunSetup};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path, Source};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Source};
 use crate::verify::Scales;
 
 /// Default initial perturbation amplitude for a run in which the particles do not move.
@@ -49,34 +49,34 @@ pub(crate) fn setup(
 ) -> Result<RunSetup, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
     let d = scene.dimension();
-    let particles = Path::top("particles");
+    let particles = evaluator.top("particles");
     let at = particles.then("cells");
-    let cells = evaluator.count(&at, &spec.particles.cells, "the number of cells")?;
+    let cells = at.count(&spec.particles.cells, "the number of cells")?;
     let ppc_at = particles.then("ppc");
-    let ppc = evaluator.count(&ppc_at, &spec.particles.ppc, "the number of particles per cell")?;
+    let ppc = ppc_at.count(&spec.particles.ppc, "the number of particles per cell")?;
     if per_axis(ppc, d).is_none() {
         let message = format!("{ppc} particles per cell are not equally spaced in {d}-D");
         let label = format!("expected n^{d} in {d}-D");
-        return Err(evaluator.diagnostic(&ppc_at, &message).with_label(&label));
+        return Err(ppc_at.diagnostic(&message).with_label(&label));
     }
     let h = cell_size(&scene, cells);
-    let run = Path::top("run");
+    let run = evaluator.top("run");
     let length = |key: &str, text: &NumberText| {
         let at = run.then(key);
-        let dt = evaluator.formula(&at, text, &["h"])?.eval(&[h]);
+        let dt = at.formula(text, &["h"])?.eval(&[h]);
         if dt > 0.0 && dt.is_finite() {
             return Ok(dt);
         }
         let message = format!("the time step is {}", shown(dt));
-        Err(evaluator.diagnostic(&at, &message).with_label("expected a positive number"))
+        Err(at.diagnostic(&message).with_label("expected a positive number"))
     };
     let at_dt = run.then("dt");
-    let rule = stable_share(evaluator, &at_dt, &spec.run.dt)?;
-    let dt = length("dt", &step_formula(evaluator, &at_dt, &spec.run.dt, &scene)?)?;
+    let rule = stable_share(&at_dt, &spec.run.dt)?;
+    let dt = length("dt", &step_formula(&at_dt, &spec.run.dt, &scene)?)?;
     let every = turns(evaluator, spec)?;
     if let (Some(_), Some(_)) = (rule, &spec.run.alternate) {
         let message = "`alternate` is not supported with an automatic time step";
-        return Err(evaluator.diagnostic_at_key(&run.then("alternate"), message));
+        return Err(run.then("alternate").diagnostic_at_key(message));
     }
     let mut steps_of = vec![dt; every];
     if let Some(text) = &spec.run.alternate {
@@ -85,13 +85,15 @@ pub(crate) fn setup(
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
     if let Some((what, amount)) = level.too_large(&scene) {
         let message = format!("{cells} cells along the first axis make {amount:.1e} {what}");
-        return Err(evaluator.diagnostic(&at, &message).with_label("expected fewer"));
+        return Err(at.diagnostic(&message).with_label("expected fewer"));
     }
-    levels::held_faces(evaluator, &at, &scene, cells)?;
-    let steps = evaluator.count(&run.then("steps"), &spec.run.steps, "the number of steps")?;
-    let full_steps = spec.run.full_steps.as_ref().map_or(Ok(steps), |text| {
-        evaluator.count(&run.then("full_steps"), text, "the number of steps")
-    });
+    levels::held_faces(&at, &scene, cells)?;
+    let steps = run.then("steps").count(&spec.run.steps, "the number of steps")?;
+    let full_steps = spec
+        .run
+        .full_steps
+        .as_ref()
+        .map_or(Ok(steps), |text| run.then("full_steps").count(text, "the number of steps"));
     let setup = RunSetup {
         lattice: lattice(evaluator, spec, &scene, h)?,
         level,
@@ -115,14 +117,14 @@ pub(crate) fn setup(
 fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagnostic> {
     const MOST: u64 = 1000;
     let Some(text) = &spec.run.every else { return Ok(1) };
-    let path = Path::top("run").then("every");
+    let path = evaluator.top("run.every");
     if spec.run.alternate.is_none() {
-        let diagnostic = evaluator.diagnostic_at_key(&path, "`every` needs a second step length");
+        let diagnostic = path.diagnostic_at_key("`every` needs a second step length");
         return Err(diagnostic.with_help("add the other length: `alternate`"));
     }
-    let every = evaluator.count(&path, text, "the number of consecutive steps")?;
+    let every = path.count(text, "the number of consecutive steps")?;
     if every > MOST {
-        let diagnostic = evaluator.diagnostic(&path, &format!("{every} consecutive steps"));
+        let diagnostic = path.diagnostic(&format!("{every} consecutive steps"));
         return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
     }
     Ok(every as usize)
@@ -134,24 +136,24 @@ fn lattice(
     scene: &Scene,
     h: f64,
 ) -> Result<LatticeEdits, Diagnostic> {
-    let (path, d) = (Path::top("particles"), scene.dimension());
+    let (path, d) = (evaluator.top("particles"), scene.dimension());
     if !(scene.bodies.is_empty() || spec.particles.extra.is_empty()) {
         let message = "`extra` is supported for a single body only, but the scene lists `bodies`";
-        return Err(evaluator.diagnostic_at_key(&path.then("extra"), message));
+        return Err(path.then("extra").diagnostic_at_key(message));
     }
     let shift = spec.particles.shift.as_ref();
-    let shift = shift.map(|texts| evaluator.point(&path.then("shift"), texts, d)).transpose()?;
+    let shift = shift.map(|texts| path.then("shift").point(texts, d)).transpose()?;
     let mut extra = Vec::new();
     for (i, texts) in spec.particles.extra.iter().enumerate() {
         let at = path.then("extra").then(i);
-        let place = evaluator.point(&at, texts, d)?;
+        let place = at.point(texts, d)?;
         for (axis, x) in place.iter().enumerate() {
             let (origin, cells) = grid_axis(scene, axis, h);
             if !(origin..=origin + cells * h).contains(x) {
                 let message = format!("a particle at {} is outside the grid", shown(*x));
                 let (low, high) = (shown(origin), shown(origin + cells * h));
                 let label = format!("expected a position from {low} to {high}");
-                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+                return Err(at.diagnostic(&message).with_label(&label));
             }
         }
         extra.push(place);
@@ -161,11 +163,11 @@ fn lattice(
 
 fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, Diagnostic> {
     let default = if spec.run.frozen { PERTURBATION } else { 0.0 };
-    let path = Path::top("run").then("perturb");
+    let path = evaluator.top("run.perturb");
     spec.run
         .perturb
         .as_ref()
-        .map_or(Ok(default), |text| evaluator.positive(&path, text, "the size of the perturbation"))
+        .map_or(Ok(default), |text| path.positive(text, "the size of the perturbation"))
 }
 
 /// Refuses a run without particle motion for bodies that have an initial stress or motion, carry
@@ -180,13 +182,13 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     if scene.contact.is_some() {
         let message = "`frozen` is not supported with contact, because a step with contact is not \
                        linear";
-        return Err(evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message));
+        return Err(evaluator.top("run.frozen").diagnostic_at_key(message));
     }
     if !(loaded || driven || moves) {
         return Ok(());
     }
     let message = "a frozen run must start at rest, without loads and without initial stress";
-    let diagnostic = evaluator.diagnostic_at_key(&Path::top("run").then("frozen"), message);
+    let diagnostic = evaluator.top("run.frozen").diagnostic_at_key(message);
     Err(diagnostic.with_help(
         "remove loads, velocities and initial values from the scene; `perturb` starts the run",
     ))
@@ -207,10 +209,10 @@ fn scales(
     scene: &Scene,
 ) -> Result<Scales, Diagnostic> {
     let modulus = scene.each().iter().map(Scene::wave_modulus).fold(0.0, f64::max);
-    let path = Path::top("run");
+    let path = evaluator.top("run");
     let bound = |key: &str, text: &Option<NumberText>, default: f64| {
         let at = path.then(key);
-        text.as_ref().map_or(Ok(default), |text| evaluator.positive(&at, text, "the bound"))
+        text.as_ref().map_or(Ok(default), |text| at.positive(text, "the bound"))
     };
     let stable_below = bound("stable_below", &spec.run.stable_below, STABLE_BELOW)?;
     let unstable_above = bound("unstable_above", &spec.run.unstable_above, UNSTABLE_ABOVE)?;
@@ -220,7 +222,7 @@ fn scales(
             shown(stable_below),
             shown(unstable_above)
         );
-        return Err(evaluator.diagnostic_at_key(&path, &message));
+        return Err(path.diagnostic_at_key(&message));
     }
     let speed = scene.fastest_wave();
     let centred = scene.faces.iter().all(|face| !face.hold.is_held());

@@ -6,11 +6,11 @@ use crate::exact::Motion;
 
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
-use crate::suite::evaluator::{Evaluator, coordinates_and_time};
+use crate::suite::evaluator::{Evaluator, SuitePath, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::Scene;
 use crate::suite::scene::boundary::thermal::ThermalFace;
-use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 
 /// Compiles the heat problem of a body at rest; returns `None` if the body moves.
 pub(crate) fn conduction(
@@ -31,19 +31,19 @@ pub(crate) fn conduction(
         }
         (None, Some(made)) => ("manufactured", made.temperature.as_ref(), None, true),
         _ => {
-            let at = Path::top("scene").then("material");
+            let at = evaluator.top("scene.material");
             let message = "a `rigid` body needs one exact solution: a temperature under `exact` or \
                            `manufactured`";
-            return Err(evaluator.diagnostic(&at, message));
+            return Err(at.diagnostic(message));
         }
     };
-    let path = Path::top(path);
-    let tolerance = tolerance(evaluator, &path, stated)?;
+    let path = evaluator.top(path);
+    let tolerance = tolerance(&path, stated)?;
     let inputs = ConductionInputs { motion: None, manufactured, until, tolerance };
-    let found = problem(evaluator, &path, temperature, scene, inputs)?;
+    let found = problem(&path, temperature, scene, inputs)?;
     let Some(found) = found else {
-        let at = Path::top("scene").then("material");
-        let diagnostic = evaluator.diagnostic(&at, "a `rigid` body needs `heat`");
+        let at = evaluator.top("scene.material");
+        let diagnostic = at.diagnostic("a `rigid` body needs `heat`");
         return Err(diagnostic.with_help("add `heat` to `loads`, or choose another material"));
     };
     Ok(Some(found))
@@ -70,14 +70,14 @@ fn refuse_methods_of_other_bodies(
             "use `mpm`, or the material `rigid`",
         )
     };
-    Err(evaluator.diagnostic(&Path::top("methods").then(i), &message).with_help(help))
+    Err(evaluator.top("methods").then(i).diagnostic(&message).with_help(help))
 }
 
 /// Refuses quantities and keys that need a motion, because the body is at rest.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "the judged quantity needs a motion, but the body is `rigid`";
-        let diagnostic = evaluator.diagnostic(&Path::top("scene").then("material"), message);
+        let diagnostic = evaluator.top("scene.material").diagnostic(message);
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
     }
     let moves = |exact: &ExactSpec| {
@@ -90,17 +90,17 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     let exact = spec.exact.as_ref().map(moves).into_iter().flatten();
     let made = spec.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
     let stated = exact
-        .map(|(key, stated)| (Path::top("exact").then(key), stated))
-        .chain(made.map(|(key, stated)| (Path::top("manufactured").then(key), stated)))
+        .map(|(key, stated)| (evaluator.top("exact").then(key), stated))
+        .chain(made.map(|(key, stated)| (evaluator.top("manufactured").then(key), stated)))
         .chain([
-            (Path::top("equilibrium"), spec.equilibrium.is_some()),
-            (Path::top("reference"), spec.reference.is_some()),
-            (Path::top("observe"), spec.observe.is_some()),
+            (evaluator.top("equilibrium"), spec.equilibrium.is_some()),
+            (evaluator.top("reference"), spec.reference.is_some()),
+            (evaluator.top("observe"), spec.observe.is_some()),
         ]);
     match stated.into_iter().find(|(_, stated)| *stated) {
         Some((at, _)) => {
-            let diagnostic = evaluator
-                .diagnostic_at_key(&at, "this key needs a motion, but the body is `rigid`");
+            let diagnostic =
+                at.diagnostic_at_key("this key needs a motion, but the body is `rigid`");
             Err(diagnostic.with_help("remove it, or choose another material than `rigid`"))
         }
         None => Ok(()),
@@ -110,8 +110,7 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
 /// Compiles the heat problem of `scene` with the temperature at `path`, which is checked later.
 /// Returns `None` if the suite has neither heat nor temperature.
 pub(crate) fn problem(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     temperature: Option<&NumberText>,
     scene: &Scene,
     rest: ConductionInputs,
@@ -121,24 +120,24 @@ pub(crate) fn problem(
         (Some(heat), Some(text)) => (heat, text),
         (None, None) => return Ok(None),
         (None, Some(_)) => {
-            let diagnostic = evaluator
-                .diagnostic_at_key(&path, "a temperature is stated, but the scene has no `heat`");
+            let diagnostic =
+                path.diagnostic_at_key("a temperature is stated, but the scene has no `heat`");
             return Err(diagnostic.with_help("add `heat` to `loads`"));
         }
         (Some(_), None) => {
-            let at = Path::top("scene").then("loads");
-            let diagnostic = evaluator
-                .diagnostic_at_key(&at, "the scene has `heat`, but no temperature is stated");
+            let at = path.evaluator.top("scene.loads");
+            let diagnostic =
+                at.diagnostic_at_key("the scene has `heat`, but no temperature is stated");
             return Err(diagnostic.with_help("state `temperature` under `exact` or `manufactured`"));
         }
     };
     let dimension = scene.dimension();
-    let formula = evaluator.formula(&path, text, &coordinates_and_time(dimension))?;
+    let formula = path.formula(text, &coordinates_and_time(dimension))?;
     let ConductionInputs { motion, manufactured, until, tolerance } = rest;
     if manufactured && heat.source.is_some() {
         let message = "the manufactured temperature defines the source: remove `source`";
         let help = "to have a stated source checked, state the temperature under `exact`";
-        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
+        return Err(path.diagnostic_at_key(message).with_help(help));
     }
     Ok(Some(Conduction {
         from: scene.from.clone(),
@@ -168,28 +167,27 @@ fn refuse_methods_without_heat(
     }
     if spec.reference.is_some() {
         let message = "`reference` does not support heat";
-        return Err(evaluator.diagnostic_at_key(&Path::top("reference"), message));
+        return Err(evaluator.top("reference").diagnostic_at_key(message));
     }
     for (i, method) in spec.methods.iter().enumerate() {
-        let path = Path::top("methods").then(i);
+        let path = evaluator.top("methods").then(i);
         match method {
             MethodSpec::Heat { .. } | MethodSpec::External { .. } => {}
             MethodSpec::Fem { .. } => {
-                let message = "the built-in FEM does not support heat";
-                return Err(evaluator.diagnostic(&path, message));
+                return Err(path.diagnostic("the built-in FEM does not support heat"));
             }
             MethodSpec::Mpm { transfer, frame, .. } => {
                 let frames = frame.as_ref().map_or(&[][..], OneOrMany::as_slice);
                 if frames.contains(&FrameName::Total) {
                     let message = "`total_lagrangian` does not support heat, which flows in the \
                                    deformed body";
-                    return Err(evaluator.diagnostic(&path.then("mpm").then("frame"), message));
+                    return Err(path.then("mpm").then("frame").diagnostic(message));
                 }
                 let transfers = transfer.as_ref().map_or(&[][..], OneOrMany::as_slice);
                 if transfers.iter().any(|transfer| transfer.kind() == TransferKind::Cells) {
                     let message = "a transfer that integrates over cells does not support heat, \
                                    which is summed over particles";
-                    return Err(evaluator.diagnostic(&path.then("mpm").then("transfer"), message));
+                    return Err(path.then("mpm").then("transfer").diagnostic(message));
                 }
             }
         }
@@ -211,12 +209,11 @@ pub(crate) struct ConductionInputs {
 
 /// Refuses the temperature at `path` if it does not solve the heat problem.
 pub(crate) fn refuse_wrong_temperature(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     problem: &Conduction,
 ) -> Result<(), Diagnostic> {
     problem.check().map_err(|violation| {
-        let diagnostic = evaluator.diagnostic(&path.then("temperature"), &violation.to_string());
+        let diagnostic = path.then("temperature").diagnostic(&violation.to_string());
         let rounded = if_rounded(&violation, problem.tolerance);
         diagnostic
             .with_label("this is not a solution of the problem that the scene states")

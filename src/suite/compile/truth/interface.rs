@@ -5,10 +5,10 @@
 //! different extent, or on round rims, are not implemented.
 
 use crate::exact::{Interface, Problem, Survey, Violation, meets};
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::ConvergenceSpec;
 use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 /// Help for bodies without contact whose exact motions separate or slide.
@@ -24,7 +24,7 @@ pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Resul
     ];
     let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
     let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
-    let diagnostic = evaluator.diagnostic_at_key(&Path::top(key), &message);
+    let diagnostic = evaluator.top(key).diagnostic_at_key(&message);
     Err(diagnostic
         .with_help("state a solution under `exact`, or bound the drift of conserved sums"))
 }
@@ -37,10 +37,10 @@ pub(crate) fn refuse_violated_conditions(
     check: impl Fn(&Problem, &Survey) -> Result<(), Diagnostic>,
     diagnostic: impl Fn(Violation) -> Diagnostic,
 ) -> Result<(), Diagnostic> {
-    let at = Path::top("scene").then("bodies");
+    let at = evaluator.top("scene.bodies");
     if let Some(i) = problems.iter().position(|problem| problem.outline.is_some()) {
         let message = "an exact solution of several bodies can be checked only for boxes";
-        return Err(evaluator.diagnostic_at_key(&at.then(i).then("body"), message));
+        return Err(at.then(i).then("body").diagnostic_at_key(message));
     }
     let pairs = pairs(&problems);
     for &(i, k, axis) in &pairs {
@@ -48,13 +48,12 @@ pub(crate) fn refuse_violated_conditions(
         if apart && scene.contact.is_none() {
             let message = "the exact solution of bodies with a gap and one velocity field depends \
                            on the cell size";
-            let diagnostic = evaluator.diagnostic_at_key(&at.then(k).then("body"), message);
-            return Err(diagnostic.with_help(CONTACT));
+            return Err(at.then(k).then("body").diagnostic_at_key(message).with_help(CONTACT));
         }
         problems[i].faces[2 * axis + 1].condition = Arc::new(Interface);
         problems[k].faces[2 * axis].condition = Arc::new(Interface);
     }
-    refuse_other_touch(evaluator, &at, &problems, &pairs)?;
+    refuse_other_touch(&at, &problems, &pairs)?;
     let surveys = Survey::of_each(&problems);
     problems.iter().zip(&surveys).try_for_each(|(problem, survey)| check(problem, survey))?;
     for (i, k, axis) in pairs {
@@ -95,8 +94,7 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
 
 /// Refuses bodies that share only a part of their faces.
 fn refuse_other_touch(
-    evaluator: &Evaluator<'_>,
-    at: &Path,
+    at: &SuitePath<'_>,
     problems: &[Problem],
     pairs: &[(usize, usize, usize)],
 ) -> Result<(), Diagnostic> {
@@ -108,7 +106,7 @@ fn refuse_other_touch(
             if i < k && touch && !known {
                 let message = "an exact solution can be checked only for boxes that share a whole \
                                face";
-                return Err(evaluator.diagnostic_at_key(&at.then(k).then("body"), message));
+                return Err(at.then(k).then("body").diagnostic_at_key(message));
             }
         }
     }

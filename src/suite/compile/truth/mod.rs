@@ -11,11 +11,11 @@ pub(crate) mod tolerance;
 use crate::exact::heat::Conduction;
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::mpm::MaterialPlan;
-use crate::suite::evaluator::{COORDINATES, Evaluator, coordinates_and_time};
+use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath, coordinates_and_time};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use conduction::ConductionInputs;
 use places::{JudgedPlaces, places, without_distant_faces};
 use tolerance::{TOLERANCE, no_solution, tolerances, violated};
@@ -74,22 +74,21 @@ fn exact(
     }
     if let Some(state) = &spec.equilibrium {
         refuse_equilibrium_with(evaluator, spec, state, scene)?;
-        let path = Path::top("equilibrium");
+        let path = evaluator.top("equilibrium");
         return Ok(Some(Problem {
             at_rest: true,
             follows_motion: false,
-            ..solution(evaluator, &path, state, scene, true, until)?
+            ..solution(&path, state, scene, true, until)?
         }));
     }
     let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
-    let path = Path::top("exact");
+    let path = evaluator.top("exact");
     if spec.manufactured.is_some() {
         let message = "the suite states both `exact` and `manufactured`: keep one";
-        return Err(evaluator.diagnostic_at_key(&Path::top("manufactured"), message));
+        return Err(evaluator.top("manufactured").diagnostic_at_key(message));
     }
-    let problem = solution(evaluator, &path, exact, scene, false, until)?;
-    let each =
-        scene.bodies.iter().map(|body| solution(evaluator, &path, exact, body, false, until));
+    let problem = solution(&path, exact, scene, false, until)?;
+    let each = scene.bodies.iter().map(|body| solution(&path, exact, body, false, until));
     let bodies = each.collect::<Result<Vec<Problem>, _>>()?;
     Ok(Some(Problem { bodies, ..problem }))
 }
@@ -120,53 +119,51 @@ fn refuse_violated(
     plan: &ConvergencePlan,
     survey: Option<&Survey>,
 ) -> Result<(), Diagnostic> {
-    let path = Path::top(match (&spec.equilibrium, &spec.exact) {
+    let path = evaluator.top(match (&spec.equilibrium, &spec.exact) {
         (Some(_), _) => "equilibrium",
         (None, Some(_)) => "exact",
         (None, None) => "manufactured",
     });
     if let Some(problem) = &plan.conduction {
-        conduction::refuse_wrong_temperature(evaluator, &path, problem)?;
+        conduction::refuse_wrong_temperature(&path, problem)?;
     }
     let Some(problem) = &plan.exact else { return Ok(()) };
     if let Some(survey) = survey {
-        return refuse_wrong_solution(evaluator, &path, problem, survey);
+        return refuse_wrong_solution(&path, problem, survey);
     }
     interface::refuse_violated_conditions(
         evaluator,
         &plan.scene,
         problem.bodies.clone(),
-        |problem, survey| refuse_wrong_solution(evaluator, &path, problem, survey),
-        |violation| no_solution(evaluator, &path, &violation, problem.tolerance),
+        |problem, survey| refuse_wrong_solution(&path, problem, survey),
+        |violation| no_solution(&path, &violation, problem.tolerance),
     )
 }
 
 /// Compiles the problem of the scene with the formulas at `path`, which are checked later.
 fn solution(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ExactSpec,
     scene: &Scene,
     at_rest: bool,
     until: f64,
 ) -> Result<Problem, Diagnostic> {
-    let (tolerance, linearised) = tolerances(evaluator, path, spec)?;
+    let (tolerance, linearised) = tolerances(path, spec)?;
     let (Some(name), Some(texts)) = (spec.equation, &spec.displacement) else {
         let message = "a body that moves needs an `equation` and a `displacement`";
-        return Err(evaluator.diagnostic_at_key(path, message));
+        return Err(path.diagnostic_at_key(message));
     };
-    let equation = equation(evaluator, &path.then("equation"), name, scene, at_rest)?;
-    let motion = motion(evaluator, path, texts, scene.dimension())?;
+    let equation = equation(&path.then("equation"), name, scene, at_rest)?;
+    let motion = motion(path, texts, scene.dimension())?;
     let motion_in_heat = equation.is_finite().then(|| motion.clone());
     let inputs = ConductionInputs { motion: motion_in_heat, manufactured: false, until, tolerance };
-    let heat = conduction::problem(evaluator, path, spec.temperature.as_ref(), scene, inputs)?;
+    let heat = conduction::problem(path, spec.temperature.as_ref(), scene, inputs)?;
     Ok(Problem { heat, tolerance, linearised, ..problem(scene, equation, motion, until) })
 }
 
 /// Returns the equation for checking a solution. A stated equation must agree with the material.
 fn equation(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     name: EquationName,
     scene: &Scene,
     at_rest: bool,
@@ -175,7 +172,7 @@ fn equation(
         return equation
             .admits(scene.dimension(), at_rest)
             .map(|()| equation)
-            .map_err(|[message, help]| evaluator.diagnostic(path, message).with_help(help));
+            .map_err(|[message, help]| path.diagnostic(message).with_help(help));
     }
     let (name, material) = (name.name(), scene.material.name());
     let (message, help) = if Equation::NAMES.contains(&name) {
@@ -188,7 +185,7 @@ fn equation(
         let message = "a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only";
         (message.to_owned(), "give other equations a `reference`")
     };
-    Err(evaluator.diagnostic(path, &message).with_help(help))
+    Err(path.diagnostic(&message).with_help(help))
 }
 
 /// Compiles the problem with the body force that the stated motion requires.
@@ -199,11 +196,11 @@ fn manufactured(
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
     let Some(made) = &spec.manufactured else { return Ok(None) };
-    let path = Path::top("manufactured");
+    let path = evaluator.top("manufactured");
     let equation = manufactured_law(&scene.material).map_err(|reason| {
         let message =
             "a force can be manufactured for `neo_hookean`, `hencky` and `corotated` only";
-        evaluator.diagnostic_at_key(&path, message).with_help(reason)
+        path.diagnostic_at_key(message).with_help(reason)
     })?;
     for (key, what, stated) in [
         ("initial_displacement", "displacement", &scene.initial_displacement),
@@ -211,27 +208,26 @@ fn manufactured(
     ] {
         if !stated.is_empty() {
             let message = format!("the manufactured motion defines the initial {what}");
-            let at = Path::top("scene").then(key);
-            return Err(evaluator.diagnostic_at_key(&at, &message).with_help("remove it"));
+            let at = evaluator.top("scene").then(key);
+            return Err(at.diagnostic_at_key(&message).with_help("remove it"));
         }
     }
     if scene.lists(EffectName::BodyForce) {
         let message = "the manufactured motion defines the body force: remove `body_force`";
         let help = "to have a stated force checked, state the motion under `exact`";
-        return Err(evaluator.diagnostic_at_key(&path, message).with_help(help));
+        return Err(path.diagnostic_at_key(message).with_help(help));
     }
     let Some(texts) = &made.displacement else {
-        let message = "a body that moves needs a `displacement`";
-        return Err(evaluator.diagnostic_at_key(&path, message));
+        return Err(path.diagnostic_at_key("a body that moves needs a `displacement`"));
     };
-    let motion = motion(evaluator, &path, texts, scene.dimension())?;
+    let motion = motion(&path, texts, scene.dimension())?;
     let inputs = ConductionInputs {
         motion: Some(motion.clone()),
         manufactured: true,
         until,
         tolerance: TOLERANCE,
     };
-    let heat = conduction::problem(evaluator, &path, made.temperature.as_ref(), scene, inputs)?;
+    let heat = conduction::problem(&path, made.temperature.as_ref(), scene, inputs)?;
     Ok(Some(Problem { manufactured: true, heat, ..problem(scene, equation, motion, until) }))
 }
 
@@ -262,32 +258,30 @@ fn problem(scene: &Scene, equation: Equation, motion: Motion, until: f64) -> Pro
 }
 
 fn refuse_wrong_solution(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     problem: &Problem,
     survey: &Survey,
 ) -> Result<(), Diagnostic> {
     if let Some(problem) = &problem.heat {
-        conduction::refuse_wrong_temperature(evaluator, path, problem)?;
+        conduction::refuse_wrong_temperature(path, problem)?;
     }
-    problem.check_with(survey).map_err(|violation| violated(evaluator, path, problem, &violation))
+    problem.check_with(survey).map_err(|violation| violated(path, problem, &violation))
 }
 
 fn motion(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     displacement: &[NumberText],
     dimension: usize,
 ) -> Result<Motion, Diagnostic> {
     let variables = coordinates_and_time(dimension);
     let path = path.then("displacement");
-    let components = evaluator.vector(&path, displacement, dimension, &variables)?;
+    let components = path.vector(displacement, dimension, &variables)?;
     for (i, component) in components.iter().enumerate() {
         let operations = component.operations();
         if operations > MOST_OPERATIONS {
             let message = format!("this formula takes {operations} operations");
             let label = format!("expected at most {MOST_OPERATIONS}: shorten its sums");
-            return Err(evaluator.diagnostic(&path.then(i), &message).with_label(&label));
+            return Err(path.then(i).diagnostic(&message).with_label(&label));
         }
     }
     Ok(Motion::new(components))
@@ -318,7 +312,7 @@ fn refuse_truth_of_mapped(
         Some((key, _)) => {
             let message = "a solution can be checked in a box or a body with a free rim, but not \
                            in a quadrilateral";
-            Err(evaluator.diagnostic_at_key(&Path::top(key), message))
+            Err(evaluator.top(key).diagnostic_at_key(message))
         }
         None => Ok(()),
     }
@@ -342,7 +336,7 @@ fn refuse_equilibrium_with(
     state: &ExactSpec,
     scene: &Scene,
 ) -> Result<(), Diagnostic> {
-    let path = Path::top("equilibrium");
+    let path = evaluator.top("equilibrium");
     let others = [
         ("exact", spec.exact.is_some()),
         ("manufactured", spec.manufactured.is_some()),
@@ -350,33 +344,33 @@ fn refuse_equilibrium_with(
     ];
     if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
         let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
-        return Err(evaluator.diagnostic_at_key(&Path::top(other), &message));
+        return Err(evaluator.top(other).diagnostic_at_key(&message));
     }
     // A formula that contains t is refused here.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {
-        evaluator.vector(&path.then("displacement"), texts, d, &COORDINATES[..d])?;
+        path.then("displacement").vector(texts, d, &COORDINATES[..d])?;
     }
     if scene.heat().is_some() {
         let message = "`equilibrium` is not supported with `heat`: state a motion under `exact`";
-        return Err(evaluator.diagnostic_at_key(&path, message));
+        return Err(path.diagnostic_at_key(message));
     }
     if let Some(until) = spec.run.until.as_ref().filter(|until| until.as_slice().len() > 1) {
-        let at = Path::top("run").then("until").alternative(until, 1);
+        let at = evaluator.top("run.until").alternative(until, 1);
         let message = "a suite with `equilibrium` has a single end time";
-        return Err(evaluator.diagnostic(&at, message).with_label("expected one end"));
+        return Err(at.diagnostic(message).with_label("expected one end"));
     }
     if spec.judge.norm.is_over_instants() {
         let message = "a `max_` norm needs a motion: with `equilibrium` the error exists only at \
                        the end";
-        let diagnostic = evaluator.diagnostic(&Path::top("judge").then("norm"), message);
+        let diagnostic = evaluator.top("judge.norm").diagnostic(message);
         return Err(diagnostic.with_label("expected a norm at the end: rms, l1, l2 or linf"));
     }
     refuse_driven(evaluator, scene)?;
     match spec.fem_method() {
         Some(i) => {
             let message = "the built-in FEM has no damping, so it does not reach an equilibrium";
-            Err(evaluator.diagnostic(&Path::top("methods").then(i), message))
+            Err(evaluator.top("methods").then(i).diagnostic(message))
         }
         None => Ok(()),
     }
@@ -385,21 +379,19 @@ fn refuse_equilibrium_with(
 /// Refuses prescribed velocities in an equilibrium study, because the velocity at the end of a run
 /// does not determine the final position.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
-    let scene_path = Path::top("scene");
+    let scene_path = evaluator.top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
         let message = format!(
             "the face `{}` has a given velocity, but `equilibrium` needs a body at rest",
             face.name
         );
-        return Err(
-            evaluator.diagnostic_at_key(&scene_path.then("boundary").then(face.name), &message)
-        );
+        return Err(scene_path.then("boundary").then(face.name).diagnostic_at_key(&message));
     }
     if let Some(set) = scene.driven_set() {
         let message =
             format!("the set `{set}` has a given velocity, but `equilibrium` needs a body at rest");
         let at = scene_path.then("sets").then(set);
-        return Err(evaluator.diagnostic_at_key(&at, &message));
+        return Err(at.diagnostic_at_key(&message));
     }
     Ok(())
 }
@@ -419,14 +411,14 @@ fn refuse_need_of_truth(
     if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {
         let message = "a convergence study needs `exact`, `manufactured`, `equilibrium` or \
                        `reference`";
-        let diagnostic = evaluator.diagnostic_at_key(&Path::top("suite"), message);
+        let diagnostic = evaluator.top("suite").diagnostic_at_key(message);
         return Err(diagnostic.with_help(
             "without one of them, expectations can only bound a `drift` or an `energy_rate`",
         ));
     }
     if spec.observe.is_some() {
         let message = "`observe` needs an exact solution or a reference, and the suite has neither";
-        return Err(evaluator.diagnostic_at_key(&Path::top("observe"), message));
+        return Err(evaluator.top("observe").diagnostic_at_key(message));
     }
     Ok(())
 }

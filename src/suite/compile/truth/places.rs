@@ -9,7 +9,7 @@ use crate::suite::compile::scene::outline;
 use crate::suite::evaluator::{Evaluator, shown};
 use crate::suite::grammar::{ConvergenceSpec, ObserveSpec};
 use crate::suite::model::Scene;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedBox, format_number};
 
 /// Help for a box in a suite that states no motion.
@@ -36,9 +36,8 @@ pub(crate) fn places(
     if let (Some(within), Some(place)) = (&within, &observe)
         && !within.holds(place)
     {
-        let path = Path::top("observe").then("at");
-        let diagnostic =
-            evaluator.diagnostic(&path, "the observed point is outside `judge.within`");
+        let path = evaluator.top("observe.at");
+        let diagnostic = path.diagnostic("the observed point is outside `judge.within`");
         return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
     }
     Ok(JudgedPlaces { within, observe })
@@ -51,8 +50,8 @@ fn judged_box(
     exact: Option<&Problem>,
 ) -> Result<Option<JudgedBox>, Diagnostic> {
     let Some(stated) = &spec.judge.within else { return Ok(None) };
-    let path = Path::top("judge").then("within");
-    let (from, to) = outline::corners(evaluator, &path, stated, scene.dimension())?;
+    let path = evaluator.top("judge.within");
+    let (from, to) = outline::corners(&path, stated, scene.dimension())?;
     for (key, corner) in [("from", &from), ("to", &to)] {
         for (axis, x) in corner.iter().enumerate() {
             let (low, high) = (scene.from[axis], scene.to[axis]);
@@ -60,13 +59,11 @@ fn judged_box(
                 let message = format!("{} is outside the body", shown(*x));
                 let label = format!("expected a number from {} to {}", shown(low), shown(high));
                 let at = path.then(key).then(axis);
-                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+                return Err(at.diagnostic(&message).with_label(&label));
             }
         }
     }
-    let refuse = |message: &str, help: &str| {
-        Err(evaluator.diagnostic_at_key(&path, message).with_help(help))
-    };
+    let refuse = |message: &str, help: &str| Err(path.diagnostic_at_key(message).with_help(help));
     if spec.judge.of.is_sum() {
         let of = spec.judge.of.words();
         let message = format!("`within` is not supported for the {of}, a sum over the whole body");
@@ -94,19 +91,19 @@ fn observed(
     spec: &ObserveSpec,
     scene: &Scene,
 ) -> Result<Vec<f64>, Diagnostic> {
-    let path = Path::top("observe").then("at");
-    let place = evaluator.point(&path, &spec.at, scene.dimension())?;
+    let path = evaluator.top("observe.at");
+    let place = path.point(&spec.at, scene.dimension())?;
     for (axis, x) in place.iter().enumerate() {
         let (from, to) = (scene.from[axis], scene.to[axis]);
         if !(from..=to).contains(x) {
             let message = format!("{} is outside the body", shown(*x));
             let label = format!("expected a number from {} to {}", shown(from), shown(to));
-            return Err(evaluator.diagnostic(&path.then(axis), &message).with_label(&label));
+            return Err(path.then(axis).diagnostic(&message).with_label(&label));
         }
     }
     let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
     if let Some(kind) = outside.map(|outline| outline.kind()) {
-        let diagnostic = evaluator.diagnostic(&path, "this point is outside the body");
+        let diagnostic = path.diagnostic("this point is outside the body");
         return Err(diagnostic.with_label(&format!("expected a point in the {kind}")));
     }
     Ok(place)
@@ -143,9 +140,9 @@ pub(crate) fn without_distant_faces(
                 format_number(exact.until),
                 format_number(exact.wave_speed()),
             );
-            let at = Path::top("judge").then("within").then(corner).then(axis);
+            let at = evaluator.top("judge.within").then(corner).then(axis);
             let label = format!("expected a distance of at least {} m", format_number(reach));
-            let diagnostic = evaluator.diagnostic(&at, &message).with_label(&label);
+            let diagnostic = at.diagnostic(&message).with_label(&label);
             return Err(diagnostic.with_help("shorten the run, or move the box away from the face"));
         }
     }

@@ -1,9 +1,9 @@
 //! Tolerances of exact and linearised solutions.
 
 use crate::exact::{Linearised, Problem, Violation};
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::SuitePath;
 use crate::suite::grammar::ExactSpec;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 
 /// Default tolerance of an exact solution (relative residual). The value allows for rounding errors
 /// of second derivatives.
@@ -13,44 +13,41 @@ pub(crate) const TOLERANCE: f64 = 1e-8;
 const MOST: f64 = 1e-2;
 
 pub(crate) fn tolerance(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     text: Option<&NumberText>,
 ) -> Result<f64, Diagnostic> {
     let Some(text) = text else { return Ok(TOLERANCE) };
     let path = path.then("tolerance");
-    let tolerance = evaluator.positive(&path, text, "the tolerance")?;
+    let tolerance = path.positive(text, "the tolerance")?;
     if tolerance <= MOST {
         return Ok(tolerance);
     }
     let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
-    Err(evaluator.diagnostic(&path, &message).with_label("expected at most 1e-2"))
+    Err(path.diagnostic(&message).with_label("expected at most 1e-2"))
 }
 
 /// Compiles the tolerance of the solution at `path`, and that of a linearised one.
 pub(crate) fn tolerances(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &ExactSpec,
 ) -> Result<(f64, Option<Linearised>), Diagnostic> {
-    let exact = tolerance(evaluator, path, spec.tolerance.as_ref())?;
+    let exact = tolerance(path, spec.tolerance.as_ref())?;
     let Some(spec) = &spec.linearised else { return Ok((exact, None)) };
     let path = path.then("linearised");
-    let tolerance = tolerance(evaluator, &path, Some(&spec.tolerance))?;
-    let because = evaluator.because(&path, "this linearised solution", &spec.because)?;
+    let tolerance = tolerance(&path, Some(&spec.tolerance))?;
+    let because = path.because("this linearised solution", &spec.because)?;
     Ok((exact, Some(Linearised { tolerance, because })))
 }
 
 /// Returns the diagnostic about a violation in `problem`. The message includes the residual of the
 /// law if the suite has the key `linearised`, or if this key could make the suite valid.
 pub(crate) fn violated(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     problem: &Problem,
     violation: &Violation,
 ) -> Diagnostic {
     let tolerance = if problem.linearised.is_none() { problem.tolerance } else { f64::INFINITY };
-    let diagnostic = no_solution(evaluator, path, violation, tolerance);
+    let diagnostic = no_solution(path, violation, tolerance);
     let left = problem.residual();
     match &problem.linearised {
         Some(stated) if left > stated.tolerance => {
@@ -87,14 +84,12 @@ pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
 }
 
 pub(crate) fn no_solution(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     violation: &Violation,
     tolerance: f64,
 ) -> Diagnostic {
     let rounded = if_rounded(violation, tolerance);
-    let diagnostic =
-        evaluator.diagnostic(&path.then("displacement").then(0), &violation.to_string());
+    let diagnostic = path.then("displacement").then(0).diagnostic(&violation.to_string());
     diagnostic.with_label("this is not a solution of the problem that the scene states").with_help(
         &format!("correct the formula, or the scene: loads, boundary, initial state{rounded}"),
     )

@@ -4,9 +4,9 @@ use crate::dimension::in_every_dimension;
 use crate::exact::Condition;
 use crate::exact::formula::Formula;
 use crate::mpm::{BasisName, Boundary, Grid, Side};
-use crate::suite::evaluator::{Evaluator, coordinates_and_time};
+use crate::suite::evaluator::{SuitePath, coordinates_and_time};
 use crate::suite::scene::numbers::LoadNumbers;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 pub(crate) trait BoundaryKeys {
@@ -32,22 +32,25 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
 
 /// Context for compiling a boundary condition: its path in the file, and the scene's dimension.
 pub(crate) struct FaceEntry<'a> {
-    pub(crate) evaluator: &'a Evaluator<'a>,
     /// Path of the condition's value.
-    pub(crate) path: Path,
+    pub(crate) path: SuitePath<'a>,
     pub(crate) dimension: usize,
 }
 
 impl FaceEntry<'_> {
     /// Compiles a formula of the coordinates and t at `path`.
-    pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
-        self.evaluator.formula(path, text, &coordinates_and_time(self.dimension))
+    pub(crate) fn scalar(
+        &self,
+        path: &SuitePath<'_>,
+        text: &NumberText,
+    ) -> Result<Formula, Diagnostic> {
+        path.formula(text, &coordinates_and_time(self.dimension))
     }
 
     /// Compiles one formula of the coordinates and t for each component.
     pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
         let variables = coordinates_and_time(self.dimension);
-        self.evaluator.vector(&self.path, texts, self.dimension, &variables)
+        self.path.vector(texts, self.dimension, &variables)
     }
 }
 

@@ -16,13 +16,12 @@ pub(crate) struct FrictionSpec(NumberText);
 
 impl BoundaryKeys for FrictionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
-        let FaceEntry { evaluator, path, .. } = entry;
-        let coefficient = evaluator.number(path, &self.0)?;
+        let coefficient = entry.path.number(&self.0)?;
         if coefficient >= 0.0 {
             return Ok(Arc::new(FrictionFace(coefficient)));
         }
         let message = format!("the coefficient of friction is {}", shown(coefficient));
-        Err(evaluator.diagnostic(path, &message).with_label("expected zero or a positive number"))
+        Err(entry.path.diagnostic(&message).with_label("expected zero or a positive number"))
     }
 }
 

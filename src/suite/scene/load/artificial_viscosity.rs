@@ -30,13 +30,13 @@ impl LoadKeys for ViscositySpec {
         entry.refuse_second("artificial viscosity")?;
         let coefficient = |key: &str, text: &NumberText| {
             let path = entry.path.then(key);
-            let value = entry.evaluator.number(&path, text)?;
+            let value = path.number(text)?;
             if value >= 0.0 {
                 return Ok(value);
             }
             let message = format!("a coefficient of viscosity is {}", shown(value));
             let label = "expected zero or a positive number";
-            Err(entry.evaluator.diagnostic(&path, &message).with_label(label))
+            Err(path.diagnostic(&message).with_label(label))
         };
         Ok(Arc::new(ViscosityLoad {
             linear: coefficient("linear", &self.linear)?,

@@ -26,13 +26,12 @@ impl LoadKeys for DampingSpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("damping")?;
-        Ok(Arc::new(DampingLoad(entry.evaluator.formula(&entry.path, &self.0, &["t"])?)))
+        Ok(Arc::new(DampingLoad(entry.path.formula(&self.0, &["t"])?)))
     }
 
     /// Refuses a rate that is negative during the run.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
-        let LoadEntry { evaluator, path, .. } = entry;
-        let rate = evaluator.formula(path, &self.0, &["t"])?;
+        let rate = entry.path.formula(&self.0, &["t"])?;
         for k in 0..=TIMES {
             let t = study.until * f64::from(k) / f64::from(TIMES);
             let alpha = rate.eval(&[t]);
@@ -40,7 +39,7 @@ impl LoadKeys for DampingSpec {
                 let message =
                     format!("the rate of damping is {} at t = {}", shown(alpha), shown(t));
                 let label = "expected zero or a positive number (1/s)";
-                return Err(evaluator.diagnostic(path, &message).with_label(label));
+                return Err(entry.path.diagnostic(&message).with_label(label));
             }
         }
         Ok(())

@@ -5,10 +5,10 @@ use crate::exact::formula::{Expr, Formula};
 use crate::exact::{Circle, Region};
 use crate::mpm::{Particles, Placement, Side};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{DISPLACEMENTS, Evaluator, coordinates_and_time, suggestion};
+use crate::suite::evaluator::{DISPLACEMENTS, SuitePath, coordinates_and_time, suggestion};
 use crate::suite::scene::Scene;
 use crate::suite::scene::face::face;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Properties of a convergence study that may exclude a load.
@@ -67,10 +67,9 @@ pub(crate) trait LoadKeys {
 
 /// Context for compiling a load: its path in the file, and the scene with the previous loads.
 pub(crate) struct LoadEntry<'a> {
-    pub(crate) evaluator: &'a Evaluator<'a>,
     pub(crate) effect: EffectName,
     /// Path of the load's value.
-    pub(crate) path: Path,
+    pub(crate) path: SuitePath<'a>,
     pub(crate) scene: &'a Scene,
 }
 
@@ -82,34 +81,34 @@ impl LoadEntry<'_> {
     /// Refuses a second load of the same kind; `title` is the name of the load in messages.
     pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
         if self.scene.lists(self.effect) {
-            return Err(self.evaluator.diagnostic(&self.path, &format!("{title} appears twice")));
+            return Err(self.path.diagnostic(&format!("{title} appears twice")));
         }
         Ok(())
     }
 
     pub(crate) fn of_time(
         &self,
-        path: &Path,
+        path: &SuitePath<'_>,
         texts: &[NumberText],
     ) -> Result<Vec<Formula>, Diagnostic> {
-        self.evaluator.vector(path, texts, self.dimension(), &["t"])
+        path.vector(texts, self.dimension(), &["t"])
     }
 
     /// Compiles one formula of the coordinates and t for each component.
     pub(crate) fn of_place_and_time(
         &self,
-        path: &Path,
+        path: &SuitePath<'_>,
         texts: &[NumberText],
     ) -> Result<Vec<Formula>, Diagnostic> {
         let d = self.dimension();
-        self.evaluator.vector(path, texts, d, &coordinates_and_time(d))
+        path.vector(texts, d, &coordinates_and_time(d))
     }
 
     /// Compiles one formula of the coordinates, t and optionally the displacement for each
     /// component.
     pub(crate) fn of_displacement(
         &self,
-        path: &Path,
+        path: &SuitePath<'_>,
         texts: &[NumberText],
     ) -> Result<Vec<Formula>, Diagnostic> {
         let d = self.dimension();
@@ -119,20 +118,24 @@ impl LoadEntry<'_> {
         if !texts.iter().any(is_of_u) {
             return self.of_place_and_time(path, texts);
         }
-        self.evaluator.vector(path, texts, d, &[&coordinates_and_time(d)[..], u].concat())
+        path.vector(texts, d, &[&coordinates_and_time(d)[..], u].concat())
     }
 
     /// Compiles one formula of the coordinates and t.
-    pub(crate) fn scalar(&self, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
-        self.evaluator.formula(path, text, &coordinates_and_time(self.dimension()))
+    pub(crate) fn scalar(
+        &self,
+        path: &SuitePath<'_>,
+        text: &NumberText,
+    ) -> Result<Formula, Diagnostic> {
+        path.formula(text, &coordinates_and_time(self.dimension()))
     }
 
     /// Returns the face called `name`, which must be free.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
-        let Self { evaluator, scene, .. } = self;
+        let scene = self.scene;
         let path = self.path.then("on");
-        refuse_surface_load(evaluator, &path, self.effect.name(), name, &scene.sets)?;
-        let number = face(evaluator, &path, name, self.dimension(), false)?;
+        refuse_surface_load(&path, self.effect.name(), name, &scene.sets)?;
+        let number = face(&path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;
         let taken = scene.loads_on(LoadTarget::Face(number)).next();
         let has = match taken {
@@ -140,24 +143,24 @@ impl LoadEntry<'_> {
             Some(other) => format!("already has a {}", other.effect.name()),
             None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
         };
-        Err(evaluator.diagnostic(&path, &format!("the face `{name}` {has}")))
+        Err(path.diagnostic(&format!("the face `{name}` {has}")))
     }
 
     /// Returns the rim called `name` of a body without faces. The rim must be free.
     pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
-        let Self { evaluator, scene, .. } = self;
+        let scene = self.scene;
         let path = self.path.then("on");
         let rims = scene.outline.as_ref().map_or_else(Vec::new, |outline| outline.circles());
         let known: Vec<&str> = rims.iter().map(|circle| circle.name).collect();
         let Some(circle) = rims.iter().find(|circle| circle.name == name) else {
-            let diagnostic = evaluator.diagnostic(&path, &format!("the body has no rim `{name}`"));
+            let diagnostic = path.diagnostic(&format!("the body has no rim `{name}`"));
             return Err(diagnostic.with_help(&suggestion("rims", name, &known)));
         };
         match scene.loads_on(LoadTarget::Rim(circle.number)).next() {
             None => Ok(circle.clone()),
             Some(other) => {
                 let message = format!("the rim `{name}` already has a {}", other.effect.name());
-                Err(evaluator.diagnostic(&path, &message))
+                Err(path.diagnostic(&message))
             }
         }
     }
@@ -165,12 +168,12 @@ impl LoadEntry<'_> {
     /// Returns the set called `name`, which must not carry another load.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
-        let number = set_number(self.evaluator, &path, name, &self.scene.sets)?;
+        let number = set_number(&path, name, &self.scene.sets)?;
         match self.scene.loads_on(LoadTarget::Set(number)).next() {
             None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
             Some(other) => {
                 let message = format!("the set `{name}` already has a {}", other.effect.name());
-                Err(self.evaluator.diagnostic(&path, &message))
+                Err(path.diagnostic(&message))
             }
         }
     }
@@ -232,8 +235,7 @@ impl LoadedSet {
 /// Refuses tractions and pressures on a set of particles. They are forces per area, and a set has
 /// no area.
 fn refuse_surface_load(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     load: &str,
     name: &str,
     sets: &[Region],
@@ -243,17 +245,12 @@ fn refuse_surface_load(
     }
     let message = format!("`{name}` is a set, but a {load} acts on a face");
     let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-    Err(evaluator.diagnostic(path, &message).with_help(&help))
+    Err(path.diagnostic(&message).with_help(&help))
 }
 
-fn set_number(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    name: &str,
-    sets: &[Region],
-) -> Result<usize, Diagnostic> {
+fn set_number(path: &SuitePath<'_>, name: &str, sets: &[Region]) -> Result<usize, Diagnostic> {
     sets.iter().position(|set| set.name == name).ok_or_else(|| {
-        let diagnostic = evaluator.diagnostic(path, &format!("there is no set `{name}`"));
+        let diagnostic = path.diagnostic(&format!("there is no set `{name}`"));
         let known: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
         diagnostic.with_help(&match known[..] {
             [] => format!("declare it: `sets: {{{name}: {{box: {{from: [...], to: [...]}}}}}}`"),

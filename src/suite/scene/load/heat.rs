@@ -7,7 +7,7 @@ use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
 use crate::mpm::{Effect, Heat, HeatSource, Particles, Side, ThermalBoundary, Vector};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::coordinates_and_time;
+use crate::suite::evaluator::{SuitePath, coordinates_and_time};
 use crate::suite::scene::SceneFace;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::boundary::thermal::{
@@ -18,7 +18,7 @@ use crate::suite::scene::boundary::thermal::{
 use crate::suite::scene::face::by_face;
 use crate::suite::scene::face::face;
 use crate::suite::scene::numbers::with_unit;
-use crate::suite::yaml::{Diagnostic, NumberText, Ordered, Path};
+use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 use std::sync::Arc;
 
 const TEMPERATURE: &str = "T";
@@ -48,22 +48,19 @@ impl LoadKeys for HeatSpec {
     }
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        let LoadEntry { evaluator, path, scene, .. } = entry;
+        let LoadEntry { path, scene, .. } = entry;
         if let Some(outline) = &scene.outline {
             let kind = outline.kind();
-            let message = format!(
-                "heat is supported in a `box` only, but the body is of kind \
-                                   `{kind}`"
-            );
-            return Err(evaluator.diagnostic_at_key(path, &message));
+            let message =
+                format!("heat is supported in a `box` only, but the body is of kind `{kind}`");
+            return Err(path.diagnostic_at_key(&message));
         }
         if scene.heat().is_some() {
-            return Err(evaluator.diagnostic_at_key(path, "heat appears twice"));
+            return Err(path.diagnostic_at_key("heat appears twice"));
         }
         let source = self.source.as_ref().map(|text| source(entry, &path.then("source"), text));
         let initial = self.initial.as_ref().map(|text| entry.scalar(&path.then("initial"), text));
-        let number =
-            |key: &str, text: &NumberText, what| evaluator.positive(&path.then(key), text, what);
+        let number = |key: &str, text: &NumberText, what| path.then(key).positive(text, what);
         Ok(Arc::new(SceneHeat {
             conductivity: number("conductivity", &self.conductivity, "the conductivity")?,
             capacity: number("capacity", &self.capacity, "the heat capacity")?,
@@ -88,16 +85,19 @@ impl LoadKeys for HeatSpec {
 
 /// Compiles the heat source. In the formula, `T` is the temperature. A formula with `T` is refused
 /// if the suite declares a name `T`.
-fn source(entry: &LoadEntry<'_>, path: &Path, text: &NumberText) -> Result<Formula, Diagnostic> {
-    let evaluator = entry.evaluator;
+fn source(
+    entry: &LoadEntry<'_>,
+    path: &SuitePath<'_>,
+    text: &NumberText,
+) -> Result<Formula, Diagnostic> {
     let mut variables = coordinates_and_time(entry.dimension());
     let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| name == TEMPERATURE);
-    if evaluator.refuse_taken(&[TEMPERATURE]).is_ok()
+    if path.evaluator.refuse_taken(&[TEMPERATURE]).is_ok()
         || Expr::parse(&text.to_string()).is_ok_and(names_it)
     {
         variables.push(TEMPERATURE);
     }
-    evaluator.formula(path, text, &variables)
+    path.formula(text, &variables)
 }
 
 /// Heat conduction adds no force.
@@ -183,7 +183,7 @@ fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
 ) -> Result<Vec<ThermalFace>, Diagnostic> {
-    let (evaluator, dimension) = (entry.evaluator, entry.dimension());
+    let dimension = entry.dimension();
     let unnamed = |face: &SceneFace| {
         let SceneFace { name, axis, high, .. } = *face;
         let periodic = face.hold.is_periodic();
@@ -195,10 +195,10 @@ fn faces(
     let mut faces: Vec<ThermalFace> = entry.scene.faces.iter().map(unnamed).collect();
     for (name, spec) in spec.as_slice() {
         let at = path.then(name.as_str());
-        let i = face(evaluator, &at, name, dimension, true)?;
+        let i = face(&at, name, dimension, true)?;
         let (condition, spec) = spec.named();
-        on_grid(entry, &at, spec.lets_heat_in(), &entry.scene.faces[i])?;
-        let entry = FaceEntry { evaluator, path: at.then(condition), dimension };
+        on_grid(&at, spec.lets_heat_in(), &entry.scene.faces[i])?;
+        let entry = FaceEntry { path: at.then(condition), dimension };
         faces[i].condition = spec.compile(&entry)?;
     }
     Ok(faces)
@@ -206,22 +206,17 @@ fn faces(
 
 /// Refuses prescribed temperatures and heat fluxes on a face that does not stay on a grid face,
 /// because the condition applies to the nodes of the grid face.
-fn on_grid(
-    entry: &LoadEntry<'_>,
-    path: &Path,
-    lets_heat_in: bool,
-    face: &SceneFace,
-) -> Result<(), Diagnostic> {
+fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.verb());
     if face.hold.is_periodic() {
         let message = format!("the {name} face {verb}, so it cannot have a thermal condition");
-        return Err(entry.evaluator.diagnostic_at_key(path, &message));
+        return Err(path.diagnostic_at_key(&message));
     }
     if face.hold.stays() || !lets_heat_in {
         return Ok(());
     }
     let message = format!("the {name} face {verb}, but heat can enter only at a face of the grid");
-    let diagnostic = entry.evaluator.diagnostic_at_key(path, &message);
+    let diagnostic = path.diagnostic_at_key(&message);
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
 }
 

@@ -6,7 +6,7 @@ use crate::exact::Term;
 use crate::mpm::{Effect, LocalDamping};
 use crate::suite::evaluator::shown;
 use crate::suite::scene::numbers::LoadNumbers;
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Share of the unbalanced force that opposes the motion at each node.
@@ -22,11 +22,11 @@ impl LoadKeys for LocalDampingSpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("local damping")?;
-        let share = entry.evaluator.number(&entry.path, &self.0)?;
+        let share = entry.path.number(&self.0)?;
         if !(0.0..1.0).contains(&share) {
             let message = format!("the share of local damping is {}", shown(share));
             let label = "expected zero or a number below 1";
-            return Err(entry.evaluator.diagnostic(&entry.path, &message).with_label(label));
+            return Err(entry.path.diagnostic(&message).with_label(label));
         }
         Ok(Arc::new(LocalDampingLoad(share)))
     }
@@ -37,7 +37,7 @@ impl LoadKeys for LocalDampingSpec {
             return Ok(());
         }
         let message = "`local_damping` needs the whole force, but a part of it is manufactured";
-        let diagnostic = entry.evaluator.diagnostic_at_key(&Path::top("manufactured"), message);
+        let diagnostic = entry.path.evaluator.top("manufactured").diagnostic_at_key(message);
         Err(diagnostic.with_help("state the motion under `exact`, or use `damping`"))
     }
 

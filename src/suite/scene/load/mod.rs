@@ -9,9 +9,9 @@ pub(crate) use contract::{BodySite, ListedLoad, LoadTarget, build};
 pub(crate) use entry::{LoadEntry, LoadKeys, StudyFacts};
 
 use crate::members::each_effect;
-use crate::suite::evaluator::Evaluator;
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::scene::Scene;
-use crate::suite::yaml::{Diagnostic, Path};
+use crate::suite::yaml::Diagnostic;
 
 /// Declares the loads from the lines of [`each_effect`](crate::members). The type of the keys
 /// implements [`LoadKeys`].
@@ -65,8 +65,8 @@ each_effect!(loads);
 
 impl LoadSpec {
     /// Returns the path of entry `number` in `loads`.
-    pub(crate) fn path(&self, number: usize) -> Path {
-        Path::top("scene").then("loads").then(number).then(self.effect().name())
+    pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>, number: usize) -> SuitePath<'a> {
+        evaluator.top("scene.loads").then(number).then(self.effect().name())
     }
 }
 
@@ -74,7 +74,7 @@ fn refuse_incomplete(evaluator: &Evaluator<'_>, loads: &[LoadSpec]) -> Result<()
     let listed: Vec<EffectName> = loads.iter().map(LoadSpec::effect).collect();
     EffectName::combine(&listed).map_err(|(effect, message)| {
         let at = listed.iter().position(|listed| *listed == effect).unwrap_or(0);
-        evaluator.diagnostic_at_key(&loads[at].path(at), &message)
+        loads[at].path(evaluator, at).diagnostic_at_key(&message)
     })
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn add(
     refuse_incomplete(evaluator, spec)?;
     for (i, load) in spec.iter().enumerate() {
         let effect = load.effect();
-        let entry = LoadEntry { evaluator, effect, path: load.path(i), scene };
+        let entry = LoadEntry { effect, path: load.path(evaluator, i), scene };
         let load = load.keys().compile(&entry)?;
         scene.loads.push(ListedLoad { effect, load });
     }

@@ -42,7 +42,7 @@ impl LoadKeys for PressureSpec {
         let site = if entry.scene.faces.is_empty() {
             if let Some(Placement::Particles) = self.at {
                 let message = "a pressure on a rim acts at the surface";
-                let diagnostic = entry.evaluator.diagnostic(&entry.path.then("at"), message);
+                let diagnostic = entry.path.then("at").diagnostic(message);
                 return Err(diagnostic.with_help("remove `at`"));
             }
             PressedPart::Rim(entry.free_rim(&self.on)?)

@@ -24,19 +24,19 @@ impl LoadKeys for ExpansionSpec {
     }
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
-        let LoadEntry { evaluator, path, .. } = entry;
+        let path = &entry.path;
         if entry.scene.lists(entry.effect) {
-            return Err(evaluator.diagnostic_at_key(path, "thermal expansion appears twice"));
+            return Err(path.diagnostic_at_key("thermal expansion appears twice"));
         }
         if !entry.scene.initial_stress.is_none() {
             let message = "`thermal_expansion` is not supported with an initial stress, which \
                            could be that before or after the expansion";
-            return Err(evaluator.diagnostic_at_key(path, message));
+            return Err(path.diagnostic_at_key(message));
         }
         let rate_form = rate_form(entry)?;
         let at = path.then("coefficient");
-        let coefficient = evaluator.positive(&at, &self.coefficient, "the coefficient")?;
-        let reference = evaluator.number(&path.then("reference"), &self.reference)?;
+        let coefficient = at.positive(&self.coefficient, "the coefficient")?;
+        let reference = path.then("reference").number(&self.reference)?;
         Ok(Arc::new(ExpansionLoad(Expansion { coefficient, reference }, rate_form)))
     }
 
@@ -51,12 +51,12 @@ impl LoadKeys for ExpansionSpec {
 /// # Errors
 /// A diagnostic if the material supports no thermal stress in the dimension of the scene.
 fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
-    let LoadEntry { evaluator, path, scene, .. } = entry;
+    let LoadEntry { path, scene, .. } = entry;
     let (name, d) = (scene.material.name(), scene.dimension());
     let law = scene.material.properties();
     if !law.is_elastic() {
         let message = format!("`thermal_expansion` does not support the law `{name}`");
-        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        let diagnostic = path.diagnostic_at_key(&message);
         return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
     }
     let elasticity = scene.material.elasticity();
@@ -69,7 +69,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
             "in {d}-D `thermal_expansion` of a `{name}` body needs a Poisson's ratio of 0, not \
              {poisson}: the body cannot expand along the other axes"
         );
-        let diagnostic = evaluator.diagnostic_at_key(path, &message);
+        let diagnostic = path.diagnostic_at_key(&message);
         return Err(diagnostic.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
     }
     Ok(None)

@@ -5,10 +5,10 @@ mod polygon;
 use crate::exact::{Outline, Round};
 use crate::mpm::Quadrilateral;
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
 use crate::suite::scene::{LONGEST, SHORTEST};
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Shape of a body.
@@ -27,14 +27,13 @@ pub(crate) struct Shape {
 /// Compiles the shape at `path`. Refuses conditions and loads of `scene` on faces that the body
 /// does not have.
 pub(crate) fn shape(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &BodySpec,
     scene: &SceneSpec,
     dimension: usize,
     plane: PlaneState,
 ) -> Result<Shape, Diagnostic> {
-    let at_scene = Path::top("scene");
+    let at_scene = path.evaluator.top("scene");
     let of_kind = |kind: &str, flat: usize| {
         let at = path.then(kind);
         if dimension == flat {
@@ -46,29 +45,27 @@ pub(crate) fn shape(
             "in {dimension}-D a body is a {}",
             ["`box`", flat, "`box` or `ball`"][dimension - 1]
         );
-        Err(evaluator.diagnostic_at_key(&at, &message).with_help(&help))
+        Err(at.diagnostic_at_key(&message).with_help(&help))
     };
     let outline = match spec {
         BodySpec::Box(spec) => {
-            let (from, to) = corners(evaluator, &path.then("box"), spec, dimension)?;
+            let (from, to) = corners(&path.then("box"), spec, dimension)?;
             return Ok(Shape { from, to, outline: None, mapped: None, plane });
         }
         BodySpec::Quadrilateral(spec) => {
             let at = of_kind("quadrilateral", 2)?;
-            let (outline, panel) = polygon::quadrilateral(evaluator, &at, spec)?;
-            polygon::faces_are_sides(evaluator, &at_scene, scene, &panel)?;
+            let (outline, panel) = polygon::quadrilateral(&at, spec)?;
+            polygon::faces_are_sides(&at_scene, scene, &panel)?;
             let (from, to) = outline.ends();
             return Ok(Shape { from, to, outline: Some(outline), mapped: Some(panel), plane });
         }
-        BodySpec::Annulus(spec) => annulus(evaluator, &of_kind("annulus", 2)?, spec)?,
-        BodySpec::Disk(spec) => filled(evaluator, &of_kind("disk", 2)?, spec, 2)?,
-        BodySpec::Ball(spec) => filled(evaluator, &of_kind("ball", 3)?, spec, 3)?,
-        BodySpec::Polygon(corners) => {
-            polygon::polygon(evaluator, &of_kind("polygon", 2)?, corners)?
-        }
+        BodySpec::Annulus(spec) => annulus(&of_kind("annulus", 2)?, spec)?,
+        BodySpec::Disk(spec) => filled(&of_kind("disk", 2)?, spec, 2)?,
+        BodySpec::Ball(spec) => filled(&of_kind("ball", 3)?, spec, 3)?,
+        BodySpec::Polygon(corners) => polygon::polygon(&of_kind("polygon", 2)?, corners)?,
     };
     if scene.bodies.is_none() {
-        rims_are_free(evaluator, &at_scene, scene, outline.as_ref())?;
+        rims_are_free(&at_scene, scene, outline.as_ref())?;
     }
     let (from, to) = outline.ends();
     Ok(Shape { from, to, outline: Some(outline), mapped: None, plane })
@@ -76,8 +73,7 @@ pub(crate) fn shape(
 
 /// Refuses conditions on the rims of a body, and loads on rims unless they may act on round rims.
 fn rims_are_free(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     outline: &dyn Outline,
 ) -> Result<(), Diagnostic> {
@@ -85,7 +81,7 @@ fn rims_are_free(
     let held = spec.boundary.as_slice().first().map(|(face, _)| {
         let message =
             format!("`{face}` cannot be held: a body of kind `{kind}` has free rims only");
-        evaluator.diagnostic_at_key(&path.then("boundary").then(face.as_str()), &message)
+        path.then("boundary").then(face.as_str()).diagnostic_at_key(&message)
     });
     let loaded = spec.loads.iter().enumerate().find_map(|(i, load)| {
         let on = load.keys().face()?;
@@ -94,7 +90,7 @@ fn rims_are_free(
         }
         let message =
             format!("`{on}` cannot be loaded: a body of kind `{kind}` has free rims only");
-        Some(evaluator.diagnostic(&load.path(i).then("on"), &message))
+        Some(load.path(path.evaluator, i).then("on").diagnostic(&message))
     });
     match held.or(loaded) {
         Some(diagnostic) => Err(diagnostic.with_help(
@@ -107,8 +103,7 @@ fn rims_are_free(
 
 /// Refuses a grid that does not contain the whole body.
 pub(crate) fn fits(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     outline: &dyn Outline,
     grid: Option<&(Vec<f64>, Vec<f64>)>,
 ) -> Result<(), Diagnostic> {
@@ -122,8 +117,7 @@ pub(crate) fn fits(
             if inside {
                 let (kind, reach, end) = (outline.kind(), shown(body), shown(end));
                 let message = format!("the {kind} extends to {reach}, but the grid ends at {end}");
-                let diagnostic =
-                    evaluator.diagnostic(&path.then("grid").then(key).then(axis), &message);
+                let diagnostic = path.then("grid").then(key).then(axis).diagnostic(&message);
                 return Err(diagnostic.with_label(&format!("expected at {word} {reach}")));
             }
         }
@@ -132,18 +126,17 @@ pub(crate) fn fits(
 }
 
 pub(crate) fn corners(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &BoxSpec,
     dimension: usize,
 ) -> Result<(Vec<f64>, Vec<f64>), Diagnostic> {
-    let from = evaluator.point(&path.then("from"), &spec.from, dimension)?;
-    let to = evaluator.point(&path.then("to"), &spec.to, dimension)?;
+    let from = path.then("from").point(&spec.from, dimension)?;
+    let to = path.then("to").point(&spec.to, dimension)?;
     for axis in 0..dimension {
         if !(from[axis] < to[axis]) {
             let (from, to) = (shown(from[axis]), shown(to[axis]));
             let message = format!("the box ends at {to} and starts at {from}");
-            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
+            let diagnostic = path.then("to").then(axis).diagnostic(&message);
             return Err(diagnostic.with_label("expected a number above that of `from`"));
         }
         // The length is limited because second derivatives contain its square and volumes contain
@@ -151,7 +144,7 @@ pub(crate) fn corners(
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));
-            let diagnostic = evaluator.diagnostic(&path.then("to").then(axis), &message);
+            let diagnostic = path.then("to").then(axis).diagnostic(&message);
             let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
             return Err(diagnostic.with_label(&label));
         }
@@ -160,38 +153,36 @@ pub(crate) fn corners(
 }
 
 fn annulus(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     AnnulusSpec { centre, inner, outer }: &AnnulusSpec,
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
-    let centre = evaluator.point(&path.then("centre"), centre, 2)?;
-    let inner = radius(evaluator, &path.then("inner"), inner)?;
-    let outer = radius(evaluator, &path.then("outer"), outer)?;
+    let centre = path.then("centre").point(centre, 2)?;
+    let inner = radius(&path.then("inner"), inner)?;
+    let outer = radius(&path.then("outer"), outer)?;
     if inner < outer {
         return Ok(Arc::new(Round { centre, inner, outer }));
     }
     let message = format!("the outer radius is {}, the inner {}", shown(outer), shown(inner));
-    let diagnostic = evaluator.diagnostic(&path.then("outer"), &message);
+    let diagnostic = path.then("outer").diagnostic(&message);
     Err(diagnostic.with_label("expected a number above `inner`"))
 }
 
 fn filled(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &RoundSpec,
     dimension: usize,
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
-    let centre = evaluator.point(&path.then("centre"), &spec.centre, dimension)?;
-    let outer = radius(evaluator, &path.then("radius"), &spec.radius)?;
+    let centre = path.then("centre").point(&spec.centre, dimension)?;
+    let outer = radius(&path.then("radius"), &spec.radius)?;
     Ok(Arc::new(Round { centre, inner: 0.0, outer }))
 }
 
-fn radius(evaluator: &Evaluator<'_>, path: &Path, text: &NumberText) -> Result<f64, Diagnostic> {
-    let radius = evaluator.positive(path, text, "the radius")?;
+fn radius(path: &SuitePath<'_>, text: &NumberText) -> Result<f64, Diagnostic> {
+    let radius = path.positive(text, "the radius")?;
     if (SHORTEST..=LONGEST).contains(&radius) {
         return Ok(radius);
     }
     let message = format!("the radius is {} m", shown(radius));
     let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
-    Err(evaluator.diagnostic(path, &message).with_label(&label))
+    Err(path.diagnostic(&message).with_label(&label))
 }

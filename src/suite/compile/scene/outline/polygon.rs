@@ -2,11 +2,11 @@
 
 use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{QuadrilateralSpec, SceneSpec};
 use crate::suite::scene::face::FACES;
 use crate::suite::scene::{LONGEST, SHORTEST};
-use crate::suite::yaml::{Diagnostic, NumberText, Path};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
 /// Maximum number of corners of a polygon. The limit bounds the run time, because every side is
@@ -14,21 +14,20 @@ use std::sync::Arc;
 const MOST: usize = 100;
 
 pub(super) fn polygon(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     texts: &[Vec<NumberText>],
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
     if texts.len() < 3 || texts.len() > MOST {
         let message = format!("a polygon of {} corners", texts.len());
-        let diagnostic = evaluator.diagnostic(path, &message);
+        let diagnostic = path.diagnostic(&message);
         return Err(diagnostic.with_label(&format!("expected 3 to {MOST}")));
     }
-    let corners = corners(evaluator, path, texts)?;
+    let corners = corners(path, texts)?;
     let polygon = Polygon::new("polygon", &corners).map_err(|(first, second)| {
         let name = |side: usize| format!("{} to {}", side + 1, (side + 1) % corners.len() + 1);
         let (one, other) = (name(first), name(second));
         let message = format!("the sides from corner {one} and from {other} cross or touch");
-        let diagnostic = evaluator.diagnostic(&path.then(second), &message);
+        let diagnostic = path.then(second).diagnostic(&message);
         diagnostic
             .with_label("expected a side that is apart from all others")
             .with_help("list the corners in their order around the body, either way round")
@@ -37,15 +36,11 @@ pub(super) fn polygon(
 }
 
 /// Compiles a list of corners (m), which must be distinct.
-fn corners(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
-    texts: &[Vec<NumberText>],
-) -> Result<Vec<[f64; 2]>, Diagnostic> {
+fn corners(path: &SuitePath<'_>, texts: &[Vec<NumberText>]) -> Result<Vec<[f64; 2]>, Diagnostic> {
     let mut corners: Vec<[f64; 2]> = Vec::with_capacity(texts.len());
     for (i, texts) in texts.iter().enumerate() {
         let at = path.then(i);
-        let place = evaluator.point(&at, texts, 2)?;
+        let place = at.point(texts, 2)?;
         let corner = [place[0], place[1]];
         for (k, other) in corners.iter().enumerate() {
             let length = libm::hypot(corner[0] - other[0], corner[1] - other[1]);
@@ -53,7 +48,7 @@ fn corners(
                 let (first, second, length) = (k + 1, i + 1, shown(length));
                 let message = format!("corners {first} and {second} are {length} m apart");
                 let label = format!("expected a distance from {SHORTEST:e} to {LONGEST:e}");
-                return Err(evaluator.diagnostic(&at, &message).with_label(&label));
+                return Err(at.diagnostic(&message).with_label(&label));
             }
         }
         corners.push(corner);
@@ -63,19 +58,18 @@ fn corners(
 
 /// Compiles the quadrilateral in `spec` at `path`. Also returns its shape as an `Outline`.
 pub(super) fn quadrilateral(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &QuadrilateralSpec,
 ) -> Result<(Arc<dyn Outline>, Quadrilateral), Diagnostic> {
     let path = path.then("corners");
     if spec.corners.len() != 4 {
         let message = format!("a quadrilateral of {} corners", spec.corners.len());
-        return Err(evaluator.diagnostic(&path, &message).with_label("expected four"));
+        return Err(path.diagnostic(&message).with_label("expected four"));
     }
-    let corners = corners(evaluator, &path, &spec.corners)?;
+    let corners = corners(&path, &spec.corners)?;
     let to_the_right = |i: usize| {
         let message = format!("at corner {} the sides do not turn to the left", i + 1);
-        let diagnostic = evaluator.diagnostic(&path.then(i), &message);
+        let diagnostic = path.then(i).diagnostic(&message);
         diagnostic.with_label("expected the corners of a convex panel, counter-clockwise")
     };
     let places = std::array::from_fn(|i| Vector::from(corners[i]));
@@ -88,8 +82,7 @@ pub(super) fn quadrilateral(
 /// Refuses conditions and loads on a face of the bounding box that contains no side of the
 /// quadrilateral.
 pub(super) fn faces_are_sides(
-    evaluator: &Evaluator<'_>,
-    path: &Path,
+    path: &SuitePath<'_>,
     spec: &SceneSpec,
     panel: &Quadrilateral,
 ) -> Result<(), Diagnostic> {
@@ -98,21 +91,16 @@ pub(super) fn faces_are_sides(
         // Faces that do not exist in two dimensions are reported by a later check.
         number.is_none_or(|i| i >= 4 || panel.has_side_at(i / 2, i % 2 == 1))
     };
-    let no_side = |at: &Path, face: &str, is_key: bool| {
+    let no_side = |at: &SuitePath<'_>, face: &str, is_key: bool| {
         let message = format!("no side of the quadrilateral lies on its `{face}` face");
-        let diagnostic = if is_key {
-            evaluator.diagnostic_at_key(at, &message)
-        } else {
-            evaluator.diagnostic(at, &message)
-        };
+        let diagnostic =
+            if is_key { at.diagnostic_at_key(&message) } else { at.diagnostic(&message) };
         diagnostic.with_help("a face can be held or loaded where a whole side lies on it")
     };
     for (face, hold) in spec.boundary.as_slice() {
         let at = path.then("boundary").then(face.as_str());
         if hold.named().1.is_periodic() {
-            return Err(
-                evaluator.diagnostic_at_key(&at, "a quadrilateral cannot have periodic faces")
-            );
+            return Err(at.diagnostic_at_key("a quadrilateral cannot have periodic faces"));
         }
         if !is_side(face) {
             return Err(no_side(&at, face, true));
@@ -121,7 +109,7 @@ pub(super) fn faces_are_sides(
     for (i, load) in spec.loads.iter().enumerate() {
         let Some(on) = load.keys().face() else { continue };
         if !is_side(on) {
-            return Err(no_side(&load.path(i).then("on"), on, false));
+            return Err(no_side(&load.path(path.evaluator, i).then("on"), on, false));
         }
     }
     Ok(())

@@ -24,7 +24,7 @@ pub(crate) struct ConvectionSpec {
 impl ThermalKeys for ConvectionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         let (at, what) = (entry.path.then("coefficient"), "the coefficient of convection");
-        let coefficient = entry.evaluator.positive(&at, &self.coefficient, what)?;
+        let coefficient = at.positive(&self.coefficient, what)?;
         let ambient = entry.scalar(&entry.path.then("ambient"), &self.ambient)?;
         Ok(Arc::new(Convection { coefficient, ambient }))
     }
