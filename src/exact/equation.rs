@@ -1,6 +1,6 @@
 //! Stresses and forces of an [`Equation`], and the out-of-plane derivatives of plane motions.
 
-use super::formula::{Number, Slope};
+use super::formula::Slope;
 use super::law::Equation;
 use super::motion::Derivatives;
 use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit, vector};

@@ -1,4 +1,4 @@
-//! Second-order automatic differentiation.
+//! Automatic differentiation of first and second order.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,23 +11,97 @@ use super::unary::Unary;
 /// The chain rule is applied exactly, without differences. `max`, `min`, `abs`, `sign`, `step` and
 /// `floor` are differentiated on the selected branch, as if there were no kink or jump. Other
 /// undefined derivatives, such as the derivative of `sqrt` at 0, are infinite or NaN.
+pub type Jet<const N: usize> = Dual<N, [[f64; N]; N]>;
+
+/// A value with its first derivatives along `N` directions: a [`Jet`] without second derivatives,
+/// at a third of the cost.
+///
+/// Results are bit-identical to those of a jet, with one exception: if the derivative of a function
+/// is infinite, a gradient component of zero becomes NaN.
+pub type Slope<const N: usize> = Dual<N, ()>;
+
+/// A value with its first derivatives, and second derivatives of the type `H`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Jet<const N: usize> {
+pub struct Dual<const N: usize, H> {
     value: f64,
     gradient: [f64; N],
-    hessian: [[f64; N]; N],
+    hessian: H,
+}
+
+/// Second derivatives with respect to `N` variables, or `()` if they are not computed.
+pub trait Hessian<const N: usize>: Copy + PartialEq {
+    /// Whether second derivatives are computed.
+    const IS_KNOWN: bool;
+
+    /// Stores the derivatives that `second` returns for two variables; `second` is symmetric.
+    fn build(second: impl Fn(usize, usize) -> f64) -> Self;
+
+    /// Returns the derivative with respect to the variables `i` and `j`; 0 if it is not computed.
+    fn at(&self, i: usize, j: usize) -> f64;
+}
+
+impl<const N: usize> Hessian<N> for [[f64; N]; N] {
+    const IS_KNOWN: bool = true;
+
+    #[inline]
+    fn build(second: impl Fn(usize, usize) -> f64) -> Self {
+        let mut hessian = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..=i {
+                let second = second(i, j);
+                (hessian[i][j], hessian[j][i]) = (second, second);
+            }
+        }
+        hessian
+    }
+
+    #[inline]
+    fn at(&self, i: usize, j: usize) -> f64 {
+        self[i][j]
+    }
+}
+
+impl<const N: usize> Hessian<N> for () {
+    const IS_KNOWN: bool = false;
+
+    #[inline]
+    fn build(_: impl Fn(usize, usize) -> f64) -> Self {}
+
+    #[inline]
+    fn at(&self, _: usize, _: usize) -> f64 {
+        0.0
+    }
 }
 
 impl<const N: usize> Jet<N> {
+    /// Returns the second derivative with respect to the variables `i` and `j`.
+    ///
+    /// # Panics
+    /// If `i` or `j` is not below `N`.
+    #[inline]
+    pub fn dd(&self, i: usize, j: usize) -> f64 {
+        self.hessian[i][j]
+    }
+}
+
+impl<const N: usize> Slope<N> {
+    /// Creates a value with the given `gradient`.
+    #[inline]
+    pub fn new(value: f64, gradient: [f64; N]) -> Self {
+        Self { value, gradient, hessian: () }
+    }
+}
+
+impl<const N: usize, H: Hessian<N>> Dual<N, H> {
     /// Creates the variable with this `index` and `value`.
     ///
     /// # Panics
     /// If `index` is not below `N`.
     #[inline]
     pub fn variable(value: f64, index: usize) -> Self {
-        let mut jet = Self::from(value);
-        jet.gradient[index] = 1.0;
-        jet
+        let mut variable = Self::from(value);
+        variable.gradient[index] = 1.0;
+        variable
     }
 
     /// Returns the value, without derivatives.
@@ -45,47 +119,36 @@ impl<const N: usize> Jet<N> {
         self.gradient[i]
     }
 
-    /// Returns the second derivative with respect to the variables `i` and `j`.
-    ///
-    /// # Panics
-    /// If `i` or `j` is not below `N`.
-    #[inline]
-    pub fn dd(&self, i: usize, j: usize) -> f64 {
-        self.hessian[i][j]
-    }
-
-    /// Builds a jet from its value and functions for its derivatives; `second` must be symmetric.
+    /// Combines a value and functions for its derivatives; `second` must be symmetric.
     #[inline]
     fn build(
         value: f64,
         first: impl Fn(usize) -> f64,
         second: impl Fn(usize, usize) -> f64,
     ) -> Self {
-        let mut jet = Self::from(value);
+        let mut gradient = [0.0; N];
         for i in 0..N {
-            jet.gradient[i] = first(i);
-            for j in 0..=i {
-                let second = second(i, j);
-                (jet.hessian[i][j], jet.hessian[j][i]) = (second, second);
-            }
+            gradient[i] = first(i);
         }
-        jet
+        Self { value, gradient, hessian: H::build(second) }
     }
 
     /// Applies the chain rule for a function with the derivatives `f1` and `f2` at `self`.
     #[inline]
-    fn chain(&self, value: f64, f1: f64, f2: f64) -> Self {
-        let jet = Self::build(
+    fn chain(&self, value: f64, f1: f64, f2: impl FnOnce() -> f64) -> Self {
+        let f2 = if H::IS_KNOWN { f2() } else { 0.0 };
+        let dual = Self::build(
             value,
             |i| f1 * self.gradient[i],
-            |i, j| f2 * (self.gradient[i] * self.gradient[j]) + f1 * self.hessian[i][j],
+            |i, j| f2 * (self.gradient[i] * self.gradient[j]) + f1 * self.hessian.at(i, j),
         );
-        if f1.is_finite() && f2.is_finite() { jet } else { jet.flattened(|i| self.is_flat(i)) }
+        let is_finite = f1.is_finite() && f2.is_finite();
+        if is_finite || !H::IS_KNOWN { dual } else { dual.flattened(|i| self.is_flat(i)) }
     }
 
-    /// Whether the jet does not depend on variable `i`.
+    /// Whether no derivative with respect to variable `i` differs from zero.
     fn is_flat(&self, i: usize) -> bool {
-        self.gradient[i] == 0.0 && self.hessian[i].iter().all(|&second| second == 0.0)
+        self.gradient[i] == 0.0 && (0..N).all(|j| self.hessian.at(i, j) == 0.0)
     }
 
     /// Clears the derivatives with respect to variables on which the argument does not depend.
@@ -94,28 +157,28 @@ impl<const N: usize> Jet<N> {
         Self::build(
             self.value,
             |i| if flat(i) { 0.0 } else { self.gradient[i] },
-            |i, j| if flat(i) || flat(j) { 0.0 } else { self.hessian[i][j] },
+            |i, j| if flat(i) || flat(j) { 0.0 } else { self.hessian.at(i, j) },
         )
     }
 }
 
-impl<const N: usize> From<f64> for Jet<N> {
+impl<const N: usize, H: Hessian<N>> From<f64> for Dual<N, H> {
     #[inline]
     fn from(value: f64) -> Self {
-        Self { value, gradient: [0.0; N], hessian: [[0.0; N]; N] }
+        Self { value, gradient: [0.0; N], hessian: H::build(|_, _| 0.0) }
     }
 }
 
-impl<const N: usize> Neg for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Neg for Dual<N, H> {
     type Output = Self;
 
     #[inline]
     fn neg(self) -> Self {
-        Self::build(-self.value, |i| -self.gradient[i], |i, j| -self.hessian[i][j])
+        Self::build(-self.value, |i| -self.gradient[i], |i, j| -self.hessian.at(i, j))
     }
 }
 
-impl<const N: usize> Add for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Add for Dual<N, H> {
     type Output = Self;
 
     #[inline]
@@ -123,12 +186,12 @@ impl<const N: usize> Add for Jet<N> {
         Self::build(
             self.value + b.value,
             |i| self.gradient[i] + b.gradient[i],
-            |i, j| self.hessian[i][j] + b.hessian[i][j],
+            |i, j| self.hessian.at(i, j) + b.hessian.at(i, j),
         )
     }
 }
 
-impl<const N: usize> Sub for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Sub for Dual<N, H> {
     type Output = Self;
 
     #[inline]
@@ -136,13 +199,13 @@ impl<const N: usize> Sub for Jet<N> {
         Self::build(
             self.value - b.value,
             |i| self.gradient[i] - b.gradient[i],
-            |i, j| self.hessian[i][j] - b.hessian[i][j],
+            |i, j| self.hessian.at(i, j) - b.hessian.at(i, j),
         )
     }
 }
 
 #[allow(clippy::suspicious_arithmetic_impl)]
-impl<const N: usize> Mul for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Mul for Dual<N, H> {
     type Output = Self;
 
     #[inline]
@@ -152,14 +215,14 @@ impl<const N: usize> Mul for Jet<N> {
             |i| self.value * b.gradient[i] + b.value * self.gradient[i],
             |i, j| {
                 let mixed = self.gradient[i] * b.gradient[j] + self.gradient[j] * b.gradient[i];
-                self.value * b.hessian[i][j] + b.value * self.hessian[i][j] + mixed
+                self.value * b.hessian.at(i, j) + b.value * self.hessian.at(i, j) + mixed
             },
         )
     }
 }
 
 #[allow(clippy::suspicious_arithmetic_impl)]
-impl<const N: usize> Div for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Div for Dual<N, H> {
     type Output = Self;
 
     /// The quotient q satisfies q*b = a. This equation is differentiated and solved for q' and q''.
@@ -179,13 +242,13 @@ impl<const N: usize> Div for Jet<N> {
             |i| gradient[i],
             |i, j| {
                 let mixed = gradient[i] * b.gradient[j] + gradient[j] * b.gradient[i];
-                (self.hessian[i][j] - value * b.hessian[i][j] - mixed) / b.value
+                (self.hessian.at(i, j) - value * b.hessian.at(i, j) - mixed) / b.value
             },
         )
     }
 }
 
-impl<const N: usize> Number for Jet<N> {
+impl<const N: usize, H: Hessian<N>> Number for Dual<N, H> {
     #[inline]
     fn value(&self) -> f64 {
         self.value
@@ -195,7 +258,7 @@ impl<const N: usize> Number for Jet<N> {
     fn unary(self, function: Unary) -> Self {
         let value = function.value(self.value);
         let (first, second) = function.derivatives(self.value, value);
-        self.chain(value, first, second)
+        self.chain(value, first, || second)
     }
 
     fn atan2(self, x: Self) -> Self {
@@ -219,11 +282,10 @@ impl<const N: usize> Number for Jet<N> {
         // Derivatives of x^0 and x^1 that vanish are set to 0, because the general rule would give
         // 0 times infinity at x = 0.
         let first = if exponent == 0 { 0.0 } else { n * power(self.value, n - 1.0) };
-        let second = match exponent {
+        self.chain(value, first, || match exponent {
             0 | 1 => 0.0,
             _ => n * (n - 1.0) * power(self.value, n - 2.0),
-        };
-        self.chain(value, first, second)
+        })
     }
 
     fn pow(self, exponent: Self) -> Self {
@@ -233,21 +295,21 @@ impl<const N: usize> Number for Jet<N> {
                 return self.powi(exponent);
             }
             let first = b * power(a, b - 1.0);
-            return self.chain(power(a, b), first, b * (b - 1.0) * power(a, b - 2.0));
+            return self.chain(power(a, b), first, || b * (b - 1.0) * power(a, b - 2.0));
         }
         // a^b = exp(b*ln(a)); every derivative of the exponential equals its value.
         let value = power(a, b);
-        (exponent * self.unary(Unary::Ln)).chain(value, value, value)
+        (exponent * self.unary(Unary::Ln)).chain(value, value, || value)
     }
 }
 
 /// Quotients below this magnitude count as constant if their derivatives could overflow.
-pub(super) const TINY: f64 = 1e-140;
+const TINY: f64 = 1e-140;
 
 /// Whether the derivatives of a quotient with this denominator would be computed as infinity
 /// divided by infinity. Such a quotient counts as constant, because it is tiny.
 #[inline]
-pub(super) fn is_overflow(denominator: f64, quotient: f64) -> bool {
+fn is_overflow(denominator: f64, quotient: f64) -> bool {
     denominator.abs() > 1.0 / TINY && quotient.abs() < TINY
 }
 

@@ -55,7 +55,6 @@ mod number;
 mod parser;
 mod program;
 mod scope;
-mod slope;
 mod smooth;
 mod unary;
 
@@ -63,9 +62,8 @@ pub use ast::Expr;
 pub use bound::Formula;
 pub use builtin::Binary;
 pub use hoisted::Hoisted;
-pub use jet::Jet;
+pub use jet::{Jet, Slope};
 pub use lexer::FormulaError;
 pub use number::{Number, NumberBatch};
 pub use scope::Scope;
-pub use slope::Slope;
 pub use unary::Unary;
