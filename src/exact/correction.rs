@@ -10,7 +10,7 @@
 use super::check::event::Event;
 use super::condition::{Face, FacePoint};
 use super::formula::Formula;
-use super::motion::{Derivatives, Places, variables};
+use super::motion::{Derivatives, Places};
 use super::problem::Problem;
 use super::violation::Violation;
 use crate::subject::PlaneState;
@@ -63,8 +63,7 @@ impl FacePoint for DemandPoint<'_> {
     }
 
     fn value(&self, formula: &Formula) -> f64 {
-        let Event { label, t } = &self.event;
-        formula.eval(&variables(label, *t)[..=label.len()])
+        formula.at(&self.event.label, self.event.t)
     }
 
     fn present_area(&self) -> [f64; 3] {

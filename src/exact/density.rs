@@ -3,7 +3,6 @@
 use super::formula::{Formula, Number, Slope};
 use super::gauss::{CellQuadrature, points};
 use super::outline::Outline;
-use super::tensor::unit;
 
 /// Reference density rho0 (kg/m3).
 #[derive(Debug, Clone)]
@@ -113,11 +112,7 @@ impl Density {
     }
 
     pub(super) fn with_slopes(&self, label: &[f64]) -> Slope<3> {
-        let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
-            let value = label.get(axis).copied().unwrap_or(0.0);
-            Slope::new(value, std::array::from_fn(|other| unit(axis, other)))
-        });
-        self.over(&place[..label.len()])
+        self.over(&Slope::place(label)[..label.len()])
     }
 
     /// Computes the mass (kg) of the part of a body inside a box with the given centre and

@@ -3,7 +3,8 @@
 use super::formula::Slope;
 use super::law::Equation;
 use super::motion::Derivatives;
-use super::tensor::{Tensor, cofactor, pushed_forward, sum, tensor, unit, vector};
+use super::tensor::{Tensor, cofactor, in_space, pushed_forward, sum, tensor, unit, vector};
+use crate::dimension::with_dimension;
 use crate::subject::PlaneState;
 
 impl Equation {
@@ -44,17 +45,7 @@ impl Equation {
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
     ) -> [f64; 3] {
-        match dimension {
-            1 => {
-                let [x] = self.divergence_in(grad, second);
-                [x, 0.0, 0.0]
-            }
-            2 => {
-                let [x, y] = self.divergence_in(grad, second);
-                [x, y, 0.0]
-            }
-            _ => self.divergence_in(grad, second),
-        }
+        with_dimension!(dimension, D => in_space(self.divergence_in::<D>(grad, second)))
     }
 
     fn divergence_in<const D: usize>(

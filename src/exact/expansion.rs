@@ -7,7 +7,8 @@
 use super::formula::{Number, Slope};
 use super::heat::TemperatureDerivatives;
 use super::law::Equation;
-use super::tensor::{Tensor, sum, tensor, unit, vector};
+use super::tensor::{Tensor, in_space, sum, tensor, unit, vector};
+use crate::dimension::with_dimension;
 
 /// Thermal expansion, linear in the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,17 +59,11 @@ pub(super) fn swollen_piola(
     grad: &Tensor<f64>,
     theta: f64,
 ) -> Tensor<f64> {
-    match dimension {
-        1 => {
-            let bar: [[f64; 1]; 1] = piola(equation, &block(grad), theta);
-            embedded(&bar)
-        }
-        2 => {
-            let plane: [[f64; 2]; 2] = piola(equation, &block(grad), theta);
-            embedded(&plane)
-        }
-        _ => piola(equation, grad, theta),
-    }
+    with_dimension!(dimension, D => {
+        let inside: Tensor<f64, D> = tensor(|i, j| grad[i][j]);
+        let piola = piola(equation, &inside, theta);
+        tensor(|i, j| if i.max(j) < D { piola[i][j] } else { 0.0 })
+    })
 }
 
 /// Computes the Cauchy stress (Pa) at F/theta. For small strains, this is P.
@@ -81,9 +76,8 @@ pub(super) fn swollen_cauchy(
     if equation.small_strain_modulus().is_some() {
         return swollen_piola(equation, dimension, grad, theta);
     }
-    let inside = |i: usize, j: usize| i.max(j) < dimension;
     let elastic: Tensor<f64> = tensor(|i, j| {
-        if inside(i, j) {
+        if i.max(j) < dimension {
             (grad[i][j] + unit::<f64>(i, j)) / theta - unit::<f64>(i, j)
         } else {
             0.0
@@ -100,17 +94,9 @@ pub(super) fn swollen_divergence(
     second: &[Tensor<f64>; 3],
     swelling: &Swelling,
 ) -> [f64; 3] {
-    match dimension {
-        1 => {
-            let [x] = divergence_in(equation, grad, second, swelling);
-            [x, 0.0, 0.0]
-        }
-        2 => {
-            let [x, y] = divergence_in(equation, grad, second, swelling);
-            [x, y, 0.0]
-        }
-        _ => divergence_in(equation, grad, second, swelling),
-    }
+    with_dimension!(dimension, D => {
+        in_space(divergence_in::<D>(equation, grad, second, swelling))
+    })
 }
 
 fn divergence_in<const D: usize>(
@@ -124,14 +110,6 @@ fn divergence_in<const D: usize>(
     let theta = Slope::new(swelling.theta, vector(|axis| swelling.grad[axis]));
     let stress = piola(equation, &varying, theta);
     vector(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
-}
-
-fn block<const D: usize>(whole: &Tensor<f64>) -> Tensor<f64, D> {
-    tensor(|i, j| whole[i][j])
-}
-
-fn embedded<const D: usize>(block: &Tensor<f64, D>) -> Tensor<f64> {
-    tensor(|i, j| if i.max(j) < D { block[i][j] } else { 0.0 })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 //! is not added to the stress of the law.
 
 use super::formula::{Formula, Number, Slope};
-use super::tensor::{Tensor, pushed_forward, sum, tensor, unit};
+use super::tensor::{Tensor, pushed_forward, sum, tensor};
 
 /// Initial stress S0 (Pa), a symmetric tensor field on the reference body.
 #[derive(Debug, Clone, Default)]
@@ -74,11 +74,7 @@ impl InitialStress {
 
     /// Returns S0 (Pa) at `label` with its derivatives.
     pub(super) fn varying(&self, label: &[f64]) -> Tensor<Slope<3>> {
-        let along = |axis: usize| std::array::from_fn(|other| unit(axis, other));
-        let place: [Slope<3>; 3] = std::array::from_fn(|axis| {
-            Slope::new(label.get(axis).copied().unwrap_or(0.0), along(axis))
-        });
-        self.over(&place[..label.len()])
+        self.over(&Slope::place(label)[..label.len()])
     }
 
     /// Computes the contribution of S0 to Div P (N/m3), with `second[k][a][b] = d2 u_k/dX_a dX_b`.

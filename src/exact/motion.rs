@@ -56,7 +56,7 @@ impl Motion {
 
     /// Evaluates component i of the displacement.
     pub fn component(&self, i: usize, label: &[f64], t: f64) -> f64 {
-        self.components[i].eval(&variables(label, t)[..=label.len()])
+        self.components[i].at(label, t)
     }
 
     /// Computes the motion and its derivatives, by automatic differentiation.
@@ -82,9 +82,7 @@ impl Motion {
 
     /// Computes the derivatives with jets of N variables: N - 1 coordinates, then time.
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
-        let seeds: [Jet<N>; N] =
-            std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
-        let mut all = Derivatives::default();
+        let (seeds, mut all) = (seeds::<N>(label, t), Derivatives::default());
         gather(self.components.iter().map(|formula| formula.eval(&seeds)), &mut all);
         all
     }
@@ -165,6 +163,19 @@ pub fn variables(label: &[f64], t: f64) -> [f64; 4] {
     all[..label.len()].copy_from_slice(label);
     all[label.len()] = t;
     all
+}
+
+/// Returns the coordinates and the time as variables of differentiation.
+pub(super) fn seeds<const N: usize>(label: &[f64], t: f64) -> [Jet<N>; N] {
+    std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a))
+}
+
+impl Formula {
+    /// Evaluates a formula of the coordinates and t.
+    #[inline]
+    pub fn at(&self, label: &[f64], t: f64) -> f64 {
+        self.eval(&variables(label, t)[..=label.len()])
+    }
 }
 
 impl Truth for Motion {

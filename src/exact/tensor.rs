@@ -34,6 +34,12 @@ pub(super) fn vector<T: Number, const D: usize>(component: impl Fn(usize) -> T) 
     vector
 }
 
+/// Extends a vector by zeros to three dimensions.
+#[inline]
+pub(super) fn in_space<const D: usize>(inside: [f64; D]) -> [f64; 3] {
+    vector(|i| if i < D { inside[i] } else { 0.0 })
+}
+
 #[inline]
 pub(super) fn sum<T: Number, const D: usize>(term: impl Fn(usize) -> T) -> T {
     let mut sum = term(0);

@@ -5,7 +5,7 @@ use super::friction;
 use super::survey::{self, Magnitudes, Survey};
 use crate::exact::condition::{Face, FacePoint};
 use crate::exact::formula::Formula;
-use crate::exact::motion::{Derivatives, variables};
+use crate::exact::motion::Derivatives;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
@@ -61,7 +61,7 @@ impl FacePoint for MovingPoint<'_> {
     }
 
     fn value(&self, formula: &Formula) -> f64 {
-        at(formula, &self.event)
+        formula.at(&self.event.label, self.event.t)
     }
 
     fn present_area(&self) -> [f64; 3] {
@@ -98,9 +98,7 @@ impl FacePoint for MovingPoint<'_> {
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {
         let Self { problem, face, event, now, sizes, .. } = self;
-        let mut opposite = event.label.clone();
-        opposite[face.axis] =
-            if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
+        let opposite = event.opposite(&problem.from, &problem.to, face.axis, face.high);
         let there = problem.derivatives(&opposite, event.t);
         let condition =
             |what: String| format!("boundary condition: {} is periodic, but {what}", face.name);
@@ -132,10 +130,6 @@ impl FacePoint for MovingPoint<'_> {
     }
 }
 
-fn at(formula: &Formula, event: &Event) -> f64 {
-    formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
-}
-
 /// Checks `u_t = v` in every region with a prescribed velocity v.
 pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation> {
     let speed = survey.largest.velocity;
@@ -147,7 +141,7 @@ pub(crate) fn driven(problem: &Problem, survey: &Survey) -> Result<(), Violation
         for event in part.spread(survey.face_events, |_| true, &mut random) {
             let now = problem.derivatives(&event.label, event.t);
             for (i, formula) in velocity.iter().enumerate() {
-                let given = at(formula, &event);
+                let given = formula.at(&event.label, event.t);
                 let name = format!("given velocity of the set {} in {}", region.name, AXES[i]);
                 let allowed = problem.tolerance * speed.max(given.abs());
                 found.add(event.judge_condition(allowed, name, (given, now.velocity[i]), "m/s"));

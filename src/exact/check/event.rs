@@ -60,7 +60,14 @@ impl Event {
         Err(self.violation(condition, Some(most), found, Some(allowed), unit))
     }
 
-    pub(super) fn violation(
+    /// Returns the position on the face of the box opposite the `high` or low face along `axis`.
+    pub(crate) fn opposite(&self, from: &[f64], to: &[f64], axis: usize, high: bool) -> Vec<f64> {
+        let mut label = self.label.clone();
+        label[axis] = if high { from[axis] } else { to[axis] };
+        label
+    }
+
+    pub(crate) fn violation(
         &self,
         condition: String,
         expected: Option<f64>,

@@ -10,7 +10,6 @@ use super::survey;
 use super::survey::{Magnitudes, Survey, SurveyPoint};
 use crate::exact::formula::Formula;
 use crate::exact::law::strained_axis;
-use crate::exact::motion::variables;
 use crate::exact::problem::Problem;
 use crate::exact::random::Random;
 use crate::exact::tensor::tensor;
@@ -68,12 +67,7 @@ fn start(problem: &Problem, stated: &[Formula], i: usize, event: &Event, motion:
     if stated.is_empty() && problem.follows_motion {
         return motion;
     }
-    formula_at(stated, i, event)
-}
-
-fn formula_at(formulas: &[Formula], i: usize, event: &Event) -> f64 {
-    let variables = crate::exact::motion::variables(&event.label, event.t);
-    formulas.get(i).map_or(0.0, |f| f.eval(&variables[..=event.label.len()]))
+    stated.get(i).map_or(0.0, |formula| formula.at(&event.label, event.t))
 }
 
 /// Rounding error of Div P, relative to the modulus times the largest second derivative. The check
@@ -139,9 +133,8 @@ pub(crate) fn tractions_on_rims(problem: &Problem, survey: &Survey) -> Result<f6
             let event = Event { label, t: problem.loaded(t) };
             let now = problem.derivatives(&event.label, event.t);
             let piola = problem.piola(&event.label, event.t, &now);
-            let values = variables(&event.label, event.t);
             let pressure: f64 =
-                pressed.iter().map(|formula| formula.eval(&values[..=event.label.len()])).sum();
+                pressed.iter().map(|formula| formula.at(&event.label, event.t)).sum();
             let size = survey.largest.stress.max(pressure.abs());
             // The area vector J F^-T n is linear in n, so the vectors of the axes determine it.
             let areas: Vec<[f64; 3]> = (0..problem.dimension())

@@ -104,6 +104,12 @@ impl<const N: usize, H: Hessian<N>> Dual<N, H> {
         variable
     }
 
+    /// Creates a variable for each coordinate of `label`; missing coordinates are zero.
+    pub(crate) fn place(label: &[f64]) -> [Self; N] {
+        let coordinate = |axis: usize| label.get(axis).copied().unwrap_or(0.0);
+        std::array::from_fn(|axis| Self::variable(coordinate(axis), axis))
+    }
+
     /// Returns the value, without derivatives.
     #[inline]
     pub fn value(&self) -> f64 {

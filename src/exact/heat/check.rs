@@ -16,7 +16,7 @@ use crate::exact::check::event::{
 use crate::exact::check::space_time_patch::{Densities, Raster, SpaceTimePatch, bump, labels};
 use crate::exact::check::weak::{Sums, balances, patches};
 use crate::exact::formula::Formula;
-use crate::exact::motion::{Derivatives, Motion, variables};
+use crate::exact::motion::{Derivatives, Motion};
 use crate::exact::random::Random;
 use crate::exact::violation::{LargestViolation, Violation};
 
@@ -42,14 +42,8 @@ impl Conduction {
 
 /// Checks that the temperature is finite in the whole body and not identically zero.
 fn presence(points: &[HeatPoint], largest: &HeatMagnitudes) -> Result<(), Violation> {
-    let wrong = |(event, _, now): &HeatPoint, what: &str| Violation {
-        condition: format!("the temperature is {what}"),
-        label: event.label.clone(),
-        t: event.t,
-        expected: None,
-        found: now.value,
-        allowed: None,
-        unit: "K",
+    let wrong = |(event, _, now): &HeatPoint, what: &str| {
+        event.violation(format!("the temperature is {what}"), None, now.value, None, "K")
     };
     if let Some(point) = points.iter().find(|(_, _, now)| !now.value.is_finite()) {
         return Err(wrong(point, "not finite"));
@@ -68,16 +62,12 @@ fn initial(problem: &Conduction, largest: &HeatMagnitudes) -> Result<(), Violati
         let found = problem.temperature.at(&event.label, 0.0);
         // Without a prescribed initial temperature, the exact one is compared with itself, which
         // fails only if it is not finite.
-        let start = problem.initial.as_ref().map_or(found, |formula| at(formula, &event));
+        let start = problem.initial.as_ref().map_or(found, |start| start.at(&event.label, 0.0));
         let name = "initial condition T(X, 0) = T0(X)".to_owned();
         let allowed = problem.tolerance * largest.value;
         worst.add(event.judge_condition(allowed, name, (start, found), "K"));
     }
     worst.into_result()
-}
-
-fn at(formula: &Formula, event: &Event) -> f64 {
-    formula.eval(&variables(&event.label, event.t)[..=event.label.len()])
 }
 
 fn boundary(problem: &Conduction, sizes: &HeatMagnitudes) -> Result<(), Violation> {
@@ -114,7 +104,7 @@ impl HeatedPoint<'_> {
 
 impl HeatFacePoint for HeatedPoint<'_> {
     fn value(&self, formula: &Formula) -> f64 {
-        at(formula, &self.event)
+        formula.at(&self.event.label, self.event.t)
     }
 
     fn temperature(&self) -> f64 {
@@ -143,9 +133,7 @@ impl HeatFacePoint for HeatedPoint<'_> {
 
     fn continues_on_opposite_face(&self) -> Result<(), Violation> {
         let Self { problem, face, event, now, inflow, sizes } = self;
-        let mut opposite = event.label.clone();
-        opposite[face.axis] =
-            if face.high { problem.from[face.axis] } else { problem.to[face.axis] };
+        let opposite = event.opposite(&problem.from, &problem.to, face.axis, face.high);
         let (there, warm) = problem.now(&opposite, event.t);
         let title = self
             .condition("is periodic, but the temperature differs from that on the opposite face");

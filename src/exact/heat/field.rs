@@ -8,7 +8,7 @@
 
 use crate::dimension::with_dimension;
 use crate::exact::formula::{Formula, Hoisted, Jet, Number, Slope};
-use crate::exact::motion::{Derivatives, variables};
+use crate::exact::motion::{Derivatives, seeds};
 use crate::exact::tensor::{Tensor, cofactor, det, sum, tensor, unit, vector};
 
 /// A temperature field (K), given by a formula whose variables are the reference coordinates and t.
@@ -49,7 +49,7 @@ impl Temperature {
 
     /// Evaluates T (K).
     pub fn at(&self, label: &[f64], t: f64) -> f64 {
-        self.formula.eval(&variables(label, t)[..=label.len()])
+        self.formula.at(label, t)
     }
 
     /// Computes the temperature and its derivatives, by automatic differentiation.
@@ -67,9 +67,7 @@ impl Temperature {
     }
 
     fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
-        let seeds: [Jet<N>; N] =
-            std::array::from_fn(|a| Jet::variable(if a + 1 == N { t } else { label[a] }, a));
-        gather(&self.formula.eval(&seeds))
+        gather(&self.formula.eval(&seeds::<N>(label, t)))
     }
 
     fn hoisted<'a, const N: usize>(
@@ -78,9 +76,7 @@ impl Temperature {
     ) -> Hoisted<Jet<N>> {
         let mut places = Hoisted::new(std::slice::from_ref(&self.formula), N);
         for label in labels {
-            let seeds: [Jet<N>; N] =
-                std::array::from_fn(|a| Jet::variable(label.get(a).copied().unwrap_or(0.0), a));
-            places.add(&seeds[..N - 1]);
+            places.add(&Jet::<N>::place(label)[..N - 1]);
         }
         places
     }
@@ -144,27 +140,14 @@ pub(super) fn divergence(
     motion: &Derivatives,
     now: &TemperatureDerivatives,
 ) -> f64 {
-    match dimension {
-        1 => {
-            let [x] = divergence_in(motion, now);
-            x
-        }
-        2 => {
-            let [x, y] = divergence_in(motion, now);
-            x + y
-        }
-        _ => {
-            let [x, y, z] = divergence_in(motion, now);
-            x + y + z
-        }
-    }
+    with_dimension!(dimension, D => divergence_in::<D>(motion, now))
 }
 
-fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> [f64; D] {
+fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
     let bent = |i: usize, j: usize| vector(|axis| motion.second[i][j][axis]);
     let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));
     let curved = |a: usize| vector(|axis| now.second[a][axis]);
     let grad: [Slope<D>; D] = std::array::from_fn(|a| Slope::new(now.grad[a], curved(a)));
     let flow = pulled_back(&grad_u, &grad);
-    vector(|a| flow[a].d(a))
+    sum::<f64, D>(|a| flow[a].d(a))
 }

@@ -105,7 +105,7 @@ pub(crate) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> Velocit
 /// Converts a formula of the coordinates and t to a field.
 pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
     let formula = formula.clone();
-    Box::new(move |x: &Vector<D>, t| formula.eval(&variables(x.as_slice(), t)[..=D]))
+    Box::new(move |x: &Vector<D>, t| formula.at(x.as_slice(), t))
 }
 
 /// Evaluates a formula at the reference position `label` (m) and time `t`, for the displacement `u`
