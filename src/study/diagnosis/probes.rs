@@ -236,7 +236,7 @@ pub(super) const MASS: ProbeKind = ProbeKind {
     remedy: "`mass: consistent`",
     apply: |plan| {
         let walls = plan.scene.faces.iter();
-        let mut refuses = walls.filter_map(|face| face.hold.against_consistent_mass());
+        let mut refuses = walls.filter_map(|face| face.hold.kind().against_consistent_mass);
         (refuses.next().is_none()).then_some(())?;
         with_method(plan, |method| {
             if let Method::Mpm { mass, .. } = method {

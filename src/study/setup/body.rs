@@ -226,7 +226,7 @@ pub(crate) fn boundary<const D: usize>(
     basis: BasisName,
 ) -> Vec<Box<dyn Boundary<D>>> {
     let mut faces: Vec<&SceneFace> = scene.faces.iter().collect();
-    faces.sort_by_key(|face| face.hold.strength());
+    faces.sort_by_key(|face| face.hold.kind().strength);
     let build = |face: &SceneFace| {
         let side = if face.high { Side::High } else { Side::Low };
         build_boundary(&face.hold, &FaceSite { grid, basis, at: (face.axis, side) })

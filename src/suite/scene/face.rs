@@ -24,7 +24,7 @@ pub struct SceneFace {
 impl SceneFace {
     /// Returns the name of the condition in suites.
     pub fn condition(&self) -> &'static str {
-        self.hold.name()
+        self.hold.kind().name
     }
 }
 

@@ -73,7 +73,7 @@ pub(crate) fn held_faces(
             _ => scene.to[face.axis],
         };
         if (end - body).abs() > ROUNDING * h {
-            let (name, verb, h, end) = (face.name, face.hold.verb(), shown(h), shown(end));
+            let (name, verb, h, end) = (face.name, face.hold.kind().verb, shown(h), shown(end));
             let message = format!(
                 "with {cells} cells along the first axis the {name} face, which {verb}, is at {}, \
                  but the nearest nodes are at {end}",

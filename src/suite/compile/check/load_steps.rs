@@ -101,8 +101,11 @@ fn refuse_unfit_scene(
     }
     let moving = |face: &&SceneFace| !KNOWN_CONDITIONS.contains(&face.condition());
     if let Some(face) = scene.faces.iter().find(moving) {
-        let message =
-            format!("the {} face {}, which load steps do not support", face.name, face.hold.verb());
+        let message = format!(
+            "the {} face {}, which load steps do not support",
+            face.name,
+            face.hold.kind().verb
+        );
         let at = top.then("boundary").then(face.name);
         return Err(at.diagnostic_at_key(&message).with_help(help));
     }

@@ -56,11 +56,11 @@ fn refuse_conditions_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Dia
     let path = evaluator.top("scene");
     let help = "remove the FEM (also as `reference`), or the condition";
     for face in &scene.faces {
-        if face.hold.is_lacked_by_fem() {
+        if face.hold.kind().is_lacked_by_fem {
             let message = format!(
                 "the {} face {}, but the built-in FEM supports only fixed and free ends",
                 face.name,
-                face.hold.verb()
+                face.hold.kind().verb
             );
             let at = path.then("boundary").then(face.name);
             return Err(at.diagnostic(&message).with_help(help));

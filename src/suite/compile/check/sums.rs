@@ -187,7 +187,7 @@ fn walls(
 }
 
 fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
-    let (name, verb) = (face.name, face.hold.verb());
+    let (name, verb) = (face.name, face.hold.kind().verb);
     let message = format!("the {name} face {verb}: only a fixed face or a roller has a reaction");
     path.diagnostic(&message)
 }

@@ -321,7 +321,7 @@ fn possible(
 /// Returns the reason why walls of the scene exclude a consistent mass matrix; `None` if they do
 /// not.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
-    plan.scene.faces.iter().find_map(|face| face.hold.against_consistent_mass())
+    plan.scene.faces.iter().find_map(|face| face.hold.kind().against_consistent_mass)
 }
 
 /// Whether the period of the grid differs from the length of the undeformed body.

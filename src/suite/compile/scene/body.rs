@@ -107,7 +107,7 @@ fn both_ends(path: &SuitePath<'_>, holds: &[Arc<dyn BoundaryCondition>]) -> Resu
     for (i, hold) in holds.iter().enumerate() {
         let (name, other) = (FACES[i], FACES[i ^ 1]);
         if hold.is_periodic() && !holds[i ^ 1].is_periodic() {
-            let verb = holds[i ^ 1].verb();
+            let verb = holds[i ^ 1].kind().verb;
             let message = format!("the {name} face is periodic, but the {other} face {verb}");
             let diagnostic = path.then(name).diagnostic(&message);
             return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
@@ -135,7 +135,7 @@ fn settle(
         if face.hold.is_free() {
             face.hold = Arc::new(FaceAtRest);
         } else if !face.hold.is_periodic() {
-            let (name, verb) = (face.name, face.hold.verb());
+            let (name, verb) = (face.name, face.hold.kind().verb);
             let message = format!("the {name} face {verb}, but a `rigid` body does not move");
             return idle(&path.then("boundary").then(face.name), &message);
         }
@@ -220,8 +220,9 @@ fn revolves(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
         return Err(at.diagnostic_at_key(&message).with_help(help));
     }
     let is_axis = |face: &SceneFace| !face.high && scene.from[0] == 0.0;
-    if let Some(face) = faces.find(|face| is_axis(face) && face.hold.name() != "roller") {
-        let message = format!("the {} face lies on the axis, but {}", face.name, face.hold.verb());
+    if let Some(face) = faces.find(|face| is_axis(face) && face.hold.kind().name != "roller") {
+        let message =
+            format!("the {} face lies on the axis, but {}", face.name, face.hold.kind().verb);
         let diagnostic = path.then("boundary").diagnostic_at_key(&message);
         return Err(diagnostic.with_help("state `left: roller`: nothing crosses the axis"));
     }

@@ -123,7 +123,7 @@ fn on_grid(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
                     "the body's {name} face at {body} is outside the grid, which ends at {grid}"
                 )
             } else {
-                let verb = face.hold.verb();
+                let verb = face.hold.kind().verb;
                 format!("the {name} face at {body} {verb}, but the grid ends at {grid}")
             };
             let at = path.then("grid").then(key).then(face.axis);
@@ -159,7 +159,8 @@ fn together(
     }
     apart(path, &bodies)?;
     let mut faces = scene.faces.iter();
-    let against = faces.find_map(|face| Some((face.name, face.hold.against_several_bodies()?)));
+    let against =
+        faces.find_map(|face| Some((face.name, face.hold.kind().against_several_bodies?)));
     if let Some((name, why)) = against {
         return Err(path.then("boundary").then(name).diagnostic_at_key(why));
     }

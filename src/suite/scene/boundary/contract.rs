@@ -26,7 +26,7 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     }
 
     fn is_periodic(&self) -> bool {
-        BoundaryCondition::is_periodic(self)
+        self.kind().motion == FaceMotion::Periodic
     }
 }
 
@@ -75,74 +75,94 @@ in_every_dimension! {
     BuildBoundaries: BuildBoundary
 }
 
+/// How a boundary condition lets a face move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FaceMotion {
+    /// The face is free and may carry a traction.
+    Free,
+    /// The face coincides with the opposite face.
+    Periodic,
+    /// The face has a prescribed velocity.
+    Driven,
+    /// The face may leave the grid face.
+    MayLeave,
+    /// The body face always stays on the grid face. The tangential motion may be prescribed in
+    /// addition to the normal motion.
+    Stays { holds_all_components: bool },
+}
+
+/// Properties of a boundary condition that do not depend on its numbers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FaceKind {
+    pub(crate) name: &'static str,
+    /// The verb phrase that follows "the left face" in messages.
+    pub(crate) verb: &'static str,
+    pub(crate) motion: FaceMotion,
+    /// Priority at nodes that several faces share: the condition with the largest number applies.
+    /// A fixed face, for example, has priority over a face with a prescribed velocity.
+    pub(crate) strength: u8,
+    /// Whether the FEM of this crate lacks the condition.
+    pub(crate) is_lacked_by_fem: bool,
+    /// The reason why the condition excludes several bodies; `None` if it does not.
+    pub(crate) against_several_bodies: Option<&'static str>,
+    /// The reason why the condition excludes a consistent mass matrix; `None` if it does not.
+    pub(crate) against_consistent_mass: Option<&'static str>,
+}
+
+impl FaceKind {
+    /// Creates a kind without restrictions, with the lowest priority.
+    pub(crate) const fn new(name: &'static str, verb: &'static str, motion: FaceMotion) -> Self {
+        Self {
+            name,
+            verb,
+            motion,
+            strength: 0,
+            is_lacked_by_fem: false,
+            against_several_bodies: None,
+            against_consistent_mass: None,
+        }
+    }
+}
+
 /// Compiled boundary condition on the motion of one face of the body.
 pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
-    fn name(&self) -> &'static str;
+    fn kind(&self) -> FaceKind;
 
     /// Returns the numbers for external solvers; empty if the name describes the condition fully.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
     }
 
-    /// Returns the verb phrase that follows "the left face" in messages.
-    fn verb(&self) -> &'static str;
-
     /// Returns the text for the report row of the face; empty for no row.
     fn row(&self) -> String {
-        self.name().to_owned()
+        self.kind().name.to_owned()
+    }
+}
+
+impl dyn BoundaryCondition {
+    pub(crate) fn is_free(&self) -> bool {
+        self.kind().motion == FaceMotion::Free
     }
 
-    /// Returns the priority at nodes that several faces share: the condition with the largest
-    /// number applies. A fixed face, for example, has priority over a face with a prescribed
-    /// velocity.
-    fn strength(&self) -> u8 {
-        0
+    pub(crate) fn is_periodic(&self) -> bool {
+        self.kind().motion == FaceMotion::Periodic
     }
 
-    /// Whether the face is free and may carry a traction.
-    fn is_free(&self) -> bool {
-        false
-    }
-
-    /// Whether the face coincides with the opposite face.
-    fn is_periodic(&self) -> bool {
-        false
+    pub(crate) fn is_driven(&self) -> bool {
+        self.kind().motion == FaceMotion::Driven
     }
 
     /// Whether the motion of nodes on the face is prescribed.
-    fn is_held(&self) -> bool {
+    pub(crate) fn is_held(&self) -> bool {
         !(self.is_free() || self.is_periodic())
     }
 
-    /// Whether the face has a prescribed velocity.
-    fn is_driven(&self) -> bool {
-        false
+    pub(crate) fn stays(&self) -> bool {
+        matches!(self.kind().motion, FaceMotion::Stays { .. })
     }
 
-    /// Whether the body face always stays on the grid face.
-    fn stays(&self) -> bool {
-        false
-    }
-
-    /// Whether the tangential motion is prescribed in addition to the normal motion.
-    fn holds_all_components(&self) -> bool {
-        false
-    }
-
-    /// Whether the FEM of this crate lacks the condition.
-    fn is_lacked_by_fem(&self) -> bool {
-        false
-    }
-
-    /// Returns the reason why the condition excludes several bodies; `None` if it does not.
-    fn against_several_bodies(&self) -> Option<&'static str> {
-        None
-    }
-
-    /// Returns the reason why the condition excludes a consistent mass matrix; `None` if it does
-    /// not.
-    fn against_consistent_mass(&self) -> Option<&'static str> {
-        None
+    pub(crate) fn holds_all_components(&self) -> bool {
+        self.kind().motion == FaceMotion::Stays { holds_all_components: true }
     }
 }
 

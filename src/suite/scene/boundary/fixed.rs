@@ -1,6 +1,6 @@
 //! A face that does not move.
 
-use super::contract::{BoundaryCondition, BuildBoundary, FaceSite};
+use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Fixed};
 
@@ -15,24 +15,9 @@ impl Condition for FixedFace {
 }
 
 impl BoundaryCondition for FixedFace {
-    fn name(&self) -> &'static str {
-        "fixed"
-    }
-
-    fn verb(&self) -> &'static str {
-        "is fixed"
-    }
-
-    fn strength(&self) -> u8 {
-        3
-    }
-
-    fn stays(&self) -> bool {
-        true
-    }
-
-    fn holds_all_components(&self) -> bool {
-        true
+    fn kind(&self) -> FaceKind {
+        let motion = FaceMotion::Stays { holds_all_components: true };
+        FaceKind { strength: 3, ..FaceKind::new("fixed", "is fixed", motion) }
     }
 }
 

@@ -1,6 +1,8 @@
 //! A frictional wall: it resists compression and sliding, but not separation.
 
-use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
+use super::contract::{
+    BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceKind, FaceMotion, FaceSite,
+};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Friction};
 use crate::suite::evaluator::shown;
@@ -35,42 +37,28 @@ impl Condition for FrictionFace {
 }
 
 impl BoundaryCondition for FrictionFace {
-    fn name(&self) -> &'static str {
-        "friction"
+    fn kind(&self) -> FaceKind {
+        FaceKind {
+            strength: 2,
+            is_lacked_by_fem: true,
+            against_several_bodies: Some(
+                "friction on a wall is supported for a single body only: it is computed before \
+                 the contact between bodies",
+            ),
+            against_consistent_mass: Some(
+                "`friction` needs a lumped mass matrix: it is computed from the force that would \
+                 hold each node",
+            ),
+            ..FaceKind::new("friction", "has friction", FaceMotion::MayLeave)
+        }
     }
 
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::constants(&[("coefficient", self.0)])
     }
 
-    fn verb(&self) -> &'static str {
-        "has friction"
-    }
-
     fn row(&self) -> String {
         format!("wall without tension, with the coefficient of friction {:.4}", self.0)
-    }
-
-    fn strength(&self) -> u8 {
-        2
-    }
-
-    fn is_lacked_by_fem(&self) -> bool {
-        true
-    }
-
-    fn against_several_bodies(&self) -> Option<&'static str> {
-        Some(
-            "friction on a wall is supported for a single body only: it is computed before the \
-             contact between bodies",
-        )
-    }
-
-    fn against_consistent_mass(&self) -> Option<&'static str> {
-        Some(
-            "`friction` needs a lumped mass matrix: it is computed from the force that would hold \
-             each node",
-        )
     }
 }
 
@@ -89,7 +77,7 @@ mod tests {
 
     #[test]
     fn friction_has_priority_over_a_roller_but_not_over_a_fixed_face() {
-        let friction = FrictionFace(0.3).strength();
-        assert!(RollerFace.strength() < friction && friction < FixedFace.strength());
+        let friction = FrictionFace(0.3).kind().strength;
+        assert!(RollerFace.kind().strength < friction && friction < FixedFace.kind().strength);
     }
 }

@@ -13,7 +13,7 @@ mod velocity;
 pub(crate) use contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceSite, build};
 
 use crate::exact::{Condition, FacePoint, Violation};
-use contract::BuildBoundary;
+use contract::{BuildBoundary, FaceKind, FaceMotion};
 use fixed::FixedFace;
 
 /// Declares the names of conditions in suites. For example, the lines
@@ -81,16 +81,8 @@ impl Condition for FreeFace {
 }
 
 impl BoundaryCondition for FreeFace {
-    fn name(&self) -> &'static str {
-        "free"
-    }
-
-    fn verb(&self) -> &'static str {
-        "is free"
-    }
-
-    fn is_free(&self) -> bool {
-        true
+    fn kind(&self) -> FaceKind {
+        FaceKind::new("free", "is free", FaceMotion::Free)
     }
 }
 
@@ -107,20 +99,13 @@ impl Condition for FaceAtRest {
 }
 
 impl BoundaryCondition for FaceAtRest {
-    fn name(&self) -> &'static str {
-        "at rest"
-    }
-
-    fn verb(&self) -> &'static str {
-        "is at rest"
+    fn kind(&self) -> FaceKind {
+        let motion = FaceMotion::Stays { holds_all_components: false };
+        FaceKind::new("at rest", "is at rest", motion)
     }
 
     fn row(&self) -> String {
         String::new()
-    }
-
-    fn stays(&self) -> bool {
-        true
     }
 }
 

@@ -1,6 +1,6 @@
 //! A face that coincides with the opposite face; the grid is periodic along this axis.
 
-use super::contract::{BoundaryCondition, BuildBoundary};
+use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion};
 use crate::exact::{Condition, FacePoint, Violation};
 
 /// A face whose state equals that of the opposite face.
@@ -14,20 +14,9 @@ impl Condition for PeriodicFace {
 }
 
 impl BoundaryCondition for PeriodicFace {
-    fn name(&self) -> &'static str {
-        "periodic"
-    }
-
-    fn verb(&self) -> &'static str {
-        "is periodic"
-    }
-
-    fn is_periodic(&self) -> bool {
-        true
-    }
-
-    fn is_lacked_by_fem(&self) -> bool {
-        true
+    fn kind(&self) -> FaceKind {
+        let kind = FaceKind::new("periodic", "is periodic", FaceMotion::Periodic);
+        FaceKind { is_lacked_by_fem: true, ..kind }
     }
 }
 

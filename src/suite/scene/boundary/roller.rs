@@ -1,6 +1,6 @@
 //! A face without normal motion and with frictionless sliding.
 
-use super::contract::{BoundaryCondition, BuildBoundary, FaceSite};
+use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion, FaceSite};
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Roller};
 
@@ -18,20 +18,9 @@ impl Condition for RollerFace {
 }
 
 impl BoundaryCondition for RollerFace {
-    fn name(&self) -> &'static str {
-        "roller"
-    }
-
-    fn verb(&self) -> &'static str {
-        "is a roller"
-    }
-
-    fn strength(&self) -> u8 {
-        1
-    }
-
-    fn stays(&self) -> bool {
-        true
+    fn kind(&self) -> FaceKind {
+        let motion = FaceMotion::Stays { holds_all_components: false };
+        FaceKind { strength: 1, ..FaceKind::new("roller", "is a roller", motion) }
     }
 }
 

@@ -1,6 +1,8 @@
 //! A face with a prescribed velocity.
 
-use super::contract::{BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceSite};
+use super::contract::{
+    BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceKind, FaceMotion, FaceSite,
+};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Prescribed};
@@ -31,35 +33,23 @@ impl Condition for MovingFace {
 }
 
 impl BoundaryCondition for MovingFace {
-    fn name(&self) -> &'static str {
-        "velocity"
+    fn kind(&self) -> FaceKind {
+        FaceKind {
+            is_lacked_by_fem: true,
+            against_consistent_mass: Some(
+                "a given velocity of a face needs a lumped mass matrix: the consistent one is \
+                 solved for walls at rest",
+            ),
+            ..FaceKind::new("velocity", "has a given velocity", FaceMotion::Driven)
+        }
     }
 
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::vector("velocity", &self.0)
     }
 
-    fn verb(&self) -> &'static str {
-        "has a given velocity"
-    }
-
     fn row(&self) -> String {
         format!("velocity = {}", value_with_unit(&self.0, "m/s"))
-    }
-
-    fn is_driven(&self) -> bool {
-        true
-    }
-
-    fn is_lacked_by_fem(&self) -> bool {
-        true
-    }
-
-    fn against_consistent_mass(&self) -> Option<&'static str> {
-        Some(
-            "a given velocity of a face needs a lumped mass matrix: the consistent one is solved \
-             for walls at rest",
-        )
     }
 }
 

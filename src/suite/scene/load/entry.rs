@@ -139,7 +139,7 @@ impl LoadEntry<'_> {
         let hold = &scene.faces[number].hold;
         let taken = scene.loads_on(LoadTarget::Face(number)).next();
         let has = match taken {
-            _ if !hold.is_free() => hold.verb().to_owned(),
+            _ if !hold.is_free() => hold.kind().verb.to_owned(),
             Some(other) => format!("already has a {}", other.effect.name()),
             None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
         };

@@ -207,7 +207,7 @@ fn faces(
 /// Refuses prescribed temperatures and heat fluxes on a face that does not stay on a grid face,
 /// because the condition applies to the nodes of the grid face.
 fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result<(), Diagnostic> {
-    let (name, verb) = (face.name, face.hold.verb());
+    let (name, verb) = (face.name, face.hold.kind().verb);
     if face.hold.is_periodic() {
         let message = format!("the {name} face {verb}, so it cannot have a thermal condition");
         return Err(path.diagnostic_at_key(&message));
