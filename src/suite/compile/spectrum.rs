@@ -3,7 +3,6 @@
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
-use crate::suite::compile::check::refuse_first;
 use crate::suite::compile::expect::assign;
 use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
 use crate::suite::compile::scene;
@@ -93,7 +92,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
         (!scene.initial_stress.is_none(), "scene.initial_stress", "a body without stress"),
         (!starts_at_rest, "scene", "a body at rest, whose wave the study starts"),
     ];
-    refuse_first(evaluator, &refused, needs)
+    evaluator.refuse_first(&refused, needs)
 }
 
 /// Compiles the translation of the particles (m). The translation must keep every particle in its

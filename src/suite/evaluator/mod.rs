@@ -210,6 +210,19 @@ impl SuitePath<'_> {
         Err(self.unusable(text, &message, "expected a positive number"))
     }
 
+    pub(crate) fn zero_or_positive(
+        &self,
+        text: &NumberText,
+        what: &str,
+    ) -> Result<f64, Diagnostic> {
+        let value = self.number(text)?;
+        if value >= 0.0 {
+            return Ok(value);
+        }
+        let message = format!("{what} is {}", shown(value));
+        Err(self.diagnostic(&message).with_label("expected zero or a positive number"))
+    }
+
     pub(crate) fn count(&self, text: &NumberText, what: &str) -> Result<u64, Diagnostic> {
         self.count_up_to(MOST, text, what)
     }
@@ -389,6 +402,20 @@ impl Evaluator<'_> {
         match self.line_of(name) {
             Some(line) => format!("`{name}` is {value} (line {line})"),
             None => format!("`{name}` is {value}"),
+        }
+    }
+
+    /// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is
+    /// true if it applies, the keys of the value from the top of the file, and the text for the
+    /// `diagnostic`. The diagnostic is that of the first entry that applies.
+    pub(crate) fn refuse_first(
+        &self,
+        entries: &[(bool, &str, &str)],
+        diagnostic: impl FnOnce(&SuitePath<'_>, &str) -> Diagnostic,
+    ) -> Result<(), Diagnostic> {
+        match entries.iter().find(|(applies, ..)| *applies) {
+            Some((_, path, text)) => Err(diagnostic(&self.top(path), text)),
+            None => Ok(()),
         }
     }
 

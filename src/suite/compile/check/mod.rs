@@ -11,7 +11,7 @@ use crate::subject::PlaneState;
 use crate::suite::compile::run::methods::law_of_bar;
 use crate::suite::compile::run::refine::LevelPaths;
 use crate::suite::compile::truth;
-use crate::suite::evaluator::{Evaluator, SuitePath};
+use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
 use crate::suite::model::{ConvergencePlan, Scene};
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
@@ -195,21 +195,5 @@ fn refuse_unknown_stress(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
         (is_plane && is_averaged, "judge.of", of_average),
     ];
     let help = "judge the `stress`, or use a scene with more dimensions";
-    refuse_first(evaluator, &entries, |path, text| path.diagnostic(text).with_help(help))
-}
-
-/// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is true
-/// if it applies, the keys of the value from the top of the file, and the text for the `diagnostic`.
-///
-/// # Errors
-/// The diagnostic of the first entry that applies.
-pub(crate) fn refuse_first(
-    evaluator: &Evaluator<'_>,
-    entries: &[(bool, &str, &str)],
-    diagnostic: impl FnOnce(&SuitePath<'_>, &str) -> Diagnostic,
-) -> Result<(), Diagnostic> {
-    match entries.iter().find(|(applies, ..)| *applies) {
-        Some((_, path, text)) => Err(diagnostic(&evaluator.top(path), text)),
-        None => Ok(()),
-    }
+    evaluator.refuse_first(&entries, |path, text| path.diagnostic(text).with_help(help))
 }

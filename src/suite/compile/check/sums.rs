@@ -118,16 +118,28 @@ fn stored_energy(
 /// Refuses the energy as measured sum for methods whose internal force is not the derivative of an
 /// energy.
 fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
-    let is_averaged = |method: &MethodSpec| match method {
+    let message = "the force of `volume: averaged` does not derive from a stored energy";
+    let help = "use `particle` to judge an energy";
+    refuse_setting(evaluator, spec, "volume", [message, help], |method| match method {
         MethodSpec::Mpm { volume: Some(volume), .. } => {
             volume.as_slice().contains(&VolumeName::Averaged)
         }
         _ => false,
-    };
-    let Some(i) = spec.methods.iter().position(is_averaged) else { return Ok(()) };
-    let message = "the force of `volume: averaged` does not derive from a stored energy";
-    let path = evaluator.top("methods").then(i).then("mpm").then("volume");
-    Err(path.diagnostic(message).with_help("use `particle` to judge an energy"))
+    })
+}
+
+/// Refuses the key `key` of the first MPM entry in `methods` for which `is_meant` returns true,
+/// with this message and help.
+fn refuse_setting(
+    evaluator: &Evaluator<'_>,
+    spec: &ConvergenceSpec,
+    key: &str,
+    [message, help]: [&str; 2],
+    is_meant: impl Fn(&MethodSpec) -> bool,
+) -> Result<(), Diagnostic> {
+    let Some(i) = spec.methods.iter().position(is_meant) else { return Ok(()) };
+    let path = evaluator.top("methods").then(i).then("mpm").then(key);
+    Err(path.diagnostic(message).with_help(help))
 }
 
 /// Refuses an angular momentum in 1-D, and for a periodic body.
@@ -195,14 +207,12 @@ fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
 /// Refuses a consistent mass matrix if the error of a wall reaction is measured, because the
 /// reaction would include the inertia of nodes away from the wall.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
-    let is_consistent = |method: &MethodSpec| match method {
+    let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
+    let help = "use `lumped` to judge a reaction";
+    refuse_setting(evaluator, spec, "mass", [message, help], |method| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
         _ => false,
-    };
-    let Some(i) = spec.methods.iter().position(is_consistent) else { return Ok(()) };
-    let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
-    let path = evaluator.top("methods").then(i).then("mpm").then("mass");
-    Err(path.diagnostic(message).with_help("use `lumped` to judge a reaction"))
+    })
 }
 
 /// Refuses the key at `path`, which needs the energy of the body, if the law has no energy.

@@ -133,6 +133,12 @@ fn combinations(
     spec: &MethodSpec,
     own_law: EquationName,
 ) -> Result<Vec<MethodDraft>, Diagnostic> {
+    let lengths = lengths(spec);
+    // The first `shown` settings have no default.
+    let said = |shown: usize| {
+        let said = |(k, length): (usize, &usize)| k < shown || *length > 1;
+        lengths.iter().enumerate().map(said).collect::<Vec<bool>>()
+    };
     let mut drafts = Vec::new();
     let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
     match spec {
@@ -151,62 +157,37 @@ fn combinations(
             };
             let scheme: Vec<SchemeName> =
                 scheme.as_slice().iter().filter_map(|scheme| scheme.explicit()).collect();
-            let said = [
-                true,
-                true,
-                true,
-                many(start.as_ref()),
-                many(mass.as_ref()),
-                many(frame.as_ref()),
-                many(volume.as_ref()),
-                many(precision.as_ref()),
-            ];
-            let settings = product(
-                &product(&product(basis.as_slice(), transfer.as_slice()), &scheme),
-                &product(
-                    &product(
-                        &choices(start.as_ref(), Start::AtZero),
-                        &choices(mass.as_ref(), MassName::Lumped),
-                    ),
-                    &product(
-                        &choices(frame.as_ref(), FrameName::Updated),
-                        &product(
-                            &choices(volume.as_ref(), VolumeName::Particle),
-                            &choices(precision.as_ref(), Precision::Double),
-                        ),
-                    ),
-                ),
-            );
-            for (((basis, transfer), scheme), ((start, mass), (frame, (volume, precision)))) in
-                settings
-            {
-                let method =
-                    Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision };
-                push(method, said.to_vec());
+            for number in 0..count(spec) {
+                let mut rest = Combination(number);
+                let method = Method::Mpm {
+                    precision: rest.one_of(precision.as_ref(), Precision::Double),
+                    volume: rest.one_of(volume.as_ref(), VolumeName::Particle),
+                    frame: rest.one_of(frame.as_ref(), FrameName::Updated),
+                    mass: rest.one_of(mass.as_ref(), MassName::Lumped),
+                    start: rest.one_of(start.as_ref(), Start::AtZero),
+                    scheme: rest.next(&scheme),
+                    transfer: rest.next(transfer.as_slice()),
+                    basis: rest.next(basis.as_slice()),
+                };
+                push(method, said(3));
             }
         }
         MethodSpec::Heat { basis } => {
             for &basis in basis.as_slice() {
-                let method = Method::Heat { basis };
-                push(method, vec![true]);
+                push(Method::Heat { basis }, said(1));
             }
         }
         MethodSpec::Fem { element, mass, law, start, sampling } => {
-            let said =
-                [true, true, many(law.as_ref()), many(start.as_ref()), many(sampling.as_ref())];
-            let settings = product(
-                &product(element.as_slice(), mass.as_slice()),
-                &product(
-                    &product(
-                        &choices(law.as_ref(), own_law),
-                        &choices(start.as_ref(), Start::AtZero),
-                    ),
-                    &choices(sampling.as_ref(), Sampling::Inside),
-                ),
-            );
-            for ((element, mass), ((law, start), sampling)) in settings {
-                let method = Method::Fem { element, mass, law, start, sampling };
-                push(method, said.to_vec());
+            for number in 0..count(spec) {
+                let mut rest = Combination(number);
+                let method = Method::Fem {
+                    sampling: rest.one_of(sampling.as_ref(), Sampling::Inside),
+                    start: rest.one_of(start.as_ref(), Start::AtZero),
+                    law: rest.one_of(law.as_ref(), own_law),
+                    mass: rest.next(mass.as_slice()),
+                    element: rest.next(element.as_slice()),
+                };
+                push(method, said(2));
             }
         }
         MethodSpec::External { name, formal_order, precision } => {
@@ -256,8 +237,9 @@ fn refuse_keys_of_dynamics(
     }
 }
 
-fn count(spec: &MethodSpec) -> usize {
-    let lengths = match spec {
+/// Returns the number of values of each setting, in the order of [`settings`].
+fn lengths(spec: &MethodSpec) -> Vec<usize> {
+    match spec {
         MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
             basis.as_slice().len(),
             length(transfer.as_ref()),
@@ -277,8 +259,29 @@ fn count(spec: &MethodSpec) -> usize {
             length(start.as_ref()),
             length(sampling.as_ref()),
         ],
-    };
-    lengths.into_iter().fold(1, usize::saturating_mul)
+    }
+}
+
+/// Returns the number of combinations of list values.
+fn count(spec: &MethodSpec) -> usize {
+    lengths(spec).into_iter().fold(1, usize::saturating_mul)
+}
+
+/// The number of a combination of list values, from which one value after the other is read. The
+/// values of the list that is read first vary fastest.
+struct Combination(usize);
+
+impl Combination {
+    fn next<T: Copy>(&mut self, list: &[T]) -> T {
+        let value = list[self.0 % list.len()];
+        self.0 /= list.len();
+        value
+    }
+
+    /// Returns the next value of an optional list, or `default` if the list is absent.
+    fn one_of<T: Copy>(&mut self, list: Option<&OneOrMany<T>>, default: T) -> T {
+        list.map_or(default, |list| self.next(list.as_slice()))
+    }
 }
 
 /// Assigns final names to the methods. Refuses an empty list and duplicate methods.
@@ -333,22 +336,8 @@ fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     longer
 }
 
-/// Returns all pairs of elements; the second element varies fastest.
-fn product<A: Copy, B: Copy>(first: &[A], second: &[B]) -> Vec<(A, B)> {
-    first.iter().flat_map(|a| second.iter().map(move |b| (*a, *b))).collect()
-}
-
-/// Returns the values of an optional list, or only `default` if the list is absent.
-fn choices<T: Copy>(list: Option<&OneOrMany<T>>, default: T) -> Vec<T> {
-    list.map_or(vec![default], |list| list.as_slice().to_vec())
-}
-
 fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
     list.map_or(1, |list| list.as_slice().len())
-}
-
-fn many<T>(list: Option<&OneOrMany<T>>) -> bool {
-    length(list) > 1
 }
 
 fn solver_name(path: &SuitePath<'_>, name: &str) -> Result<String, Diagnostic> {

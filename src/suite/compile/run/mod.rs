@@ -57,8 +57,16 @@ pub(crate) fn plan<'a>(
 /// Compiles the ends of the runs.
 fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, Diagnostic> {
     match (&run.until, &run.load_steps) {
-        (Some(spec), None) => until(evaluator, spec),
-        (None, Some(spec)) => load_steps(evaluator, spec),
+        (Some(spec), None) => distinct(&evaluator.top("run.until"), spec, |path, text| {
+            let until = path.positive(text, "the end of the run")?;
+            let end = shown(until);
+            Ok((format!("until-{end}"), until, format!("the end {end} s appears twice")))
+        }),
+        (None, Some(spec)) => distinct(&evaluator.top("run.load_steps"), spec, |path, text| {
+            let count = path.count_up_to(MOST_LOAD_STEPS, text, "the number of load steps")?;
+            let repeated = format!("{count} load steps appear twice");
+            Ok((format!("load-steps-{count}"), count as f64, repeated))
+        }),
         (Some(_), Some(_)) => {
             let path = evaluator.top("run.until");
             let message = "`until` is not supported with `load_steps`: load steps have no time";
@@ -72,41 +80,21 @@ fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, 
     }
 }
 
-fn load_steps(
-    evaluator: &Evaluator<'_>,
+/// Reads each entry of the list at `path` as a name, a value, and the message about a second entry
+/// with this name.
+fn distinct(
+    path: &SuitePath<'_>,
     spec: &OneOrMany<NumberText>,
+    read: impl Fn(&SuitePath<'_>, &NumberText) -> Result<(String, f64, String), Diagnostic>,
 ) -> Result<Vec<(String, f64)>, Diagnostic> {
-    let path = evaluator.top("run.load_steps");
-    let mut counts: Vec<(String, f64)> = Vec::new();
-    for (i, text) in spec.as_slice().iter().enumerate() {
-        let path = path.alternative(spec, i);
-        let what = "the number of load steps";
-        let count = path.count_up_to(MOST_LOAD_STEPS, text, what)?;
-        let name = format!("load-steps-{count}");
-        if counts.iter().any(|(known, _)| *known == name) {
-            let message = format!("{count} load steps appear twice");
-            return Err(path.diagnostic(&message).with_label("the second time"));
-        }
-        counts.push((name, count as f64));
-    }
-    Ok(counts)
-}
-
-fn until(
-    evaluator: &Evaluator<'_>,
-    spec: &OneOrMany<NumberText>,
-) -> Result<Vec<(String, f64)>, Diagnostic> {
-    let path = evaluator.top("run.until");
     let mut ends: Vec<(String, f64)> = Vec::new();
     for (i, text) in spec.as_slice().iter().enumerate() {
         let path = path.alternative(spec, i);
-        let until = path.positive(text, "the end of the run")?;
-        let text = format!("until-{}", shown(until));
-        if ends.iter().any(|(known, _)| *known == text) {
-            let message = format!("the end {} s appears twice", shown(until));
-            return Err(path.diagnostic(&message).with_label("the second time"));
+        let (name, end, repeated) = read(&path, text)?;
+        if ends.iter().any(|(known, _)| *known == name) {
+            return Err(path.diagnostic(&repeated).with_label("the second time"));
         }
-        ends.push((text, until));
+        ends.push((name, end));
     }
     Ok(ends)
 }
@@ -183,27 +171,7 @@ pub(crate) fn cases(
     let limit = CaseLimit { most: MOST_CASES, of_each_method: until.len() * truths.len() };
     let found = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
     found.iter().try_for_each(|method| combined(evaluator, method, plan))?;
-    let runs = |method: &NamedMethod| runs(method, &truths, until);
-    let drafts: Vec<Draft> = found.iter().flat_map(runs).collect();
-    let case = |draft: Draft| Case {
-        name: draft.name,
-        method: draft.method,
-        solver: draft.solver,
-        until: draft.until,
-        against: draft.against,
-        expectation: None,
-        expectation_in_full: None,
-        gating: None,
-    };
-    Ok(drafts.into_iter().map(case).collect())
-}
-
-struct Draft {
-    name: String,
-    method: Method,
-    solver: Option<String>,
-    until: f64,
-    against: Against,
+    Ok(found.iter().flat_map(|method| runs(method, &truths, until)).collect())
 }
 
 /// Returns the solutions with which the cases are compared, each with a suffix for case names.
@@ -219,8 +187,8 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
 
 /// Returns the cases of one method, for all run ends and all solutions to compare with. A case name
 /// includes the end or the solution only if there are several.
-fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Draft> {
-    let mut drafts = Vec::new();
+fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Case> {
+    let mut cases = Vec::new();
     for (text, until_value) in until {
         for (against, suffix) in truths {
             let mut name = method.name.clone();
@@ -230,12 +198,19 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
             if truths.len() > 1 {
                 name += suffix;
             }
-            let (solver, until, against) = (method.solver.clone(), *until_value, *against);
-            let method = method.method.with_load_steps(until as u64);
-            drafts.push(Draft { name, method, solver, until, against });
+            cases.push(Case {
+                name,
+                method: method.method.with_load_steps(*until_value as u64),
+                solver: method.solver.clone(),
+                until: *until_value,
+                against: *against,
+                expectation: None,
+                expectation_in_full: None,
+                gating: None,
+            });
         }
     }
-    drafts
+    cases
 }
 
 /// Refuses a method whose components are incompatible with each other or with the scene.

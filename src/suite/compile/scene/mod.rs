@@ -93,12 +93,7 @@ fn refuse_beside(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<(), Diagnosti
 fn contact(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<Option<f64>, Diagnostic> {
     let Some(contact) = &spec.contact else { return Ok(None) };
     let path = path.then("contact").then("friction");
-    let coefficient = path.number(&contact.friction)?;
-    if coefficient >= 0.0 {
-        return Ok(Some(coefficient));
-    }
-    let message = format!("the coefficient of friction is {}", shown(coefficient));
-    Err(path.diagnostic(&message).with_label("expected zero or a positive number"))
+    path.zero_or_positive(&contact.friction, "the coefficient of friction").map(Some)
 }
 
 /// Checks that the grid contains the body. Fixed and periodic faces must lie on grid faces, because

@@ -80,31 +80,22 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
         let diagnostic = evaluator.top("scene.material").diagnostic(message);
         return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
     }
-    let moves = |exact: &ExactSpec| {
-        [
-            ("equation", exact.equation.is_some()),
-            ("displacement", exact.displacement.is_some()),
-            ("linearised", exact.linearised.is_some()),
-        ]
-    };
-    let exact = spec.exact.as_ref().map(moves).into_iter().flatten();
-    let made = spec.manufactured.as_ref().map(|made| ("displacement", made.displacement.is_some()));
-    let stated = exact
-        .map(|(key, stated)| (evaluator.top("exact").then(key), stated))
-        .chain(made.map(|(key, stated)| (evaluator.top("manufactured").then(key), stated)))
-        .chain([
-            (evaluator.top("equilibrium"), spec.equilibrium.is_some()),
-            (evaluator.top("reference"), spec.reference.is_some()),
-            (evaluator.top("observe"), spec.observe.is_some()),
-        ]);
-    match stated.into_iter().find(|(_, stated)| *stated) {
-        Some((at, _)) => {
-            let diagnostic =
-                at.diagnostic_at_key("this key needs a motion, but the body is `rigid`");
-            Err(diagnostic.with_help("remove it, or choose another material than `rigid`"))
-        }
-        None => Ok(()),
-    }
+    let of_exact = |has: fn(&ExactSpec) -> bool| spec.exact.as_ref().is_some_and(has);
+    let made = spec.manufactured.as_ref();
+    let moves = "this key needs a motion, but the body is `rigid`";
+    let stated = [
+        (of_exact(|exact| exact.equation.is_some()), "exact.equation", moves),
+        (of_exact(|exact| exact.displacement.is_some()), "exact.displacement", moves),
+        (of_exact(|exact| exact.linearised.is_some()), "exact.linearised", moves),
+        (made.is_some_and(|m| m.displacement.is_some()), "manufactured.displacement", moves),
+        (spec.equilibrium.is_some(), "equilibrium", moves),
+        (spec.reference.is_some(), "reference", moves),
+        (spec.observe.is_some(), "observe", moves),
+    ];
+    evaluator.refuse_first(&stated, |path, message| {
+        let help = "remove it, or choose another material than `rigid`";
+        path.diagnostic_at_key(message).with_help(help)
+    })
 }
 
 /// Compiles the heat problem of `scene` with the temperature at `path`, which is checked later.

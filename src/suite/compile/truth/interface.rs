@@ -18,15 +18,15 @@ const CONTACT: &str = "bodies without `contact` share one velocity field and sti
 /// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
-        ("manufactured", spec.manufactured.is_some()),
-        ("equilibrium", spec.equilibrium.is_some()),
-        ("reference", spec.has_fem_reference()),
+        (spec.manufactured.is_some(), "manufactured", "manufactured"),
+        (spec.equilibrium.is_some(), "equilibrium", "equilibrium"),
+        (spec.has_fem_reference(), "reference", "reference"),
     ];
-    let Some((key, _)) = of_one.iter().find(|(_, stated)| *stated) else { return Ok(()) };
-    let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
-    let diagnostic = evaluator.top(key).diagnostic_at_key(&message);
-    Err(diagnostic
-        .with_help("state a solution under `exact`, or bound the drift of conserved sums"))
+    evaluator.refuse_first(&of_one, |path, key| {
+        let message = format!("`{key}` is for a single body, but the scene lists `bodies`");
+        let help = "state a solution under `exact`, or bound the drift of conserved sums";
+        path.diagnostic_at_key(&message).with_help(help)
+    })
 }
 
 /// Checks the `problems` of all bodies with `check`, and the conditions on their common faces.

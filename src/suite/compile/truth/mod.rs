@@ -303,19 +303,14 @@ fn refuse_truth_of_mapped(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
 ) -> Result<(), Diagnostic> {
+    let message = "a solution can be checked in a box or a body with a free rim, but not in a \
+                   quadrilateral";
     let stated = [
-        ("exact", spec.exact.is_some()),
-        ("equilibrium", spec.equilibrium.is_some()),
-        ("manufactured", spec.manufactured.is_some()),
+        (spec.exact.is_some(), "exact", message),
+        (spec.equilibrium.is_some(), "equilibrium", message),
+        (spec.manufactured.is_some(), "manufactured", message),
     ];
-    match stated.iter().find(|(_, stated)| *stated) {
-        Some((key, _)) => {
-            let message = "a solution can be checked in a box or a body with a free rim, but not \
-                           in a quadrilateral";
-            Err(evaluator.top(key).diagnostic_at_key(message))
-        }
-        None => Ok(()),
-    }
+    evaluator.refuse_first(&stated, |path, message| path.diagnostic_at_key(message))
 }
 
 /// Returns the equation of motion for a material. Some equations restrict the motion: J2 needs
@@ -338,14 +333,14 @@ fn refuse_equilibrium_with(
 ) -> Result<(), Diagnostic> {
     let path = evaluator.top("equilibrium");
     let others = [
-        ("exact", spec.exact.is_some()),
-        ("manufactured", spec.manufactured.is_some()),
-        ("reference", spec.reference.is_some()),
+        (spec.exact.is_some(), "exact", "exact"),
+        (spec.manufactured.is_some(), "manufactured", "manufactured"),
+        (spec.reference.is_some(), "reference", "reference"),
     ];
-    if let Some((other, _)) = others.iter().find(|(_, stated)| *stated) {
+    evaluator.refuse_first(&others, |path, other| {
         let message = format!("the suite states both `{other}` and `equilibrium`: keep one");
-        return Err(evaluator.top(other).diagnostic_at_key(&message));
-    }
+        path.diagnostic_at_key(&message)
+    })?;
     // A formula that contains t is refused here.
     let d = scene.dimension();
     if let Some(texts) = &state.displacement {

@@ -6,7 +6,7 @@
 
 use crate::exact::{Face, Problem, Survey};
 use crate::suite::compile::scene::outline;
-use crate::suite::evaluator::{Evaluator, shown};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{ConvergenceSpec, ObserveSpec};
 use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
@@ -52,17 +52,8 @@ fn judged_box(
     let Some(stated) = &spec.judge.within else { return Ok(None) };
     let path = evaluator.top("judge.within");
     let (from, to) = outline::corners(&path, stated, scene.dimension())?;
-    for (key, corner) in [("from", &from), ("to", &to)] {
-        for (axis, x) in corner.iter().enumerate() {
-            let (low, high) = (scene.from[axis], scene.to[axis]);
-            if !(low..=high).contains(x) {
-                let message = format!("{} is outside the body", shown(*x));
-                let label = format!("expected a number from {} to {}", shown(low), shown(high));
-                let at = path.then(key).then(axis);
-                return Err(at.diagnostic(&message).with_label(&label));
-            }
-        }
-    }
+    refuse_outside(&path.then("from"), scene, &from)?;
+    refuse_outside(&path.then("to"), scene, &to)?;
     let refuse = |message: &str, help: &str| Err(path.diagnostic_at_key(message).with_help(help));
     if spec.judge.of.is_sum() {
         let of = spec.judge.of.words();
@@ -93,20 +84,26 @@ fn observed(
 ) -> Result<Vec<f64>, Diagnostic> {
     let path = evaluator.top("observe.at");
     let place = path.point(&spec.at, scene.dimension())?;
-    for (axis, x) in place.iter().enumerate() {
-        let (from, to) = (scene.from[axis], scene.to[axis]);
-        if !(from..=to).contains(x) {
-            let message = format!("{} is outside the body", shown(*x));
-            let label = format!("expected a number from {} to {}", shown(from), shown(to));
-            return Err(path.then(axis).diagnostic(&message).with_label(&label));
-        }
-    }
+    refuse_outside(&path, scene, &place)?;
     let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
     if let Some(kind) = outside.map(|outline| outline.kind()) {
         let diagnostic = path.diagnostic("this point is outside the body");
         return Err(diagnostic.with_label(&format!("expected a point in the {kind}")));
     }
     Ok(place)
+}
+
+/// Refuses a position outside the body or its bounding box.
+fn refuse_outside(path: &SuitePath<'_>, scene: &Scene, place: &[f64]) -> Result<(), Diagnostic> {
+    for (axis, x) in place.iter().enumerate() {
+        let (low, high) = (scene.from[axis], scene.to[axis]);
+        if !(low..=high).contains(x) {
+            let message = format!("{} is outside the body", shown(*x));
+            let label = format!("expected a number from {} to {}", shown(low), shown(high));
+            return Err(path.then(axis).diagnostic(&message).with_label(&label));
+        }
+    }
+    Ok(())
 }
 
 /// Returns `exact` without the faces whose condition the motion violates, so that the check of the

@@ -5,7 +5,6 @@ use super::contract::{
 };
 use crate::exact::{Condition, FacePoint, Violation};
 use crate::mpm::{Boundary, Friction};
-use crate::suite::evaluator::shown;
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -18,12 +17,8 @@ pub(crate) struct FrictionSpec(NumberText);
 
 impl BoundaryKeys for FrictionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
-        let coefficient = entry.path.number(&self.0)?;
-        if coefficient >= 0.0 {
-            return Ok(Arc::new(FrictionFace(coefficient)));
-        }
-        let message = format!("the coefficient of friction is {}", shown(coefficient));
-        Err(entry.path.diagnostic(&message).with_label("expected zero or a positive number"))
+        let what = "the coefficient of friction";
+        Ok(Arc::new(FrictionFace(entry.path.zero_or_positive(&self.0, what)?)))
     }
 }
 

@@ -5,7 +5,6 @@ use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::mpm::{ArtificialViscosity, Effect};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::shown;
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -29,14 +28,7 @@ impl LoadKeys for ViscositySpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("artificial viscosity")?;
         let coefficient = |key: &str, text: &NumberText| {
-            let path = entry.path.then(key);
-            let value = path.number(text)?;
-            if value >= 0.0 {
-                return Ok(value);
-            }
-            let message = format!("a coefficient of viscosity is {}", shown(value));
-            let label = "expected zero or a positive number";
-            Err(path.diagnostic(&message).with_label(label))
+            entry.path.then(key).zero_or_positive(text, "a coefficient of viscosity")
         };
         Ok(Arc::new(ViscosityLoad {
             linear: coefficient("linear", &self.linear)?,

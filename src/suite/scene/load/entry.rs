@@ -137,13 +137,11 @@ impl LoadEntry<'_> {
         refuse_surface_load(&path, self.effect.name(), name, &scene.sets)?;
         let number = face(&path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;
-        let taken = scene.loads_on(LoadTarget::Face(number)).next();
-        let has = match taken {
-            _ if !hold.is_free() => hold.kind().verb.to_owned(),
-            Some(other) => format!("already has a {}", other.effect.name()),
-            None => return Ok(LoadedFace { number, name: scene.faces[number].name }),
-        };
-        Err(path.diagnostic(&format!("the face `{name}` {has}")))
+        if !hold.is_free() {
+            return Err(path.diagnostic(&format!("the face `{name}` {}", hold.kind().verb)));
+        }
+        self.refuse_loaded(&path, LoadTarget::Face(number), &format!("face `{name}`"))?;
+        Ok(LoadedFace { number, name: scene.faces[number].name })
     }
 
     /// Returns the rim called `name` of a body without faces. The rim must be free.
@@ -156,26 +154,27 @@ impl LoadEntry<'_> {
             let diagnostic = path.diagnostic(&format!("the body has no rim `{name}`"));
             return Err(diagnostic.with_help(&suggestion("rims", name, &known)));
         };
-        match scene.loads_on(LoadTarget::Rim(circle.number)).next() {
-            None => Ok(circle.clone()),
-            Some(other) => {
-                let message = format!("the rim `{name}` already has a {}", other.effect.name());
-                Err(path.diagnostic(&message))
-            }
-        }
+        self.refuse_loaded(&path, LoadTarget::Rim(circle.number), &format!("rim `{name}`"))?;
+        Ok(circle.clone())
     }
 
     /// Returns the set called `name`, which must not carry another load.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(&path, name, &self.scene.sets)?;
-        match self.scene.loads_on(LoadTarget::Set(number)).next() {
-            None => Ok(LoadedSet { number, region: self.scene.sets[number].clone() }),
-            Some(other) => {
-                let message = format!("the set `{name}` already has a {}", other.effect.name());
-                Err(path.diagnostic(&message))
-            }
-        }
+        self.refuse_loaded(&path, LoadTarget::Set(number), &format!("set `{name}`"))?;
+        Ok(LoadedSet { number, region: self.scene.sets[number].clone() })
+    }
+
+    /// Refuses a `target` that already carries a load; `title` is its name in messages.
+    fn refuse_loaded(
+        &self,
+        path: &SuitePath<'_>,
+        target: LoadTarget,
+        title: &str,
+    ) -> Result<(), Diagnostic> {
+        let Some(other) = self.scene.loads_on(target).next() else { return Ok(()) };
+        Err(path.diagnostic(&format!("the {title} already has a {}", other.effect.name())))
     }
 }
 
