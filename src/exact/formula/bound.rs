@@ -21,10 +21,11 @@ pub struct Formula {
     source: String,
     uses: BTreeSet<String>,
     variables: usize,
-    code: Vec<Instruction>,
-    registers: usize,
+    pub(super) code: Vec<Instruction>,
+    pub(super) registers: usize,
     operations: u64,
-    result: Operand,
+    /// Location of the value after the code has run.
+    pub(super) result: Operand,
 }
 
 impl Formula {
@@ -103,19 +104,6 @@ impl Formula {
         let variable = Operand::Variable(variable);
         let mut arguments = self.code.iter().flat_map(|step| step.action.arguments());
         self.result == variable || arguments.any(|argument| argument == variable)
-    }
-
-    pub(super) fn code(&self) -> &[Instruction] {
-        &self.code
-    }
-
-    pub(super) fn registers(&self) -> usize {
-        self.registers
-    }
-
-    /// Returns the location of the result after the code has run.
-    pub(super) fn result(&self) -> Operand {
-        self.result
     }
 
     fn run<T: Number>(&self, variables: &[T], registers: &mut [T]) -> T {

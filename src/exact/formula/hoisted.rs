@@ -174,14 +174,14 @@ impl Nodes {
 /// Appends the steps of a formula with unrolled sums. Returns the operand of the formula value.
 fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
     // Content of each register: a constant or the value of a node.
-    let mut held = vec![Operand::Constant(0.0); formula.registers()];
+    let mut held = vec![Operand::Constant(0.0); formula.registers];
     let now = |held: &[Operand], operand| match operand {
         Operand::Register(register) => held[register],
         Operand::Variable(variable) => Operand::Register(variable),
         Operand::Constant(_) => operand,
     };
     let mut at = 0;
-    while let Some(Instruction { action, to }) = formula.code().get(at) {
+    while let Some(Instruction { action, to }) = formula.code.get(at) {
         at += 1;
         held[*to] = match action {
             Action::Copy(a) => now(&held, *a),
@@ -198,7 +198,7 @@ fn unroll(formula: &Formula, nodes: &mut Nodes) -> Operand {
             action => nodes.push(action.map(|operand| now(&held, operand))),
         };
     }
-    now(&held, formula.result())
+    now(&held, formula.result)
 }
 
 /// The part of the program, and the register, in which each node is computed.

@@ -86,10 +86,6 @@ impl<'a> Lexer<'a> {
         self.source.as_bytes().get(self.at + ahead).copied()
     }
 
-    fn digit(&self, ahead: usize) -> bool {
-        self.peek(ahead).is_some_and(|byte| byte.is_ascii_digit())
-    }
-
     /// Skips bytes that `accept` accepts, and returns their number.
     fn skip(&mut self, accept: impl Fn(u8) -> bool) -> usize {
         let start = self.at;
@@ -134,7 +130,8 @@ impl<'a> Lexer<'a> {
     /// Treats `e` or `E` as an exponent only if digits follow, because `E` is also a common name.
     fn exponent(&mut self) {
         let sign = usize::from(matches!(self.peek(1), Some(b'+' | b'-')));
-        if matches!(self.peek(0), Some(b'e' | b'E')) && self.digit(1 + sign) {
+        let has_digits = self.peek(1 + sign).is_some_and(|byte| byte.is_ascii_digit());
+        if matches!(self.peek(0), Some(b'e' | b'E')) && has_digits {
             self.at += 1 + sign;
             self.skip(|byte| byte.is_ascii_digit());
         }

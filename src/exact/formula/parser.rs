@@ -10,6 +10,7 @@ use std::ops::Range;
 const MAX_DEPTH: usize = 128;
 /// Binding power of the unary minus: above `*`, below `^`.
 const MINUS: u8 = 5;
+const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
 
 impl Expr {
     /// Parses a formula.
@@ -170,17 +171,9 @@ impl<'a> Parser<'a> {
             _ => error,
         }
     }
-}
 
-const SUM_FORM: &str = "the form is `sum(index, from, to, body)`";
-
-impl<'a> Parser<'a> {
     /// Parses a term that begins with a name: a call if a parenthesis follows, otherwise a value.
-    pub(self) fn named(
-        &mut self,
-        name: &'a str,
-        span: Range<usize>,
-    ) -> Result<usize, FormulaError> {
+    fn named(&mut self, name: &'a str, span: Range<usize>) -> Result<usize, FormulaError> {
         let called = self.peek() == Token::Symbol('(');
         if let Some(level) = self.indices.iter().position(|&index| index == name) {
             let role = "the index of a sum";
@@ -228,21 +221,22 @@ impl<'a> Parser<'a> {
         name: &str,
         span: Range<usize>,
     ) -> Result<usize, FormulaError> {
-        let (needed, given) = match builtin {
-            Builtin::Sum => return self.sum(span.start),
-            Builtin::Unary(function) => match self.arguments()?[..] {
-                [x] => return Ok(self.push(NodeKind::Unary(function, x), self.since(span.start))),
-                ref other => (1, other.len()),
-            },
-            Builtin::Binary(function) => match self.arguments()?[..] {
-                [a, b] => {
-                    return Ok(self.push(NodeKind::Binary(function, a, b), self.since(span.start)));
-                }
-                ref other => (2, other.len()),
-            },
-        };
-        let message = format!("`{name}` takes {}, not {given}", builtin::arguments(needed));
-        Err(FormulaError::new(self.since(span.start), message))
+        if builtin == Builtin::Sum {
+            return self.sum(span.start);
+        }
+        let arguments = self.arguments()?;
+        let span = self.since(span.start);
+        match (builtin, &arguments[..]) {
+            (Builtin::Unary(function), &[x]) => Ok(self.push(NodeKind::Unary(function, x), span)),
+            (Builtin::Binary(function), &[a, b]) => {
+                Ok(self.push(NodeKind::Binary(function, a, b), span))
+            }
+            (_, given) => {
+                let needed = if matches!(builtin, Builtin::Unary(_)) { 1 } else { 2 };
+                let (needed, given) = (builtin::arguments(needed), given.len());
+                Err(FormulaError::new(span, format!("`{name}` takes {needed}, not {given}")))
+            }
+        }
     }
 
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
@@ -286,7 +280,7 @@ impl<'a> Parser<'a> {
             let message = format!("`{index}` is already the index of an enclosing sum");
             return Err(FormulaError::new(self.span(), message));
         }
-        if index == PI || Builtin::find(index).is_some() {
+        if builtin::is_reserved(index) {
             let message = format!("`{index}` is a builtin name");
             return Err(FormulaError::new(self.span(), message).help("choose another index"));
         }

@@ -177,24 +177,18 @@ impl Scope {
 
     /// Refuses the `name` at `span` if it is invalid or already has a meaning.
     pub(super) fn fresh(&self, name: &str, span: Range<usize>) -> Result<(), FormulaError> {
-        let refuse = |role| Err(FormulaError::new(span, format!("`{name}` is already {role}")));
         Self::named(name)?;
-        if is_reserved(name) {
-            return refuse("a builtin name");
+        let roles = [
+            (is_reserved(name), "a builtin name"),
+            (self.constants.contains_key(name), "a constant"),
+            (self.functions.contains_key(name), "a function"),
+            (self.tables.contains_key(name), "a table"),
+            (self.definitions.contains_key(name), "a definition"),
+        ];
+        match roles.iter().find(|(is_taken, _)| *is_taken) {
+            Some((_, role)) => Err(FormulaError::new(span, format!("`{name}` is already {role}"))),
+            None => Ok(()),
         }
-        if self.constants.contains_key(name) {
-            return refuse("a constant");
-        }
-        if self.functions.contains_key(name) {
-            return refuse("a function");
-        }
-        if self.tables.contains_key(name) {
-            return refuse("a table");
-        }
-        if self.definitions.contains_key(name) {
-            return refuse("a definition");
-        }
-        Ok(())
     }
 
     /// Refuses to declare `name` if it already has a meaning or is the name of a parameter.

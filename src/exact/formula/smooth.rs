@@ -14,7 +14,7 @@ impl Formula {
     pub fn is_smooth(&self) -> bool {
         let varying = self.varying();
         let varies = |operand: &Operand| varies(*operand, &varying);
-        self.code().iter().all(|step| match &step.action {
+        self.code.iter().all(|step| match &step.action {
             Action::Copy(_)
             | Action::Negate(_)
             | Action::Next(_)
@@ -28,12 +28,12 @@ impl Formula {
 
     /// Returns, for each register, whether its value depends on a variable at some step.
     fn varying(&self) -> Vec<bool> {
-        let mut varying = vec![false; self.registers()];
+        let mut varying = vec![false; self.registers];
         // An iteration of a formula's `sum` reads registers that the previous iteration wrote, so
         // the loop below repeats until nothing changes.
         loop {
             let before = varying.clone();
-            for step in self.code() {
+            for step in &self.code {
                 let varies = step.action.arguments().any(|operand| varies(operand, &varying));
                 varying[step.to] |= varies;
             }

@@ -113,23 +113,11 @@ fn lambert_curvature(w: f64) -> f64 {
 
 /// Returns the sign of `x`: -1, 0 or 1; NaN for NaN.
 fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        x
-    }
+    if x == 0.0 || x.is_nan() { x } else { x.signum() }
 }
 
 fn step(x: f64) -> f64 {
-    if x >= 0.0 {
-        1.0
-    } else if x < 0.0 {
-        0.0
-    } else {
-        x
-    }
+    if x.is_nan() { x } else { f64::from(u8::from(x >= 0.0)) }
 }
 
 /// Maximum number of iterations. Halley's method converges cubically, here in at most five steps.

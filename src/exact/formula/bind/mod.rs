@@ -22,6 +22,7 @@ const MAX_NODES: usize = 100_000;
 const MAX_DEPTH: usize = 256;
 /// Maximum number of operations of one evaluation, including every term of every sum.
 const MAX_OPERATIONS: u64 = 10_000_000;
+const MAX_TERMS: f64 = 100_000.0;
 
 /// The formula or function body being compiled, and the values of its local names.
 struct Frame<'a> {
@@ -162,30 +163,9 @@ impl<'a> ProgramBuilder<'a> {
         self.code.push(Instruction { action, to });
         self.registers = self.registers.max(to + 1);
     }
-}
 
-/// Returns the first register at or above `at` that does not contain `operand`.
-fn above(operand: Operand, at: usize) -> usize {
-    match operand {
-        Operand::Register(register) if register >= at => register + 1,
-        _ => at,
-    }
-}
-
-/// Creates a binary operation; powers with a constant integer exponent become multiplications.
-fn binary(function: Binary, left: Operand, right: Operand) -> Action {
-    match (function, right) {
-        (Binary::Power, Operand::Constant(exponent)) => match whole(exponent) {
-            Some(exponent) => Action::Powi(left, exponent),
-            None => Action::Binary(function, left, right),
-        },
-        _ => Action::Binary(function, left, right),
-    }
-}
-
-impl<'a> ProgramBuilder<'a> {
     /// Compiles each argument once, then the body.
-    pub(self) fn call(
+    fn call(
         &mut self,
         frame: &mut Frame<'a>,
         node: &'a Node,
@@ -196,7 +176,6 @@ impl<'a> ProgramBuilder<'a> {
         let Some((name, function)) = self.scope.called(name) else {
             return Err(self.not_a_function(frame, node, name));
         };
-        self.uses.insert(name.to_owned());
         if arguments.len() != function.parameters.len() {
             let needed = builtin::arguments(function.parameters.len());
             let message = format!("`{name}` takes {needed}, not {}", arguments.len());
@@ -210,11 +189,23 @@ impl<'a> ProgramBuilder<'a> {
             at = above(operand, at);
             locals.push((parameter.as_str(), operand));
         }
-        let expr = &function.body;
-        let mut inner = Frame { expr, function: Some(name), locals, indices: Vec::new() };
         self.calls.push(name);
-        let result = self.compile(&mut inner, expr.root(), at);
+        let result = self.inline(name, &function.body, locals, at);
         self.calls.pop();
+        result
+    }
+
+    /// Compiles the expression that the scope declares as `name`.
+    fn inline(
+        &mut self,
+        name: &'a str,
+        expr: &'a Expr,
+        locals: Vec<(&'a str, Operand)>,
+        at: usize,
+    ) -> Result<Operand, FormulaError> {
+        self.uses.insert(name.to_owned());
+        let mut frame = Frame { expr, function: Some(name), locals, indices: Vec::new() };
+        let result = self.compile(&mut frame, expr.root(), at);
         result.map_err(|error| error.within(name))
     }
 
@@ -227,10 +218,8 @@ impl<'a> ProgramBuilder<'a> {
         let message = format!("functions may not be recursive: {}", cycle.join(" calls "));
         Err(FormulaError::new(node.head(name), message))
     }
-}
 
-impl<'a> ProgramBuilder<'a> {
-    pub(self) fn table(
+    fn table(
         &mut self,
         frame: &Frame<'a>,
         node: &'a Node,
@@ -239,47 +228,23 @@ impl<'a> ProgramBuilder<'a> {
         at: usize,
     ) -> Result<Operand, FormulaError> {
         let by = table.by.as_str();
-        let local = frame.locals.iter().find(|(local, _)| *local == by);
         let constant = self.scope.value(by).map(Operand::Constant);
-        let Some(operand) = local.map(|(_, operand)| *operand).or(constant) else {
+        let Some(operand) = frame.local(by).or(constant) else {
             let message = format!("`{name}` is a table by `{by}`, which is not defined here");
             return Err(FormulaError::new(node.span.clone(), message).help(frame.listing()));
         };
-        self.uses.insert(name.to_owned());
-        let (expr, locals) = (&table.body, vec![(by, operand)]);
-        let mut inner = Frame { expr, function: Some(name), locals, indices: Vec::new() };
-        let result = self.compile(&mut inner, expr.root(), above(operand, at));
-        result.map_err(|error| error.within(name))
+        self.inline(name, &table.body, vec![(by, operand)], above(operand, at))
     }
-}
 
-impl<'a> ProgramBuilder<'a> {
-    pub(self) fn definition(
-        &mut self,
-        name: &'a str,
-        expr: &'a Expr,
-        at: usize,
-    ) -> Result<Operand, FormulaError> {
-        self.uses.insert(name.to_owned());
-        let mut inner =
-            Frame { expr, function: Some(name), locals: Vec::new(), indices: Vec::new() };
-        let result = self.compile(&mut inner, expr.root(), at);
-        result.map_err(|error| error.within(name))
-    }
-}
-
-const MAX_TERMS: f64 = 100_000.0;
-
-impl<'a> ProgramBuilder<'a> {
     /// Compiles a sum to a loop. The total is in register `at`, the index in the next register.
-    pub(self) fn sum(
+    fn sum(
         &mut self,
         frame: &mut Frame<'a>,
         sum: &'a Sum,
         at: usize,
     ) -> Result<Operand, FormulaError> {
         let span = sum.index_span.clone();
-        if frame.locals.iter().any(|(local, _)| *local == sum.index) {
+        if frame.local(&sum.index).is_some() {
             let role = if frame.function.is_some() { "a parameter" } else { "a variable" };
             return Err(FormulaError::new(span, format!("`{}` is already {role}", sum.index)));
         }
@@ -354,5 +319,24 @@ impl<'a> ProgramBuilder<'a> {
         run::<f64>(&self.code, start, &[], &mut registers);
         self.code.truncate(start);
         Operand::Constant(registers[at])
+    }
+}
+
+/// Returns the first register at or above `at` that does not contain `operand`.
+fn above(operand: Operand, at: usize) -> usize {
+    match operand {
+        Operand::Register(register) if register >= at => register + 1,
+        _ => at,
+    }
+}
+
+/// Creates a binary operation; powers with a constant integer exponent become multiplications.
+fn binary(function: Binary, left: Operand, right: Operand) -> Action {
+    match (function, right) {
+        (Binary::Power, Operand::Constant(exponent)) => match whole(exponent) {
+            Some(exponent) => Action::Powi(left, exponent),
+            None => Action::Binary(function, left, right),
+        },
+        _ => Action::Binary(function, left, right),
     }
 }

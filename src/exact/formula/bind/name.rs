@@ -18,8 +18,8 @@ impl<'a> ProgramBuilder<'a> {
         name: &str,
         at: usize,
     ) -> Result<Operand, FormulaError> {
-        if let Some((_, operand)) = frame.locals.iter().find(|(local, _)| *local == name) {
-            return Ok(*operand);
+        if let Some(operand) = frame.local(name) {
+            return Ok(operand);
         }
         if let Some(value) = self.scope.value(name) {
             self.uses.insert(name.to_owned());
@@ -29,7 +29,7 @@ impl<'a> ProgramBuilder<'a> {
             return Ok(operand);
         }
         if let Some((name, body)) = self.scope.defined(name) {
-            return self.definition(name, body, at);
+            return self.inline(name, body, Vec::new(), at);
         }
         if let Some(table) = self.scope.tabulated(name) {
             return self.table(frame, node, table.0, table.1, at);
@@ -46,7 +46,7 @@ impl<'a> ProgramBuilder<'a> {
 
     /// Returns the error for a call of `name` if it is not a function.
     pub(super) fn not_a_function(&self, frame: &Frame, node: &Node, name: &str) -> FormulaError {
-        let local = frame.locals.iter().any(|(local, _)| *local == name);
+        let local = frame.local(name).is_some();
         let role = match frame.function {
             _ if self.scope.value(name).is_some() => "a constant",
             _ if self.scope.tabulated(name).is_some() => "a table",
@@ -96,6 +96,11 @@ impl<'a> ProgramBuilder<'a> {
 }
 
 impl Frame<'_> {
+    pub(super) fn local(&self, name: &str) -> Option<Operand> {
+        let local = self.locals.iter().find(|(local, _)| *local == name);
+        local.map(|(_, operand)| *operand)
+    }
+
     pub(super) fn listing(&self) -> String {
         let names: Vec<String> =
             self.locals.iter().map(|(local, _)| format!("`{local}`")).collect();
