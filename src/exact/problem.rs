@@ -204,48 +204,7 @@ impl Problem {
         let all = self.terms.iter();
         all.fold(0.0, |sum, term| sum + term.resistance(t, now.velocity[i], &unbalanced))
     }
-}
 
-impl Truth for Problem {
-    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        self.motion.displacement(label, t, into);
-    }
-
-    fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
-        let Some(shared) = &self.shared else {
-            return self.motion.displacements(d, labels, t, into);
-        };
-        let places = shared.number_of(labels);
-        if let Some(known) = shared.get(SharedQuantity::Displacement, places, t) {
-            return into.copy_from_slice(&known);
-        }
-        self.motion.displacements(d, labels, t, into);
-        shared.put(SharedQuantity::Displacement, places, t, into);
-    }
-
-    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
-        self.motion.velocity(label, t, into);
-    }
-
-    fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
-        self.motion.deformation_gradient(label, t, into)
-    }
-
-    fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
-        self.heat.as_ref()?.temperature(label, t)
-    }
-
-    fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
-        write(&self.cauchy_at(label, t), self.dimension(), into);
-        true
-    }
-
-    fn stress_across(&self, label: &[f64], t: f64) -> Option<f64> {
-        Some(self.cauchy_at(label, t)[2][2])
-    }
-}
-
-impl Problem {
     /// Computes the Cauchy stress (Pa) at one point and time.
     fn cauchy_at(&self, label: &[f64], t: f64) -> Tensor<f64> {
         let body = self.body_at(label);
@@ -384,6 +343,45 @@ impl Problem {
             PlaneState::Axisymmetric => (label[0], [piola[2][2], 0.0, 0.0]),
             PlaneState::Strain | PlaneState::Stress => (1.0, [0.0; 3]),
         }
+    }
+}
+
+impl Truth for Problem {
+    fn displacement(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.motion.displacement(label, t, into);
+    }
+
+    fn displacements(&self, d: usize, labels: &[f64], t: f64, into: &mut [f64]) {
+        let Some(shared) = &self.shared else {
+            return self.motion.displacements(d, labels, t, into);
+        };
+        let places = shared.number_of(labels);
+        if let Some(known) = shared.get(SharedQuantity::Displacement, places, t) {
+            return into.copy_from_slice(&known);
+        }
+        self.motion.displacements(d, labels, t, into);
+        shared.put(SharedQuantity::Displacement, places, t, into);
+    }
+
+    fn velocity(&self, label: &[f64], t: f64, into: &mut [f64]) {
+        self.motion.velocity(label, t, into);
+    }
+
+    fn deformation_gradient(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        self.motion.deformation_gradient(label, t, into)
+    }
+
+    fn temperature(&self, label: &[f64], t: f64) -> Option<f64> {
+        self.heat.as_ref()?.temperature(label, t)
+    }
+
+    fn stress(&self, label: &[f64], t: f64, into: &mut [f64]) -> bool {
+        write(&self.cauchy_at(label, t), self.dimension(), into);
+        true
+    }
+
+    fn stress_across(&self, label: &[f64], t: f64) -> Option<f64> {
+        Some(self.cauchy_at(label, t)[2][2])
     }
 }
 

@@ -313,39 +313,7 @@ impl SuitePath<'_> {
     fn at_key(&self, error: &FormulaError) -> Diagnostic {
         with_help(self.diagnostic_at_key(&error.message), error)
     }
-}
 
-/// Binds a formula in the given `variables`, with the names of `scope`.
-fn bind(text: &NumberText, scope: &Scope, variables: &[&str]) -> Result<Formula, FormulaError> {
-    Formula::bind(&Expr::parse(&text.to_string())?, scope, variables)
-}
-
-fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
-    match &error.help {
-        Some(help) => diagnostic.with_help(help),
-        None => diagnostic,
-    }
-}
-
-/// Formats a number as an author would write it: 1e300 instead of 1 followed by 300 zeros.
-pub(crate) fn shown(value: f64) -> String {
-    NumberText::Number(value).to_string()
-}
-
-/// Suggests the known name that is most similar to `name`, or lists all `known` names.
-pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
-    match nearest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known {kind}: {}", known.join(", ")),
-    }
-}
-
-/// Values for which most formulas are finite. If a formula is infinite or NaN, each parameter in
-/// turn is replaced by these values and by its absolute value, to find the parameter that is the
-/// cause.
-const HARMLESS: [f64; 2] = [1.0, 0.5];
-
-impl SuitePath<'_> {
     /// Returns a diagnostic about an invalid number at this place, with the parameters of its
     /// formula.
     pub(crate) fn unusable(&self, text: &NumberText, message: &str, label: &str) -> Diagnostic {
@@ -379,6 +347,36 @@ impl SuitePath<'_> {
         self.diagnostic(&message).with_label(label).with_help(&places.join(", "))
     }
 }
+
+/// Binds a formula in the given `variables`, with the names of `scope`.
+fn bind(text: &NumberText, scope: &Scope, variables: &[&str]) -> Result<Formula, FormulaError> {
+    Formula::bind(&Expr::parse(&text.to_string())?, scope, variables)
+}
+
+fn with_help(diagnostic: Diagnostic, error: &FormulaError) -> Diagnostic {
+    match &error.help {
+        Some(help) => diagnostic.with_help(help),
+        None => diagnostic,
+    }
+}
+
+/// Formats a number as an author would write it: 1e300 instead of 1 followed by 300 zeros.
+pub(crate) fn shown(value: f64) -> String {
+    NumberText::Number(value).to_string()
+}
+
+/// Suggests the known name that is most similar to `name`, or lists all `known` names.
+pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
+    match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known {kind}: {}", known.join(", ")),
+    }
+}
+
+/// Values for which most formulas are finite. If a formula is infinite or NaN, each parameter in
+/// turn is replaced by these values and by its absolute value, to find the parameter that is the
+/// cause.
+const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
     /// Returns names and values of the parameters that a formula uses, directly or through

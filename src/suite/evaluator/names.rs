@@ -51,6 +51,36 @@ impl Evaluator<'_> {
     pub(super) fn head_of(&self, function: &str) -> Option<&String> {
         self.heads.iter().find(|head| name_in(head) == function)
     }
+
+    /// Declares the table `name` and returns its text. If the table depends on a parameter, also
+    /// returns the value of the table at this parameter.
+    pub(super) fn declare_table(
+        &mut self,
+        name: &str,
+        spec: &TableSpec,
+    ) -> Result<(String, Option<f64>), Diagnostic> {
+        let path = self.parameter(name);
+        let rows = rows(&path.then("table"), spec)?;
+        let (by, by_path) = (&spec.by, path.then("by"));
+        Scope::named(by).map_err(|error| with_help(by_path.diagnostic(&error.message), &error))?;
+        if by == name {
+            let message = format!("the table of `{name}` depends on `{name}` itself");
+            return Err(by_path.diagnostic(&message));
+        }
+        let by_parameter = self.parameters.contains(by);
+        if by_parameter {
+            by_path.number(&NumberText::Formula(by.clone()))?;
+        }
+        let declared = self.scope.table(name, by, &rows);
+        declared.map_err(|error| self.parameter(name).at_key(&error))?;
+        let of_name = || self.parameter(name).number(&NumberText::Formula(name.to_owned()));
+        let value = by_parameter.then(of_name).transpose()?;
+        if value.is_some() {
+            self.used.borrow_mut().remove(name);
+        }
+        let written = spec.table.iter().map(|row| format!("{} at {by} = {}", row[1], row[0]));
+        Ok((format!("({})", written.collect::<Vec<_>>().join(", ")), value))
+    }
 }
 
 impl<'a> Evaluator<'a> {
@@ -93,38 +123,6 @@ impl<'a> Evaluator<'a> {
 /// Returns the function name in a head: `s` in `s(tau)`.
 fn name_in(head: &str) -> &str {
     head.split('(').next().unwrap_or(head).trim()
-}
-
-impl Evaluator<'_> {
-    /// Declares the table `name` and returns its text. If the table depends on a parameter, also
-    /// returns the value of the table at this parameter.
-    pub(super) fn declare_table(
-        &mut self,
-        name: &str,
-        spec: &TableSpec,
-    ) -> Result<(String, Option<f64>), Diagnostic> {
-        let path = self.parameter(name);
-        let rows = rows(&path.then("table"), spec)?;
-        let (by, by_path) = (&spec.by, path.then("by"));
-        Scope::named(by).map_err(|error| with_help(by_path.diagnostic(&error.message), &error))?;
-        if by == name {
-            let message = format!("the table of `{name}` depends on `{name}` itself");
-            return Err(by_path.diagnostic(&message));
-        }
-        let by_parameter = self.parameters.contains(by);
-        if by_parameter {
-            by_path.number(&NumberText::Formula(by.clone()))?;
-        }
-        let declared = self.scope.table(name, by, &rows);
-        declared.map_err(|error| self.parameter(name).at_key(&error))?;
-        let of_name = || self.parameter(name).number(&NumberText::Formula(name.to_owned()));
-        let value = by_parameter.then(of_name).transpose()?;
-        if value.is_some() {
-            self.used.borrow_mut().remove(name);
-        }
-        let written = spec.table.iter().map(|row| format!("{} at {by} = {}", row[1], row[0]));
-        Ok((format!("({})", written.collect::<Vec<_>>().join(", ")), value))
-    }
 }
 
 /// Evaluates the rows of the table at `path`: at least two, in ascending order.

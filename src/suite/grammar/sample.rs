@@ -121,18 +121,13 @@ impl SuiteSpec {
     /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         match StudyName::of(source)? {
-            StudyName::Convergence => {
-                read(source, "convergence").map(Box::new).map(Self::Convergence)
+            StudyName::Convergence => read(source, "convergence").map(Self::Convergence),
+            StudyName::InternalForce => read(source, "internal_force").map(Self::InternalForce),
+            StudyName::Stability => read(source, "stability").map(Self::Stability),
+            StudyName::Gradient => read(source, "gradient_study").map(Self::Gradient),
+            StudyName::Spectrum => {
+                read(source, "spectrum_study").map(Self::Spectrum).map_err(with_regular_particles)
             }
-            StudyName::InternalForce => {
-                read(source, "internal_force").map(Box::new).map(Self::InternalForce)
-            }
-            StudyName::Stability => read(source, "stability").map(Box::new).map(Self::Stability),
-            StudyName::Gradient => read(source, "gradient_study").map(Box::new).map(Self::Gradient),
-            StudyName::Spectrum => read(source, "spectrum_study")
-                .map(Box::new)
-                .map(Self::Spectrum)
-                .map_err(with_regular_particles),
         }
     }
 }

@@ -75,9 +75,7 @@ impl GradientPlan {
         };
         self.parameters.iter().enumerate().map(case).collect()
     }
-}
 
-impl GradientPlan {
     pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (terms, because) = self.cases[case].expected.as_ref()?;
         Some((terms.summary(), because))

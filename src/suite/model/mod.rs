@@ -156,21 +156,7 @@ impl ConvergencePlan {
         }
         Clock::new(until, dt, self.instants)
     }
-}
 
-impl Case {
-    /// Returns the number of load steps; `None` for a run in time.
-    pub fn load_steps(&self, plan: &ConvergencePlan) -> Option<u64> {
-        (plan.steps == StepKind::Load).then_some(self.until as u64)
-    }
-
-    /// Returns the steps of the case, for a requested step `dt` (s).
-    pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
-        plan.clock(self.against, self.until, dt)
-    }
-}
-
-impl ConvergencePlan {
     pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         self.cases[case].expected()
     }
@@ -195,5 +181,17 @@ impl ConvergencePlan {
     /// Returns the heat problem that the formulas solve, for a body at rest or in motion.
     pub fn heat_problem(&self) -> Option<&Conduction> {
         self.conduction.as_ref().or_else(|| self.exact.as_ref()?.heat.as_ref())
+    }
+}
+
+impl Case {
+    /// Returns the number of load steps; `None` for a run in time.
+    pub fn load_steps(&self, plan: &ConvergencePlan) -> Option<u64> {
+        (plan.steps == StepKind::Load).then_some(self.until as u64)
+    }
+
+    /// Returns the steps of the case, for a requested step `dt` (s).
+    pub fn clock(&self, plan: &ConvergencePlan, dt: f64) -> Option<Clock> {
+        plan.clock(self.against, self.until, dt)
     }
 }

@@ -80,9 +80,7 @@ impl SpectrumPlan {
         let case = stated.map_or(name, |(_, case)| case);
         self.cases.iter().find(|known| known.name == case)
     }
-}
 
-impl SpectrumPlan {
     pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (expected, because) = self.cases[case].expected.as_ref()?;
         Some((expected.summary(), because))

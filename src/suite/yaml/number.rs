@@ -1,7 +1,7 @@
 //! A number, a formula, or a map that replaces a number.
 
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{self, Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Unexpected, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -39,7 +39,10 @@ impl fmt::Display for NumberText {
 
 impl<'de> Deserialize<'de> for NumberText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(NumberOrFormula)
+        match NumberOr::<NoMap>::deserialize(deserializer)? {
+            NumberOr::Number(text) => Ok(text),
+            NumberOr::Map(never) => match never {},
+        }
     }
 }
 
@@ -51,40 +54,6 @@ impl schemars::JsonSchema for NumberText {
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
         schemars::json_schema!({"type": ["number", "string"]})
-    }
-}
-
-struct NumberOrFormula;
-
-impl Visitor<'_> for NumberOrFormula {
-    type Value = NumberText;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a finite number or a formula")
-    }
-
-    fn visit_u64<E: de::Error>(self, value: u64) -> Result<NumberText, E> {
-        Ok(NumberText::Number(value as f64))
-    }
-
-    fn visit_i64<E: de::Error>(self, value: i64) -> Result<NumberText, E> {
-        Ok(NumberText::Number(value as f64))
-    }
-
-    fn visit_u128<E: de::Error>(self, value: u128) -> Result<NumberText, E> {
-        Ok(NumberText::Number(value as f64))
-    }
-
-    fn visit_i128<E: de::Error>(self, value: i128) -> Result<NumberText, E> {
-        Ok(NumberText::Number(value as f64))
-    }
-
-    fn visit_f64<E: de::Error>(self, value: f64) -> Result<NumberText, E> {
-        Ok(NumberText::Number(value))
-    }
-
-    fn visit_str<E: de::Error>(self, text: &str) -> Result<NumberText, E> {
-        Ok(NumberText::Formula(text.to_owned()))
     }
 }
 
@@ -123,10 +92,23 @@ impl<T: schemars::JsonSchema> schemars::JsonSchema for NumberOr<T> {
     }
 }
 
+/// The map that may replace a number where no map is allowed.
+enum NoMap {}
+
+impl InPlaceOfNumber for NoMap {
+    const EXPECTED: &'static str = "a finite number or a formula";
+}
+
+impl<'de> Deserialize<'de> for NoMap {
+    fn deserialize<D: Deserializer<'de>>(_: D) -> Result<Self, D::Error> {
+        Err(D::Error::invalid_type(Unexpected::Map, &Self::EXPECTED))
+    }
+}
+
 struct EitherOf<T>(PhantomData<T>);
 
-fn number<'de, T, E: Error>(value: impl IntoDeserializer<'de, E>) -> Result<NumberOr<T>, E> {
-    NumberText::deserialize(value.into_deserializer()).map(NumberOr::Number)
+fn number<T, E>(value: f64) -> Result<NumberOr<T>, E> {
+    Ok(NumberOr::Number(NumberText::Number(value)))
 }
 
 impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Visitor<'de> for EitherOf<T> {
@@ -141,15 +123,15 @@ impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Visitor<'de> for EitherOf<T> {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<NumberOr<T>, E> {
-        number(text)
+        Ok(NumberOr::Number(NumberText::Formula(text.to_owned())))
     }
 
     fn visit_i64<E: Error>(self, value: i64) -> Result<NumberOr<T>, E> {
-        number(value)
+        number(value as f64)
     }
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<NumberOr<T>, E> {
-        number(value)
+        number(value as f64)
     }
 
     fn visit_i128<E: Error>(self, value: i128) -> Result<NumberOr<T>, E> {

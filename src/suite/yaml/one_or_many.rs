@@ -23,18 +23,11 @@ impl<T> OneOrMany<T> {
         &self.values
     }
 
-    /// Converts the setting to its alternatives; at least one.
-    pub fn into_vec(self) -> Vec<T> {
-        self.values
-    }
-
     /// Whether the file writes the alternatives in brackets.
     pub fn is_listed(&self) -> bool {
         self.listed
     }
-}
 
-impl<T> OneOrMany<T> {
     /// Returns `values` as a list if `self` is a list; otherwise the first value, if any.
     pub(crate) fn with_values(&self, values: impl IntoIterator<Item = T>) -> Option<Self> {
         let limit = if self.listed { usize::MAX } else { 1 };

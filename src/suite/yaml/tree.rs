@@ -366,25 +366,7 @@ impl TreeBuilder<'_> {
         }
         start
     }
-}
 
-fn is_node(event: &Event<'_>) -> bool {
-    matches!(event, Event::Scalar(..) | Event::SequenceStart(..) | Event::MappingStart(..))
-}
-
-/// Returns `infinity` or `NaN` if a plain scalar is such a number.
-fn not_finite(text: &str) -> Option<&'static str> {
-    if let ".nan" | ".NaN" | ".NAN" = text {
-        return Some("NaN");
-    }
-    match text.strip_prefix(['+', '-']).unwrap_or(text) {
-        ".inf" | ".Inf" | ".INF" => Some("infinity"),
-        _ => None,
-    }
-}
-
-/// Errors.
-impl TreeBuilder<'_> {
     fn diagnostic(&self, range: Range<usize>, message: &str) -> Diagnostic {
         Diagnostic::at(self.name, self.text, range, message)
     }
@@ -428,5 +410,20 @@ impl TreeBuilder<'_> {
     fn invalid(&self, at: usize, problem: &str) -> Diagnostic {
         let (name, text, brackets) = (self.name, self.text, self.brackets().collect());
         InvalidText { name, text, at, problem, events_end: self.events_end, brackets }.explain()
+    }
+}
+
+fn is_node(event: &Event<'_>) -> bool {
+    matches!(event, Event::Scalar(..) | Event::SequenceStart(..) | Event::MappingStart(..))
+}
+
+/// Returns `infinity` or `NaN` if a plain scalar is such a number.
+fn not_finite(text: &str) -> Option<&'static str> {
+    if let ".nan" | ".NaN" | ".NAN" = text {
+        return Some("NaN");
+    }
+    match text.strip_prefix(['+', '-']).unwrap_or(text) {
+        ".inf" | ".Inf" | ".INF" => Some("infinity"),
+        _ => None,
     }
 }

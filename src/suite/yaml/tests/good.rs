@@ -51,7 +51,7 @@ fn one_or_many_takes_every_form_of_its_type() {
     );
     assert_eq!(forms.whole.as_slice(), [-3]);
     assert_eq!(forms.real, 2.0.into());
-    assert_eq!(forms.formula.into_vec(), [formula("2*L")]);
+    assert_eq!(forms.formula.as_slice(), [formula("2*L")]);
     assert_eq!(forms.bare.as_slice(), [Material::Rigid]);
     let Material::LinearElastic(elastic) = &forms.with_settings.as_slice()[0] else { panic!() };
     assert_eq!(elastic.young.as_slice(), [number(1.0), formula("E")]);
