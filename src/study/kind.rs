@@ -1,14 +1,12 @@
 //! The interface of all kinds of study, and the list of kinds.
 
 use super::cache::ResultCache;
-use super::describe::Dispensable;
-use super::describe::{Rows, head};
+use super::describe::{Dispensable, Rows, head};
 use super::time_series::{SeriesError, ShownRun};
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::subject::{Profile, SubjectError};
-use crate::suite::model::StudyPlan;
-use crate::suite::model::Suite;
 use crate::suite::model::refine_plan::Extent;
+use crate::suite::model::{StudyPlan, Suite};
 use crate::verify::CaseOutcome;
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -3,9 +3,8 @@
 use super::cache::ResultCache;
 use super::kind::{CaseRunner, Progress, RunContext, StepWarning, statement, study};
 use super::preflight::{UNKNOWN, estimates};
-use super::time_series::{SeriesFile, time_series};
+use super::time_series::{SeriesError, SeriesFile, time_series};
 use crate::external::SolverFactory;
-use crate::study::time_series::SeriesError;
 use crate::suite::Extent;
 use crate::suite::model::Suite;
 use crate::suite::model::fingerprint::fingerprint;

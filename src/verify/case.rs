@@ -1,20 +1,13 @@
 //! Judges a case of a convergence study from its levels and the judge plan.
 
-use super::conservation::ConservationError;
-use super::convergence::{Convergence, LevelOutcome};
 use super::exclusion::leaves_too_few;
 use super::expectation::gate::{Acceptance, GateResult, Gating, rounding_remark};
-use super::expectation::limits::{Limits, Measured};
-use super::expectation::{CaseFindings, Expectation};
 use super::figure::{CaseFigure, counted};
-use super::judge_plan::{JudgePlan, LevelRun};
-use super::order::fit::Interval;
-use super::order::limit_estimate::{EstimateRefusal, LimitEstimate, SeriesPoint, estimate_limit};
-use super::rerun;
-use super::rerun::Reruns;
-use super::verdict::floor::Floor;
-use super::verdict::judge::Judgement;
-use super::verdict::name::Verdict;
+use super::{
+    CaseFindings, ConservationError, Convergence, EstimateRefusal, Expectation, Floor, Interval,
+    JudgePlan, Judgement, LevelOutcome, LevelRun, LimitEstimate, Limits, Measured, Reruns,
+    SeriesPoint, Verdict, estimate_limit, rerun,
+};
 
 /// Judgement of a case, computed from its levels.
 #[derive(Debug, Clone)]
@@ -245,11 +238,8 @@ fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, Estim
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::conservation::Conserved;
     use crate::verify::convergence::tests::study;
-    use crate::verify::order::hypothesis::OrderHypothesis;
-    use crate::verify::order::level::Level;
-    use crate::verify::verdict::judge::judge;
+    use crate::verify::{Conserved, Level, OrderHypothesis, judge};
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let mut level = study(&[error]).levels.remove(0);

@@ -1,20 +1,9 @@
 //! The results of a convergence study.
 
-use super::conservation::Conserved;
-use super::error::clock::StepKind;
-use super::error::judged_box::JudgedBox;
-use super::error::norm::ErrorScale;
-use super::error::norm::NormName;
-use super::error::observer::History;
-use super::error::quantity::Quantity;
-use super::error::run::RunResult;
-use super::expectation::gate::Acceptance;
-use super::order::format_number::format_number;
-use super::order::level::{Axis, Level};
-use super::order::limit_estimate::{EstimateRefusal, LimitEstimate};
-use super::verdict::floor::Floor;
-use super::verdict::judge::Judgement;
-use super::verdict::name::Verdict;
+use crate::verify::{
+    Acceptance, Axis, Conserved, ErrorScale, EstimateRefusal, Floor, History, JudgedBox, Judgement,
+    Level, LimitEstimate, NormName, Quantity, RunResult, StepKind, Verdict, format_number,
+};
 
 /// Results of a convergence study.
 #[derive(Debug, Clone)]
@@ -202,10 +191,7 @@ impl Convergence {
 pub(in crate::verify) mod tests {
     use super::*;
     use crate::subject::RunCounters;
-    use crate::verify::error::norm::RunErrors;
-    use crate::verify::order::hypothesis::OrderHypothesis;
-    use crate::verify::order::limit_estimate::{SeriesPoint, estimate_limit};
-    use crate::verify::verdict::judge::judge;
+    use crate::verify::{OrderHypothesis, RunErrors, SeriesPoint, estimate_limit, judge};
     use rstest::rstest;
 
     /// Creates a study with the spacings 1, 1/2, 1/4, ... and these errors, judged against order 2.

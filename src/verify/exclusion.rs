@@ -7,13 +7,8 @@
 //! Both rules apply to observed orders only. Bounds on errors are checked on excluded levels too,
 //! because a small error satisfies them regardless of its cause.
 
-use super::convergence::LevelOutcome;
-use super::error::norm::NormName;
-use super::order::format_number::{format_number, rounded};
-use super::order::level::Axis;
-use super::verdict::judge::Judgement;
-use super::verdict::name::Verdict;
 use crate::named::named;
+use crate::verify::{Axis, Judgement, LevelOutcome, NormName, Verdict, format_number, rounded};
 
 /// Maximum spread of a level that counts, as a fraction of its error.
 const MOST_SPREAD: f64 = 0.1;

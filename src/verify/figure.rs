@@ -6,11 +6,9 @@
 //! Schema, the checks of a suite, the comparison with the bound, and the reports are derived from
 //! the entry. How to add a measured value: `docs/exercises/figure.md`.
 
-use super::convergence::LevelOutcome;
-use super::error::norm::larger;
-use super::stability::Trial;
 use crate::named::named;
 use crate::subject::LedgerStage;
+use crate::verify::{LevelOutcome, Trial, larger};
 
 /// Calls the macro `declare` with every measured value that a convergence study can bound. The
 /// entry

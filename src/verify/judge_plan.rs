@@ -1,19 +1,10 @@
 //! The inputs that determine the judgement of a case, and the judgement of its levels.
 
-use super::conservation::Conserved;
-use super::convergence::LevelOutcome;
-use super::error::clock::StepKind;
-use super::error::judged_box::JudgedBox;
-use super::error::norm::ErrorScale;
-use super::error::norm::NormName;
-use super::error::quantity::Quantity;
-use super::error::run::RunResult;
 use super::exclusion::{rounding_bound, with_exclusions};
-use super::expectation::gate::Gating;
-use super::expectation::{Bounds, Expectation};
-use super::order::hypothesis::OrderHypothesis;
-use super::order::level::{Axis, Level};
-use super::verdict::judge::{Judgement, judge};
+use crate::verify::{
+    Axis, Bounds, Conserved, ErrorScale, Expectation, Gating, JudgedBox, Judgement, Level,
+    LevelOutcome, NormName, OrderHypothesis, Quantity, RunResult, StepKind, judge,
+};
 
 /// All inputs of the judgement of a case, except its levels.
 #[derive(Debug, Clone)]

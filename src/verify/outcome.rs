@@ -1,14 +1,10 @@
 //! The results of a suite: the input of all reports.
 
-use super::case::CaseJudgement;
-use super::convergence::Convergence;
-use super::expectation::gate::Gating;
-use super::gradient::GradientStudy;
-use super::spectrum::SpectrumStudy;
-use super::stability::StabilityStudy;
-use super::study_results::{InternalForce, StudyResults};
-use super::verdict::name::Verdict;
 use crate::subject::{Profile, SubjectError};
+use crate::verify::{
+    CaseJudgement, Convergence, Gating, GradientStudy, InternalForce, SpectrumStudy,
+    StabilityStudy, StudyResults, Verdict,
+};
 use std::sync::Arc;
 
 /// Results of one suite.

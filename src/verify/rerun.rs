@@ -7,13 +7,10 @@
 //!   external solver then misses the requirement of `run --gate`, the levels run again with shorter
 //!   steps.
 
-use super::convergence::LevelOutcome;
-use super::expectation::gate::{Acceptance, GateResult, Requirement};
 use super::judge_plan::{JudgePlan, LevelRun, series, usable_series};
-use super::order::level::Axis;
-use super::verdict::floor::{Floor, Probe};
-use super::verdict::judge::Judgement;
-use super::verdict::name::Verdict;
+use crate::verify::{
+    Acceptance, Axis, Floor, GateResult, Judgement, LevelOutcome, Probe, Requirement, Verdict,
+};
 use rayon::prelude::*;
 use std::fmt::Display;
 

@@ -1,9 +1,6 @@
 //! The results of a study of any kind, and the results of an internal-force study.
 
-use super::convergence::Convergence;
-use super::gradient::GradientStudy;
-use super::spectrum::SpectrumStudy;
-use super::stability::StabilityStudy;
+use crate::verify::{Convergence, GradientStudy, SpectrumStudy, StabilityStudy};
 use std::sync::Arc;
 
 /// Results of a study, by its kind. The functions that report them are listed in `report::study`.

@@ -1,7 +1,6 @@
 //! Columns of the cost tables: work of the methods for target errors.
 
-use super::{Cell, TableColumn, decimals, json_object, short};
-use crate::report::columns::number;
+use super::{Cell, TableColumn, decimals, json_object, number, short};
 use crate::verify::{Agreement, End, Exponent, Ranked, Ranking, Reach};
 
 type MethodColumn<'a> = TableColumn<'a, Ranked>;

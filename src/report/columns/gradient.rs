@@ -1,7 +1,6 @@
 //! Columns of a gradient study.
 
-use super::{Cell, TableColumn, decimals, scientific};
-use crate::report::columns::number;
+use super::{Cell, TableColumn, decimals, number, scientific};
 use crate::verify::{GradientLevel, GradientStudy, Perturbed, SweepPoint};
 use serde_json::{Value, json};
 

@@ -1,7 +1,6 @@
 //! Columns of the levels of a convergence study.
 
-use super::{Cell, TableColumn, decimals, json_object, scientific};
-use crate::report::columns::number;
+use super::{Cell, TableColumn, decimals, json_object, number, scientific};
 use crate::verify::{
     Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, Quantity,
     RunErrors, StepKind, observed_order,

@@ -1,7 +1,6 @@
 //! Columns of a stability study.
 
-use super::{Cell, TableColumn, json_object, scientific};
-use crate::report::columns::number;
+use super::{Cell, TableColumn, json_object, number, scientific};
 use crate::verify::{
     Critical, Prediction, RunFigure, StabilityLimit, StabilityRow, StabilityStudy, Trial,
 };

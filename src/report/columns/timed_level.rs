@@ -1,7 +1,6 @@
 //! Columns of the levels of a timed suite.
 
-use super::{Cell, TableColumn, short};
-use crate::report::columns::number;
+use super::{Cell, TableColumn, number, short};
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, LevelOutcome, TimedSuite, Timing, Workload};
 use serde_json::{Value, json};

@@ -1,8 +1,7 @@
 //! Compares errors and work of two series of levels, level by level.
 
 use super::changes::{ErrorMove, ratio_moved};
-use super::document::JsonNumber;
-use super::document::{CaseDocument, JudgeDocument, LevelDocument};
+use super::document::{CaseDocument, JsonNumber, JudgeDocument, LevelDocument};
 use super::snapshots::FINEST;
 use crate::verify::Quantity;
 

@@ -1,8 +1,7 @@
 //! Compares the stability studies of two runs, row by row.
 
 use super::changes::ratio_moved;
-use super::document::JsonNumber;
-use super::document::{LimitDocument, StabilityDocument, StabilityRowDocument};
+use super::document::{JsonNumber, LimitDocument, StabilityDocument, StabilityRowDocument};
 
 #[derive(Debug, Default)]
 pub(super) struct StabilityMove {

@@ -1,7 +1,6 @@
 //! Work-precision diagrams of a ranking.
 
-use super::Figure;
-use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
+use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 

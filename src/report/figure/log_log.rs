@@ -1,7 +1,6 @@
 //! The log-log plot: errors against cell size, time step or work.
 
-use super::plot::frame::{KEY, Legend, LegendEntry};
-use super::plot::frame::{Plot, Titles};
+use super::plot::frame::{KEY, Legend, LegendEntry, Plot, Titles};
 use super::plot::scale::{Pad, Scale};
 use super::plot::style::{CONTEXT, FRONT, NEUTRAL};
 use super::plot::svg::{Pt, SvgElement};

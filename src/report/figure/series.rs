@@ -1,7 +1,6 @@
 //! A series of a log-log plot: its points, its line, its failed levels, and its legend entries.
 
-use super::plot::frame::Plot;
-use super::plot::frame::{KEY, LegendEntry};
+use super::plot::frame::{KEY, LegendEntry, Plot};
 use super::plot::marker;
 use super::plot::marker::Fill;
 use super::plot::style::{CONTEXT, FRAME_HEIGHT, Look, MarkerShape, NEUTRAL, look};

@@ -1,7 +1,6 @@
 //! The figures of convergence studies.
 
-use super::Figure;
-use super::{LogLogPlot, Mark, PlotPoint, PlotSeries};
+use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::verify::{Axis, Convergence, LevelOutcome, SuiteOutcome, Verdict};
 
 /// Maximum number of curves in one plot, because a reader cannot distinguish more.

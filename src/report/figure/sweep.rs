@@ -1,8 +1,7 @@
 //! Figures of runs over a swept parameter: a map for each reported quantity.
 
-use super::Figure;
 use super::map::{column_head, merged_fields};
-use super::{Map, MapField};
+use super::{Figure, Map, MapField};
 use crate::verify::{
     CaseOutcome, RunFigure, Stability, StabilityRow, StabilityStudy, SuiteOutcome,
 };

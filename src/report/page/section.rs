@@ -1,8 +1,7 @@
 //! Section of a suite: text, verdicts, figures, the complete report, and the suite file.
 
 use super::html::Html;
-use super::tables::SuiteSource;
-use super::tables::{case_id, figure_cells, result, scrolled, suite_id};
+use super::tables::{SuiteSource, case_id, figure_cells, result, scrolled, suite_id};
 use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::{svg, text};
 use crate::verify::{CaseOutcome, SuiteOutcome};

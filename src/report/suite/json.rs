@@ -62,8 +62,7 @@
 //! lists the keys of rows.
 
 use crate::report::json::rankings;
-use crate::report::study::KINDS;
-use crate::report::study::members;
+use crate::report::study::{KINDS, members};
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};

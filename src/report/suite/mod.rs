@@ -5,8 +5,7 @@ pub(crate) mod overview;
 pub(crate) mod text;
 pub(crate) mod verdicts;
 
-use super::figure::Figure;
-use super::figure::cost;
+use super::figure::{Figure, cost};
 use super::study::KINDS;
 use crate::verify::{self, SuiteOutcome};
 

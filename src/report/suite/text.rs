@@ -8,8 +8,7 @@ use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
 use crate::report::text::profile::effects;
 use crate::report::text::prose::{paragraph_lines, row};
-use crate::report::text::table::Table;
-use crate::report::text::table::shared;
+use crate::report::text::table::{Table, shared};
 use crate::verify::{CaseOutcome, SuiteOutcome, Verdict};
 
 /// Returns the complete report of a suite.

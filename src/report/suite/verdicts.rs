@@ -1,12 +1,10 @@
 //! First part of a report: results and expectations of each case.
 
-use crate::report::columns::{TableColumn, decimals, scientific};
-use crate::report::columns::{distinct, grouped};
+use crate::report::columns::{TableColumn, decimals, distinct, grouped, scientific};
 use crate::report::study::KINDS;
 use crate::report::text::cost::cheapest;
 use crate::report::text::prose::{hanging, row};
-use crate::report::text::table::Table;
-use crate::report::text::table::together;
+use crate::report::text::table::{Table, together};
 use crate::verify::{CaseOutcome, Ranking};
 
 /// Relative error for which the cost of each case is compared.

@@ -3,7 +3,6 @@
 use super::prose::{paragraph_lines, row};
 use super::table::Table;
 use crate::report::columns::TableColumn;
-
 use crate::verify::{Cause, ChangedRun, Diagnosis, Evidence, Interval, Verdict};
 
 /// Writes the diagnosis of one case: a paragraph, and a table of the runs.

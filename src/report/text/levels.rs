@@ -1,11 +1,9 @@
 //! Tables of convergence studies, with a row for each case and a column for each level.
 
 use super::prose::row;
-use super::table::Table;
-use super::table::shared;
+use super::table::{Table, shared};
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
-use crate::report::columns::{TableColumn, decimals, level, short};
-use crate::report::columns::{distinct, grouped};
+use crate::report::columns::{TableColumn, decimals, distinct, grouped, level, short};
 use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, Quantity, StepKind,
     format_number,

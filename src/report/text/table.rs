@@ -1,7 +1,6 @@
 //! Plain aligned tables.
 
-use crate::report::columns::TableColumn;
-use crate::report::columns::{distinct, grouped};
+use crate::report::columns::{TableColumn, distinct, grouped};
 use std::borrow::Borrow;
 
 /// A line of headings, and rows of cells. Cells are aligned to the right by default.

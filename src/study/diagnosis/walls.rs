@@ -3,8 +3,7 @@
 use super::session::{Known, Session, accepts_grid, only, refusal};
 use crate::exact::Problem;
 use crate::mpm::FrameName;
-use crate::study::exact_motion::Extremes;
-use crate::study::exact_motion::raster;
+use crate::study::exact_motion::{Extremes, raster};
 use crate::study::handover::level_problem;
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;

@@ -14,9 +14,8 @@ use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
 use crate::suite::scene::boundary::{FaceSite, build as build_boundary};
 use crate::suite::scene::lattice::{LatticeOffsets, block};
-use crate::suite::scene::load;
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
-use crate::suite::scene::{cell_size, grid_axis, per_axis};
+use crate::suite::scene::{cell_size, grid_axis, load, per_axis};
 use crate::verify::Quantity;
 
 /// Model of a body at the start of a run.

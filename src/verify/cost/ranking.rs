@@ -1,10 +1,9 @@
 //! Ranks the methods of one problem by cost.
 
-use super::TARGETS;
-use super::exponent::Exponent;
-use super::sample::{ConvergingPart, End, Reach, Sample, pareto_front};
-use crate::verify::convergence::{Convergence, LevelOutcome};
-use crate::verify::outcome::CaseOutcome;
+use crate::verify::{
+    CaseOutcome, Convergence, ConvergingPart, End, Exponent, LevelOutcome, Reach, Sample, TARGETS,
+    pareto_front,
+};
 use std::cmp::Ordering;
 
 /// A method with its levels, coarse to fine.

@@ -1,7 +1,6 @@
 //! Measured seconds: their spread, the machine, and a suite with timed levels.
 
-use super::ranking::{Ranking, by_transfers, rankings};
-use crate::verify::outcome::SuiteOutcome;
+use crate::verify::{Ranking, SuiteOutcome, by_transfers, rankings};
 
 /// Work of a run, by kind.
 #[derive(Debug, Clone, Copy, PartialEq)]

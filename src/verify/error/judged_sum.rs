@@ -1,10 +1,9 @@
 //! Compares a sum over the body, such as its energy or momentum, with the exact value.
 
 use super::declaration::{ComputedSum, SumDeclaration, moments};
-use super::norm::Norms;
-use super::quantity::Quantity;
 use crate::exact::{BodySum, Problem, SumRegion};
 use crate::subject::Subject;
+use crate::verify::{Norms, Quantity};
 
 /// A sum over the body, such as its energy or momentum, that is compared with the exact value.
 #[derive(Debug)]

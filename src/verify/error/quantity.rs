@@ -12,11 +12,10 @@ use super::declaration::{
     STRESS, STRESS_XX, STRESS_XY, STRESS_XZ, STRESS_YY, STRESS_YZ, STRESS_ZZ, SolutionSize,
     SumDeclaration, SumNeed, TEMPERATURE, VELOCITY,
 };
-use super::norm::Norms;
 use crate::exact::Truth;
 use crate::named::named;
 use crate::subject::Samples;
-use crate::verify::order::format_number::format_number;
+use crate::verify::{Norms, format_number};
 use std::borrow::Cow;
 
 named! {

@@ -1,18 +1,14 @@
 //! Runs a solver on one level and compares the result with the exact solution.
 
-use super::clock::Clock;
-use super::clock::StepKind;
-use super::judged_box::JudgedBox;
 use super::judged_sum::{JudgedSum, over_instants};
 use super::norm::{NormName, Norms, RunErrors, larger, largest_length};
-use super::observer::{History, displacement_at};
-use super::quantity::Quantity;
-use super::spread::RunRecord;
 use crate::exact::Truth;
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use crate::verify::conservation::{Balance, ConservationError};
 use crate::verify::energy_rate::energy_rate;
-use crate::verify::order::fit::Interval;
+use crate::verify::{
+    Clock, History, Interval, JudgedBox, Quantity, RunRecord, StepKind, displacement_at,
+};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -6,10 +6,9 @@
 //! differences. A difference between two norms would not suffice, because errors with equal norms
 //! can differ at every label.
 
-use super::norm::{NormName, Norms, RunErrors};
-use super::quantity::Quantity;
 use crate::exact::Truth;
 use crate::subject::Samples;
+use crate::verify::{NormName, Norms, Quantity, RunErrors};
 use std::cmp::Ordering;
 
 /// Judged quantity of one run minus its exact value. The exact value is the same in all runs of a

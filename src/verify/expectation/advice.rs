@@ -1,16 +1,10 @@
 //! Compares an observed order with the range that a suite could expect, and suggests how to make
 //! the expectation stronger.
 
-use crate::verify::convergence::{Convergence, LevelOutcome};
-use crate::verify::error::norm::NormName;
-use crate::verify::order::fit::Interval;
-use crate::verify::order::format_number::format_number;
-use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::{Axis, Level};
-use crate::verify::order::t_quantile::two_sided_95;
-use crate::verify::order::window::FEWEST_LEVELS;
-use crate::verify::verdict::judge::judge;
-use crate::verify::verdict::name::Verdict;
+use crate::verify::{
+    Axis, Convergence, FEWEST_LEVELS, Interval, Level, LevelOutcome, NormName, OrderHypothesis,
+    Verdict, format_number, judge, two_sided_95,
+};
 
 /// Maximum width of the observed interval for which the default range is proposed, as a fraction of
 /// the half-width of this range.

@@ -7,13 +7,10 @@
 //! of a defect. The interval may extend below the bound, because with few levels it extends 0.1 or
 //! more to each side even for a correct solver.
 
-use crate::verify::order::fit::Interval;
-use crate::verify::order::format_number::{format_number, rounded};
-use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::{Axis, Level};
-use crate::verify::order::window::FEWEST_LEVELS;
-use crate::verify::verdict::judge::{Judgement, judge};
-use crate::verify::verdict::name::Verdict;
+use crate::verify::{
+    Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Verdict, format_number,
+    judge, rounded,
+};
 use thiserror::Error;
 
 /// Loss of order that a typical defect causes.

@@ -1,8 +1,6 @@
 //! Bounds on measured values. Without an expected order, one level is sufficient.
 
-use crate::verify::conservation::{ConservationError, Conserved};
-use crate::verify::figure::{BoundKind, CaseFigure};
-use crate::verify::order::format_number::{format_number, rounded};
+use crate::verify::{BoundKind, CaseFigure, ConservationError, Conserved, format_number, rounded};
 
 /// Bounds on measured values, drifts and rates. A value may equal its bound. All bounds must hold.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -6,9 +6,7 @@ pub(crate) mod limits;
 pub(crate) mod proposal;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};
-use super::order::hypothesis::OrderHypothesis;
-use super::verdict::floor::FloorCause;
-use super::verdict::name::Verdict;
+use crate::verify::{FloorCause, OrderHypothesis, Verdict};
 
 /// Lower and upper bound. A value may equal either bound.
 pub type Bounds = (f64, f64);
@@ -167,7 +165,7 @@ fn show((low, high): Bounds) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::figure::CaseFigure;
+    use crate::verify::CaseFigure;
     use rstest::rstest;
 
     const SEEN: CaseFindings = CaseFindings {

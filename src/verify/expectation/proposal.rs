@@ -6,12 +6,7 @@
 
 use super::advice::{advice, counted, is_inside, range};
 use crate::named::named;
-use crate::verify::conservation::Conserved;
-use crate::verify::convergence::{Convergence, LevelOutcome};
-use crate::verify::error::norm::larger;
-use crate::verify::order::format_number::format_number;
-use crate::verify::order::level::Axis;
-use crate::verify::verdict::name::Verdict;
+use crate::verify::{Axis, Conserved, Convergence, LevelOutcome, Verdict, format_number, larger};
 
 /// Maximum drift that is explained by rounding of the sums.
 const ROUNDING: f64 = 1e-11;

@@ -1,7 +1,6 @@
 //! The hypothesis that is tested on a series of errors.
 
-use super::format_number::format_number;
-use super::level::Axis;
+use crate::verify::{Axis, format_number};
 
 /// A theoretical order, and the range in which the observed order must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,8 +28,7 @@
 //! The coverage of the interval was measured over the suites with exact solutions
 //! (`docs/estimate.md`).
 
-use super::fit::Interval;
-use super::richardson::Richardson;
+use crate::verify::{Interval, Richardson};
 use serde::Serialize;
 use std::fmt;
 

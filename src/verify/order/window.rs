@@ -15,10 +15,9 @@
 //! Of all such windows the longest is selected; of two equally long ones, the finer. The test is
 //! repeated on the selected window until no shorter one replaces it.
 
-use std::ops::Range;
-
 use super::fit::{FittedLine, LogPoint};
 use super::variance_ratio;
+use std::ops::Range;
 
 /// Minimum number of levels for an order; the interval then has two degrees of freedom.
 pub(crate) const FEWEST_LEVELS: usize = 4;

@@ -1,7 +1,6 @@
 //! Expectations of a spectrum study.
 
-use super::study::SpectrumRow;
-use super::wave::AMPLITUDE;
+use crate::verify::{AMPLITUDE, SpectrumRow};
 
 /// Maximum deviations from the prediction, divided by the predicted value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +72,7 @@ fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::spectrum::study::WaveFigures;
+    use crate::verify::WaveFigures;
 
     const EXPECTED: SpectrumExpectation =
         SpectrumExpectation { phase_within: Some(0.02), damping_within: Some(0.02) };

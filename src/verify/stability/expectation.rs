@@ -1,10 +1,8 @@
 //! Expectations of a stability study, one for each row.
 
-use super::limit::StabilityLimit;
-use super::outcome::{Critical, StabilityRow};
-use super::trial_result::{Stability, Trial};
-use crate::verify::figure::RunFigure;
-use crate::verify::order::format_number::format_number;
+use crate::verify::{
+    Critical, RunFigure, Stability, StabilityLimit, StabilityRow, Trial, format_number,
+};
 
 /// Expectation of one row.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,10 +1,7 @@
 //! The results of a stability study.
 
-use super::limit::StabilityLimit;
-use super::trial_result::{Stability, Trial};
 use crate::subject::SubjectError;
-use crate::verify::figure::RunFigure;
-use crate::verify::order::format_number::format_number;
+use crate::verify::{RunFigure, Stability, StabilityLimit, Trial, format_number};
 
 /// Results of a stability study: one row for each value of the swept parameter.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,10 +5,9 @@
 //! measures the size of the stress, which is sufficient to detect growth. The energy is divided by
 //! its initial value, or by the energy of a unit strain if the body starts at rest.
 
-use super::trial_result::{Scales, Stability, Trial};
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
-use crate::verify::error::norm::larger;
+use crate::verify::{Scales, Stability, Trial, larger};
 
 /// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
 /// growth appears in the first steps, and slow growth needs no frequent checks.
@@ -244,10 +243,10 @@ pub(super) fn checkerboard(samples: &Samples) -> f64 {
 mod tests {
     use super::*;
     use crate::subject::{RunCounters, Totals};
-    use crate::verify::figure::RunFigure;
-    use crate::verify::stability::expectation::StabilityExpectation;
-    use crate::verify::stability::limit::StabilityLimit;
-    use crate::verify::stability::outcome::{Critical, Prediction, StabilityRow, StabilityStudy};
+    use crate::verify::{
+        Critical, Prediction, RunFigure, StabilityExpectation, StabilityLimit, StabilityRow,
+        StabilityStudy,
+    };
     use approx::assert_relative_eq;
 
     /// A solver with one point of mass 2 under a stress of 1, and a given kinetic energy (J) for
@@ -361,12 +360,6 @@ mod tests {
         let velocity = vec![1.0, f64::NAN, 2.0];
         assert!(fastest(&Samples { dimension: 1, velocity, ..Samples::default() }).is_nan());
     }
-}
-
-#[cfg(test)]
-mod tests_of_checkerboard {
-    use super::*;
-    use approx::assert_relative_eq;
 
     fn row(stress: &[f64]) -> Samples {
         let n = stress.len();

@@ -1,9 +1,6 @@
 //! Determines why a case does not have the theoretical order. Each run changes one property.
 
-use crate::verify::order::fit::Interval;
-use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::verdict::judge::Judgement;
-use crate::verify::verdict::name::Verdict;
+use crate::verify::{Interval, Judgement, OrderHypothesis, Verdict};
 
 /// A change that neither restores nor raises the order is reported only if it reduces the finest
 /// error to this fraction or less.
@@ -250,8 +247,8 @@ impl Diagnosis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::verify::order::level::Level;
-    use crate::verify::verdict::judge::judge;
+    use crate::verify::{Level, judge};
+    use Verdict::{Converging, TooLow};
 
     fn found(verdict: Verdict, order: Interval) -> Judgement {
         let none = judge(&[Level::new(1.0, 1.0)], &OrderHypothesis::formal(2.0));
@@ -294,8 +291,6 @@ mod tests {
     fn evidence(diagnosis: &Diagnosis) -> Option<Evidence> {
         diagnosis.found().map(|(_, evidence)| evidence)
     }
-
-    use Verdict::{Converging, TooLow};
 
     /// A change of the order from 1.7 to 2.05 brings it nearer to 2, but a change to 2.4 does not.
     #[test]

@@ -1,10 +1,9 @@
 //! Detects divergence, oscillation and floors (errors that stop decreasing) in a series of errors.
 //! The rules use only error ratios, so the units of the error and of `h` have no effect.
 
-use std::f64::consts::LN_2;
-
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::window::{FEWEST_LEVELS, FLAT_ORDER};
+use std::f64::consts::LN_2;
 
 /// Minimum total growth of a divergent series: a factor of two. Smaller growth may be noise on a
 /// floor.

@@ -6,8 +6,7 @@
 //! terms (Roy 2005, J. Comput. Phys. 205, 131).
 
 use crate::named::named;
-use crate::verify::order::format_number::format_number;
-use crate::verify::order::level::Axis;
+use crate::verify::{Axis, format_number};
 
 /// Minimum relative decrease of the error, due to half the spacing of an axis, for which this axis
 /// is the cause. A decrease by a quarter means that the axis causes half of the error if its order
@@ -104,6 +103,7 @@ impl Floor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use Axis::{Particles, Space, Time};
     use rstest::rstest;
 
     fn floor(error: f64, probes: &[(Axis, Result<f64, &str>)]) -> Floor {
@@ -113,8 +113,6 @@ mod tests {
         };
         Floor { error, probes: probes.iter().map(probe).collect() }
     }
-
-    use Axis::{Particles, Space, Time};
 
     #[rstest]
     #[case::first_order(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))], Some(FloorCause::Time))]

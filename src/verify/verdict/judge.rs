@@ -12,17 +12,14 @@
 //!
 //! Unusable levels take part in step 1 only.
 
-use std::ops::Range;
-
 use super::error_trend;
-use super::name::Verdict;
 use super::reason::Reason;
 use crate::verify::order::fit::{FittedLine, Interval, LogPoint};
-use crate::verify::order::hypothesis::OrderHypothesis;
-use crate::verify::order::level::pairwise;
-use crate::verify::order::level::{Level, arrange};
+use crate::verify::order::level::{Level, arrange, pairwise};
 use crate::verify::order::window;
 use crate::verify::order::window::{FEWEST_LEVELS, Window};
+use crate::verify::{OrderHypothesis, Verdict};
+use std::ops::Range;
 
 /// Maximum half-width of the interval of a settled order. The orders of two methods typically
 /// differ by 0.5, which is twice this value.

@@ -1,10 +1,8 @@
 //! States the reason of a verdict in one line, with the measured values that led to it.
 
-use super::name::Verdict;
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::{format_number, order};
-use crate::verify::order::level::{Axis, Level};
-use crate::verify::order::window::FEWEST_LEVELS;
+use crate::verify::{Axis, FEWEST_LEVELS, Level, Verdict};
 
 /// Reason of a verdict. Levels are given as indices into the series.
 pub(crate) enum Reason {
