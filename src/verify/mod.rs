@@ -82,7 +82,7 @@ pub use order::level::{Axis, Level, observed_order};
 pub use order::limit_estimate::{
     EstimateRefusal, LEVELS_OF_ESTIMATE, LimitEstimate, SeriesPoint, estimate_limit,
 };
-pub use order::richardson::{Richardson, RichardsonClass};
+pub use order::richardson::Richardson;
 pub use order::t_quantile::two_sided_95;
 pub(crate) use order::window::FEWEST_LEVELS;
 pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};

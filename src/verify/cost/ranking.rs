@@ -26,7 +26,7 @@ pub struct Ranked {
     pub method: MethodCost,
     /// Levels over which the method converges.
     pub part: ConvergingPart,
-    /// Spacing and work at each target error.
+    /// Work at each target error.
     pub reaches: Vec<Reach>,
     /// Work at each target error, divided by the smallest work of all methods; `None` if the method
     /// does not reach the target.

@@ -158,7 +158,7 @@ pub fn pareto_front(samples: &[Sample]) -> Vec<usize> {
     order
 }
 
-/// Work and spacing at which the error reaches a target.
+/// Work at which the error reaches a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reach {
     /// The error is reached between two levels of the converging part. Values are interpolated
@@ -166,8 +166,6 @@ pub enum Reach {
     At {
         /// Interpolated work.
         work: f64,
-        /// Interpolated spacing.
-        spacing: f64,
     },
     /// The coarsest level already reaches the error. This is the coarsest of all valid levels if
     /// all of them reach the error, otherwise the coarsest of the converging part. The work of this
@@ -175,16 +173,14 @@ pub enum Reach {
     Already {
         /// Work of the coarsest level.
         work: f64,
-        /// Spacing of the coarsest level.
-        spacing: f64,
     },
     /// No level of the converging part reaches the error.
     Never,
 }
 
 impl Reach {
-    /// Returns the work and spacing at which the levels reach the error `target`. The levels are
-    /// sorted from coarse to fine and converge over `part`.
+    /// Returns the work at which the levels reach the error `target`. The levels are sorted from
+    /// coarse to fine and converge over `part`.
     pub fn of(samples: &[Sample], part: &ConvergingPart, target: f64) -> Self {
         let mut counted = samples.iter().filter(|one| one.counts());
         let unbroken = samples.iter().all(|one| !one.failed);
@@ -193,36 +189,24 @@ impl Reach {
             && first.error <= target
             && counted.all(|one| one.error <= target)
         {
-            return Self::Already { work: first.work, spacing: first.spacing };
+            return Self::Already { work: first.work };
         }
         let levels = &samples[part.levels.clone()];
         let Some(k) = levels.iter().position(|one| one.error <= target) else {
             return Self::Never;
         };
         if k == 0 {
-            return Self::Already { work: levels[0].work, spacing: levels[0].spacing };
+            return Self::Already { work: levels[0].work };
         }
         let (coarse, fine) = (&levels[k - 1], &levels[k]);
         let share = libm::log(coarse.error / target) / libm::log(coarse.error / fine.error);
-        let between = |a: f64, b: f64| a * libm::pow(b / a, share);
-        Self::At {
-            work: between(coarse.work, fine.work),
-            spacing: between(coarse.spacing, fine.spacing),
-        }
+        Self::At { work: coarse.work * libm::pow(fine.work / coarse.work, share) }
     }
 
     /// Returns the work at the error, if it is reached.
     pub fn work(&self) -> Option<f64> {
         match self {
-            Self::At { work, .. } | Self::Already { work, .. } => Some(*work),
-            Self::Never => None,
-        }
-    }
-
-    /// Returns the spacing at the error, if it is reached.
-    pub fn spacing(&self) -> Option<f64> {
-        match self {
-            Self::At { spacing, .. } | Self::Already { spacing, .. } => Some(*spacing),
+            Self::At { work } | Self::Already { work } => Some(*work),
             Self::Never => None,
         }
     }

@@ -60,7 +60,6 @@ fn reach(samples: &[Sample], target: f64) -> Reach {
 fn interpolation_of_a_power_law_is_exact() {
     let found = reach(&power(2.0, 3.0, 6), 1e-2);
     assert_relative_eq!(found.work().unwrap(), libm::pow(1e-2, -1.5), max_relative = 1e-12);
-    assert_relative_eq!(found.spacing().unwrap(), 0.1, max_relative = 1e-12);
     assert!(matches!(found, Reach::At { .. }));
 }
 
@@ -189,9 +188,6 @@ proptest! {
         let fine = reach(&samples, target);
         let coarse = reach(&samples, 10.0 * target);
         prop_assert!(fine.work().is_none() || coarse.work().is_some());
-        if let (Some(fine), Some(coarse)) = (fine.spacing(), coarse.spacing()) {
-            prop_assert!(fine <= coarse * (1.0 + 1e-12));
-        }
     }
 
     /// No level dominates a level on the front. Every level that counts is dominated or equalled by
