@@ -35,8 +35,19 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
 /// Returns the points of the body on a regular lattice over its bounding box, with `intervals`
 /// intervals along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
-    let point = |mut rest: usize| {
-        let corners = problem.from.iter().zip(&problem.to);
+    let points = lattice(&problem.from, &problem.to, intervals);
+    points.filter(|place| problem.holds(place)).collect()
+}
+
+/// Returns the points of a regular lattice between two corners (m), with `intervals` intervals
+/// along each axis.
+pub(crate) fn lattice(
+    from: &[f64],
+    to: &[f64],
+    intervals: usize,
+) -> impl Iterator<Item = Vec<f64>> {
+    let point = move |mut rest: usize| {
+        let corners = from.iter().zip(to);
         let coordinate = |(a, b): (&f64, &f64)| {
             let share = (rest % (intervals + 1)) as f64 / intervals as f64;
             rest /= intervals + 1;
@@ -44,8 +55,7 @@ pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
         };
         corners.map(coordinate).collect::<Vec<f64>>()
     };
-    let points = (intervals + 1).pow(problem.dimension() as u32);
-    (0..points).map(point).filter(|place| problem.holds(place)).collect()
+    (0..(intervals + 1).pow(from.len() as u32)).map(point)
 }
 
 /// Number of sampling intervals along each axis, by dimension.

@@ -2,7 +2,7 @@
 //! particle.
 
 use crate::study::describe::{Rows, push};
-use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, Study};
 use crate::suite::compile::internal_force;
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::scene::numbers::with_unit;
@@ -15,20 +15,18 @@ impl Study for ForcePlan {
         rows(self)
     }
 
-    fn runner<'a>(&'a self, _: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(ForceRunner(self))
+    fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
+        Box::new(PlanRunner { plan: self, context })
     }
 }
 
-struct ForceRunner<'a>(&'a ForcePlan);
-
-impl CaseRunner for ForceRunner<'_> {
+impl CaseRunner for PlanRunner<'_, ForcePlan> {
     fn units(&self) -> u64 {
-        self.0.cases.len() as u64
+        self.plan.cases.len() as u64
     }
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
-        let outcome = internal_force(self.0, &self.0.cases[index]);
+        let outcome = internal_force(self.plan, &self.plan.cases[index]);
         progress();
         outcome
     }

@@ -86,6 +86,12 @@ pub(crate) struct RunContext<'a> {
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
+/// A plan, and the other inputs of its runs.
+pub(crate) struct PlanRunner<'a, P> {
+    pub(crate) plan: &'a P,
+    pub(crate) context: RunContext<'a>,
+}
+
 impl RunContext<'_> {
     /// Returns the cached result of `key`. If there is none, caches and returns the result of
     /// `run`. `name` is the name of the result in messages. A result of an external solver for

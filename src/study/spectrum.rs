@@ -4,7 +4,7 @@ use crate::external::{ProblemNeeds, SolverFactory};
 use crate::report::columns::distinct;
 use crate::study::describe::{Rows, push, scene};
 use crate::study::handover::{HandedRun, of_scene, problem, start, unloaded};
-use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
+use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::perturbable;
 use crate::study::setup::initial_state::Initial;
@@ -23,10 +23,6 @@ use std::sync::Arc;
 
 /// Relative phase error for which reports contain the number of cells per wavelength.
 const ONE_PERCENT: f64 = 0.01;
-
-fn needs(plan: &SpectrumPlan) -> ProblemNeeds {
-    of_scene(&plan.scene)
-}
 
 struct WaveRun<'a> {
     plan: &'a SpectrumPlan,
@@ -148,7 +144,7 @@ impl WaveRun<'_> {
 }
 
 fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
-    let mut lacks = solver.lacks(&needs(plan));
+    let mut lacks = solver.lacks(&of_scene(&plan.scene));
     if solver.precision() == Precision::Single {
         lacks.push("double precision".to_owned());
     }
@@ -161,20 +157,15 @@ impl Study for SpectrumPlan {
     }
 
     fn needs(&self) -> Option<ProblemNeeds> {
-        Some(needs(self))
+        Some(of_scene(&self.scene))
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(SpectrumRunner { plan: self, context })
+        Box::new(PlanRunner { plan: self, context })
     }
 }
 
-struct SpectrumRunner<'a> {
-    plan: &'a SpectrumPlan,
-    context: RunContext<'a>,
-}
-
-impl CaseRunner for SpectrumRunner<'_> {
+impl CaseRunner for PlanRunner<'_, SpectrumPlan> {
     fn units(&self) -> u64 {
         (self.plan.cases.len() * self.plan.waves.len()) as u64
     }

@@ -2,7 +2,7 @@
 
 use crate::exact::{Problem, Truth};
 use crate::mpm::SchemeName;
-use crate::study::exact_motion::Extremes;
+use crate::study::exact_motion::{Extremes, lattice};
 use crate::subject::Start;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
@@ -198,16 +198,9 @@ pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Tru
 /// Returns the sampling points of the body, including its faces.
 fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     let scene = &plan.scene;
-    let place = |index: usize| -> Vec<f64> {
-        let along = |axis: usize| {
-            let k = index / (per_axis + 1).pow(axis as u32) % (per_axis + 1);
-            scene.from[axis] + (scene.to[axis] - scene.from[axis]) * (k as f64 / per_axis as f64)
-        };
-        (0..scene.dimension()).map(along).collect()
-    };
     let outline = scene.outline.as_ref();
     let inside = |place: &Vec<f64>| outline.is_none_or(|outline| outline.holds(place));
-    (0..(per_axis + 1).pow(scene.dimension() as u32)).map(place).filter(inside).collect()
+    lattice(&scene.from, &scene.to, per_axis).filter(inside).collect()
 }
 
 /// Returns the theoretical exponent k in work ~ spacing^-k. The number of steps is taken from the

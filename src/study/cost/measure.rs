@@ -55,17 +55,8 @@ impl TimingJob<'_> {
     }
 }
 
-/// Measures the time (s) of the steps of a level, until the run ends or fails.
-pub(crate) fn seconds(
-    plan: &ConvergencePlan,
-    case: &Case,
-    level: LevelPlan,
-) -> Result<f64, SubjectError> {
-    seconds_of(plan, case, level, || subject(plan, case.method, level))
-}
-
-/// Measures the time (s) of the steps of a solver on a level. The time of an external solver
-/// includes its response time.
+/// Measures the time (s) of the steps of a solver on a level, until the run ends or fails. The time
+/// of an external solver includes its response time.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,
@@ -191,10 +182,8 @@ pub fn goals(suite: &Suite, target: f64) -> Vec<Goal<'_>> {
         let case = plan.cases.iter().find(|case| case.name == row.method.name)?;
         let k = row.part.levels.clone().find(|k| row.method.samples[*k].error <= target)?;
         let level = *plan.refine.levels.get(k)?;
-        Some((
-            row.method.samples[k],
-            Goal { plan, case, level, error: row.method.samples[k].error },
-        ))
+        let sample = row.method.samples[k];
+        Some((sample, Goal { plan, case, level, error: sample.error }))
     };
     let rows = ranked.first().map_or(&[][..], |ranking| &ranking.rows);
     let mut goals: Vec<_> = rows.iter().filter_map(goal).collect();
@@ -223,7 +212,8 @@ impl Goal<'_> {
     /// # Errors
     /// The reason why the level cannot be set up.
     pub fn seconds(&self) -> Result<f64, SubjectError> {
-        seconds(self.plan, self.case, self.level)
+        let Self { plan, case, level, .. } = *self;
+        seconds_of(plan, case, level, || subject(plan, case.method, level))
     }
 }
 

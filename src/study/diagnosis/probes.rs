@@ -4,8 +4,7 @@
 //! methods of this crate.
 
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, combine,
-    combine_across,
+    BasisName, FrameName, MassName, SchemeName, TransferName, combine, combine_across,
 };
 use crate::study::preflight::alignment::is_aligned;
 use crate::subject::Start;
@@ -163,16 +162,12 @@ pub(super) const START: ProbeKind = ProbeKind {
     change: "`start: half_step_back`",
     cause: |_, _| "the start: v(0) is used as v(-dt/2), which is an error of first order in time",
     remedy: "`start: half_step_back`",
-    apply: |plan| match plan.cases[0].method {
-        Method::Mpm { start: Start::AtZero, .. } | Method::Fem { start: Start::AtZero, .. } => {
-            with_method(plan, |method| match method {
-                Method::Mpm { start, .. } | Method::Fem { start, .. } => {
-                    *start = Start::HalfStepBack;
-                }
-                Method::QuasiStatic { .. } | Method::Heat { .. } | Method::External { .. } => {}
-            })
-        }
-        _ => None,
+    apply: |plan| {
+        with_method(plan, |method| {
+            if let Method::Mpm { start, .. } | Method::Fem { start, .. } = method {
+                *start = Start::HalfStepBack;
+            }
+        })
     },
 };
 
@@ -180,13 +175,12 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
     change: "`scheme: musl`",
     cause: |_, _| "the scheme: USF updates the stress half a step late, an error of first order in time",
     remedy: "`scheme: musl` or `usl`, or shorter steps",
-    apply: |plan| match plan.cases[0].method {
-        Method::Mpm { scheme: SchemeName::Usf, .. } => with_method(plan, |method| {
-            if let Method::Mpm { scheme, .. } = method {
+    apply: |plan| {
+        with_method(plan, |method| {
+            if let Method::Mpm { scheme: scheme @ SchemeName::Usf, .. } = method {
                 *scheme = SchemeName::Musl;
             }
-        }),
-        _ => None,
+        })
     },
 };
 
@@ -197,13 +191,12 @@ pub(super) const DOMAINS: ProbeKind = ProbeKind {
          compressed, which is an error proportional to the strain"
     },
     remedy: "`basis: cpgimp`, whose domains follow the deformation",
-    apply: |plan| match plan.cases[0].method {
-        Method::Mpm { basis: BasisName::UniformGimp, .. } => with_method(plan, |method| {
-            if let Method::Mpm { basis, .. } = method {
+    apply: |plan| {
+        with_method(plan, |method| {
+            if let Method::Mpm { basis: basis @ BasisName::UniformGimp, .. } = method {
                 *basis = BasisName::ContiguousGimp;
             }
-        }),
-        _ => None,
+        })
     },
 };
 
@@ -215,18 +208,13 @@ pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     },
     remedy: "`transfer: apic`, which takes its gradients from the basis",
     apply: |plan| {
-        let is_fit = |choice: TransferChoice| choice == TransferName::Mls.into();
         let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
-        match plan.cases[0].method {
-            Method::Mpm { transfer, .. } if has_walls && is_fit(transfer) => {
-                with_method(plan, |method| {
-                    if let Method::Mpm { transfer, .. } = method {
-                        *transfer = TransferName::Apic.into();
-                    }
-                })
+        with_method(plan, |method| match method {
+            Method::Mpm { transfer, .. } if has_walls && *transfer == TransferName::Mls.into() => {
+                *transfer = TransferName::Apic.into();
             }
-            _ => None,
-        }
+            _ => {}
+        })
     },
 };
 
@@ -279,13 +267,12 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
         Crossings::Some => "grid crossing: the gradients of linear functions jump",
     },
     remedy: "a basis with continuous gradients",
-    apply: |plan| match plan.cases[0].method {
-        Method::Mpm { basis: BasisName::Linear, .. } => with_method(plan, |method| {
-            if let Method::Mpm { basis, .. } = method {
+    apply: |plan| {
+        with_method(plan, |method| {
+            if let Method::Mpm { basis: basis @ BasisName::Linear, .. } = method {
                 *basis = BasisName::QuadraticBSpline;
             }
-        }),
-        _ => None,
+        })
     },
 };
 

@@ -7,7 +7,7 @@ use crate::external::{GradientError, ProblemNeeds, SolverFactory};
 use crate::study::convergence::statement;
 use crate::study::describe::{Rows, push};
 use crate::study::handover::needs;
-use crate::study::kind::{CaseRunner, Progress, RunContext, Study};
+use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;
 use crate::suite::evaluator::shown;
 use crate::suite::model::gradient::{GradientCase, GradientPlan};
@@ -24,16 +24,11 @@ impl Study for GradientPlan {
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(GradientRunner { plan: self, context })
+        Box::new(PlanRunner { plan: self, context })
     }
 }
 
-struct GradientRunner<'a> {
-    plan: &'a GradientPlan,
-    context: RunContext<'a>,
-}
-
-impl CaseRunner for GradientRunner<'_> {
+impl CaseRunner for PlanRunner<'_, GradientPlan> {
     fn units(&self) -> u64 {
         let levels = self.plan.problem.refine.levels(self.context.extent).len() as u64;
         let perturbed = u64::from(LAST_LEVEL - FIRST_LEVEL + 1);

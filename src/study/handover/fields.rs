@@ -158,25 +158,16 @@ impl SceneFields {
     }
 
     fn check_on_face(&self, number: usize, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
-        let d = self.scene.dimension();
         let Some(face) = self.scene.faces.get(number) else {
             return Err(FieldError::Request("there is no such face".to_owned()));
         };
         let ends = if face.high { &self.scene.to } else { &self.scene.from };
         let (end, near) = (ends[face.axis], self.scene.rounding());
         let is_off = |label: &[f64]| !((label[face.axis] - end).abs() <= near);
-        match at.labels.chunks_exact(d).position(is_off) {
-            None => Ok(()),
-            Some(place) => Err(FieldError::Request(format!(
-                "place {place}, {}, is not on the face `{}`, whose coordinate is {end} m",
-                shown(&at.labels[place * d..(place + 1) * d]),
-                face.name
-            ))),
-        }
+        let surface = format!("the face `{}`, whose coordinate is {end} m", face.name);
+        self.check_on(&surface, is_off, at)
     }
-}
 
-impl SceneFields {
     fn check_on_rim(&self, circle: &Circle, at: &FieldPlaces<'_>) -> Result<(), FieldError> {
         let Circle { name, centre, radius, .. } = circle;
         let near = self.scene.rounding();
@@ -184,14 +175,20 @@ impl SceneFields {
             let square: f64 = label.iter().zip(centre).map(|(x, c)| (x - c) * (x - c)).sum();
             !((square.sqrt() - radius).abs() <= near)
         };
-        let d = self.scene.dimension();
-        match at.labels.chunks_exact(d).position(is_off) {
-            None => Ok(()),
-            Some(place) => Err(FieldError::Request(format!(
-                "place {place}, {}, is not on the {name} rim, whose radius is {radius} m",
-                shown(&at.labels[place * d..(place + 1) * d])
-            ))),
-        }
+        self.check_on(&format!("the {name} rim, whose radius is {radius} m"), is_off, at)
+    }
+
+    fn check_on(
+        &self,
+        surface: &str,
+        is_off: impl Fn(&[f64]) -> bool,
+        at: &FieldPlaces<'_>,
+    ) -> Result<(), FieldError> {
+        let mut labels = at.labels.chunks_exact(self.scene.dimension()).enumerate();
+        labels.find(|(_, label)| is_off(label)).map_or(Ok(()), |(place, label)| {
+            let label = shown(label);
+            Err(FieldError::Request(format!("place {place}, {label}, is not on {surface}")))
+        })
     }
 }
 

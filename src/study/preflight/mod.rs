@@ -85,11 +85,8 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
 /// conduction is unstable. If a study in space has the same step on all levels, the finding is a
 /// note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
-    found.extend(too_long(preflight));
-    found.extend(too_long_for_heat(preflight));
-    found.extend(fixed(preflight));
-    found
+    let found = [too_long(preflight), too_long_for_heat(preflight), fixed(preflight)];
+    found.into_iter().flatten().collect()
 }
 
 /// Warns of a step that is too long for the motion. An automatic step is checked as a fraction of

@@ -19,7 +19,7 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     let scene = &plan.scene;
     let (from, to) = (scene.from[0], scene.to[0]);
     let elements = libm::round((to - from) / cell_size(scene, cells)).max(1.0);
-    let [deformed, moving] = [Initial::of(plan), Initial::of(plan)];
+    let [deformed, moving] = [(); 2].map(|()| Initial::of_body(plan, scene));
     let setup = fem::BarSetup {
         from,
         to,

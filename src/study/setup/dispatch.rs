@@ -4,7 +4,7 @@
 use super::bar::bar;
 use super::body::{Body, conductor, quasi_static, setup};
 use crate::dimension::with_dimension;
-use crate::mpm::{BasisName, Bodies, Setup, Solver, Vector};
+use crate::mpm::{Bodies, HeatSolver, QuasiStatic, Setup, Solver, Vector};
 use crate::subject::{Perturbable, Profile, Subject, SubjectError};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::Method;
@@ -38,48 +38,34 @@ pub fn subject(
 /// Returns the profile of the second step of `method` on one level, because the first step also
 /// allocates memory. `None` for FEM, and if the solver fails earlier.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
-    fn of_second_step<const D: usize>(
-        plan: &ConvergencePlan,
-        method: Method,
-        level: LevelPlan,
+    fn of_second_step<S: Subject>(
+        mut subject: S,
+        dt: f64,
+        take_visits: fn(&S) -> Vec<(&'static str, u64)>,
+        profile: fn(&S) -> Profile,
     ) -> Option<Profile> {
-        let setups = setups::<D>(plan, method, level).ok()?;
-        let mut bodies = Bodies::new(setups, plan.scene.contact).ok()?;
-        bodies.step(level.dt).ok()?;
-        bodies.take_visits();
-        bodies.step(level.dt).ok()?;
-        let visits = bodies.take_visits();
-        Some(Profile { passes: bodies.passes(), visits, ..bodies.profile() })
+        subject.step(dt).ok()?;
+        take_visits(&subject);
+        subject.step(dt).ok()?;
+        let visits = take_visits(&subject);
+        Some(Profile { passes: subject.passes(), visits, ..profile(&subject) })
     }
-    fn of_heat<const D: usize>(
-        plan: &ConvergencePlan,
-        basis: BasisName,
-        level: LevelPlan,
-    ) -> Option<Profile> {
-        let mut body = conductor::<D>(plan, basis, level).ok()?;
-        body.step(level.dt).ok()?;
-        body.take_visits();
-        body.step(level.dt).ok()?;
-        let visits = body.take_visits();
-        Some(Profile { passes: body.passes(), visits, ..body.profile() })
-    }
-    fn of_load_steps<const D: usize>(
-        plan: &ConvergencePlan,
-        basis: BasisName,
-        level: LevelPlan,
-    ) -> Option<Profile> {
-        let mut body = quasi_static::<D>(plan, basis, level, 2).ok()?;
-        body.step(1.0).ok()?;
-        body.take_visits();
-        body.step(1.0).ok()?;
-        let visits = body.take_visits();
-        Some(Profile { passes: body.passes(), visits, ..body.profile() })
-    }
+    let dt = level.dt;
     with_dimension!(plan.scene.dimension(), D => match method {
-        Method::QuasiStatic { basis, .. } => of_load_steps::<D>(plan, basis, level),
+        Method::QuasiStatic { basis, .. } => {
+            let body = quasi_static::<D>(plan, basis, level, 2).ok()?;
+            of_second_step(body, 1.0, QuasiStatic::take_visits, QuasiStatic::profile)
+        }
         Method::Fem { .. } | Method::External { .. } => None,
-        Method::Heat { basis } => of_heat::<D>(plan, basis, level),
-        Method::Mpm { .. } => of_second_step::<D>(plan, method, level),
+        Method::Heat { basis } => {
+            let body = conductor::<D>(plan, basis, level).ok()?;
+            of_second_step(body, dt, HeatSolver::take_visits, HeatSolver::profile)
+        }
+        Method::Mpm { .. } => {
+            let setups = setups::<D>(plan, method, level).ok()?;
+            let bodies = Bodies::new(setups, plan.scene.contact).ok()?;
+            of_second_step(bodies, dt, Bodies::take_visits, Bodies::profile)
+        }
     })
 }
 

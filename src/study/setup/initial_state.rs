@@ -20,11 +20,6 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// Creates the initial state of a run of `plan` with one body.
-    pub(crate) fn of(plan: &ConvergencePlan) -> Self {
-        Self::of_body(plan, &plan.scene)
-    }
-
     /// Creates the initial state of one of the bodies of `plan`.
     pub(crate) fn of_body(plan: &ConvergencePlan, body: &Scene) -> Self {
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);

@@ -5,7 +5,7 @@ pub(crate) mod run;
 use self::run::CaseRun;
 use crate::external::{ProblemNeeds, SolverFactory};
 use crate::study::describe::{Rows, push, scene, stated};
-use crate::study::kind::{CaseRunner, Progress, RunContext, ShowRun, Study};
+use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::time_series::SeriesError;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Scene;
@@ -25,16 +25,11 @@ impl Study for StabilityPlan {
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
-        Box::new(StabilityRunner { plan: self, context })
+        Box::new(PlanRunner { plan: self, context })
     }
 }
 
-struct StabilityRunner<'a> {
-    plan: &'a StabilityPlan,
-    context: RunContext<'a>,
-}
-
-impl CaseRunner for StabilityRunner<'_> {
+impl CaseRunner for PlanRunner<'_, StabilityPlan> {
     fn units(&self) -> u64 {
         (self.plan.cases.len() * self.plan.values.len()) as u64
     }
