@@ -2,7 +2,7 @@
 
 use crate::report::columns::grouped;
 use crate::report::columns::level::{self, LevelRow, NamedStudy};
-use crate::verify::{Axis, Interval, SuiteOutcome, Verdict};
+use crate::verify::{Axis, CaseOutcome, Interval, SuiteOutcome, Verdict};
 use std::fmt::Write;
 
 /// Maximum number of cases per table, limited by the width of a page.
@@ -16,18 +16,13 @@ const MOST_CASES: usize = 3;
 /// table. The text requires `\usepackage{booktabs}` and no other package.
 pub fn latex(outcomes: &[SuiteOutcome]) -> String {
     let tables = outcomes.iter().flat_map(tables).collect::<Vec<_>>().join("\n");
-    format!("% Written by mpm-verify {}. Needs \\usepackage{{booktabs}}.\n{tables}", version())
-}
-
-fn version() -> &'static str {
-    env!("CARGO_PKG_VERSION")
+    let version = env!("CARGO_PKG_VERSION");
+    format!("% Written by mpm-verify {version}. Needs \\usepackage{{booktabs}}.\n{tables}")
 }
 
 fn tables(outcome: &SuiteOutcome) -> Vec<String> {
-    let compared = outcome.cases.iter().filter_map(|case| {
-        let study = case.convergence().filter(|study| study.compared)?;
-        Some((case.case.as_str(), study))
-    });
+    let studies = outcome.results(CaseOutcome::convergence);
+    let compared = studies.filter(|(_, study)| study.compared);
     let key = |named: &NamedStudy<'_>| (named.1.judged(), level::names(named.1));
     let groups = grouped(compared.map(|named| (key(&named), named)));
     let parts: Vec<(String, Vec<NamedStudy<'_>>)> = groups

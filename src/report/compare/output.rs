@@ -50,28 +50,22 @@ const MAX_NOTES: usize = 3;
 
 /// Returns the columns for changes of a case, with dashes if there is no change or value.
 fn cases<'a>() -> [TableColumn<'a, Moved>; 7] {
+    type MovedColumn<'a> = TableColumn<'a, Moved>;
     [
-        TableColumn::<Moved>::text("case", "suite and case", |moved| moved.name.clone())
+        MovedColumn::text("case", "suite and case", |moved| moved.name.clone()).flush_left(),
+        MovedColumn::text("verdict", "verdicts", |moved| change(moved, moved.verdict.clone()))
             .flush_left(),
-        TableColumn::<Moved>::text("verdict", "verdicts", |moved| {
-            change(moved, moved.verdict.clone())
-        })
-        .flush_left(),
-        TableColumn::<Moved>::text("order", "observed orders", |moved| {
+        MovedColumn::text("order", "observed orders", |moved| {
             change(moved, moved.order.map(|order| order.map(|order| format!("{order:.2}"))))
         }),
-        TableColumn::<Moved>::text("error", "judged errors", |moved| {
-            moved.error.as_ref().map(errors)
-        }),
-        TableColumn::<Moved>::text("times", "their ratio", |moved| {
+        MovedColumn::text("error", "judged errors", |moved| moved.error.as_ref().map(errors)),
+        MovedColumn::text("times", "their ratio", |moved| {
             moved.error.as_ref().and_then(ErrorMove::ratio).map(times)
         }),
-        TableColumn::<Moved>::text("at", "level of the errors", |moved| {
+        MovedColumn::text("at", "level of the errors", |moved| {
             moved.error.as_ref().map(|error| error.level.clone())
         }),
-        TableColumn::<Moved>::text("transfers", "ratio on the same level", |moved| {
-            moved.work.map(times)
-        }),
+        MovedColumn::text("transfers", "ratio on the same level", |moved| moved.work.map(times)),
     ]
 }
 
@@ -81,24 +75,19 @@ fn errors(error: &ErrorMove) -> String {
 }
 
 fn targets<'a>() -> [TableColumn<'a, CheapestMove>; 5] {
+    type TargetColumn<'a> = TableColumn<'a, CheapestMove>;
     [
-        TableColumn::<CheapestMove>::text("suite", "suite, and its problem", |moved| {
-            moved.place.clone()
-        })
-        .flush_left(),
-        TableColumn::<CheapestMove>::text("error", "target error", |moved| {
-            format!("{:.0e}", moved.target)
-        }),
-        TableColumn::<CheapestMove>::text("times", "ratio of the work", |moved| {
+        TargetColumn::text("suite", "suite, and its problem", |moved| moved.place.clone())
+            .flush_left(),
+        TargetColumn::text("error", "target error", |moved| format!("{:.0e}", moved.target)),
+        TargetColumn::text("times", "ratio of the work", |moved| {
             moved.old.as_ref().zip(moved.new.as_ref()).map(|_| times(moved.ratio()))
         }),
-        TableColumn::<CheapestMove>::text("work", "least work", |moved| {
+        TargetColumn::text("work", "least work", |moved| {
             both(moved, |(work, _)| format!("{work:.3e}"))
         }),
-        TableColumn::<CheapestMove>::text("cheapest", "method", |moved| {
-            both(moved, |(_, case)| case.clone())
-        })
-        .flush_left(),
+        TargetColumn::text("cheapest", "method", |moved| both(moved, |(_, case)| case.clone()))
+            .flush_left(),
     ]
 }
 

@@ -5,7 +5,7 @@ use super::plot::scale::{Pad, Scale};
 use super::plot::style::{CONTEXT, FRONT, NEUTRAL};
 use super::plot::svg::{Pt, SvgElement};
 use super::series;
-use super::series::{Mark, PlotPoint, PlotSeries, SeriesLine};
+use super::series::{PlotSeries, SeriesLine};
 
 /// A log-log plot of errors with its legend below the frame. A dotted line has the slope of each
 /// reference order.
@@ -80,11 +80,8 @@ impl LogLogPlot {
     /// coarse. The line begins at half of the smallest error on the coarsest level, and ends at the
     /// finest level or at half of the smallest error.
     pub(super) fn reference_lines(&self) -> impl Iterator<Item = (f64, [Pt; 2])> {
-        let is_drawn = |point: &&PlotPoint| {
-            let positive = |value: f64| value.is_finite() && value > 0.0;
-            positive(point.x) && positive(point.error) && point.mark != Mark::Failed
-        };
-        let points = || self.series.iter().flat_map(|series| &series.points).filter(is_drawn);
+        let points = || self.series.iter().flat_map(|series| &series.points);
+        let points = || points().filter(|point| point.is_drawn());
         let least =
             |errors: &mut dyn Iterator<Item = f64>| 0.5 * errors.fold(f64::INFINITY, f64::min);
         let low = points().map(|point| point.x).fold(f64::INFINITY, f64::min);

@@ -5,7 +5,7 @@
 
 use super::log_log::order_name;
 use super::plot::style::{CONTEXT, MarkerShape, NEUTRAL, look};
-use super::{LogLogPlot, Map, Mark, PlotPoint, PlotSeries};
+use super::{LogLogPlot, Map, Mark, PlotSeries};
 use crate::report::latex::escaped;
 
 const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
@@ -116,12 +116,6 @@ fn mark(shape: MarkerShape, is_filled: bool) -> String {
     format!("mark={mark}, mark options={{solid, {fill}rotate={rotation}}}")
 }
 
-/// Whether a level can be drawn on logarithmic axes.
-fn is_drawn(point: &PlotPoint) -> bool {
-    let positive = |value: f64| value.is_finite() && value > 0.0;
-    positive(point.x) && positive(point.error) && point.mark != Mark::Failed
-}
-
 impl LogLogPlot {
     /// Creates the figure as a LaTeX document. A solid line with filled markers connects the levels
     /// of the asymptotic window; a thin dashed line with hollow markers connects all levels. Each
@@ -169,8 +163,7 @@ impl LogLogPlot {
 
 /// Returns the points whose mark `is_chosen` accepts, sorted by their horizontal coordinate.
 fn sorted(series: &PlotSeries, is_chosen: impl Fn(Mark) -> bool) -> Vec<(f64, f64)> {
-    let drawn =
-        series.points.iter().filter(|point| is_drawn(point)).filter(|point| is_chosen(point.mark));
+    let drawn = series.points.iter().filter(|point| point.is_drawn() && is_chosen(point.mark));
     let mut points: Vec<(f64, f64)> = drawn.map(|point| (point.x, point.error)).collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points
@@ -225,6 +218,7 @@ impl Map {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::figure::PlotPoint;
 
     #[test]
     fn a_log_log_plot_has_its_data_and_a_legend_in_order() {

@@ -18,6 +18,14 @@ pub struct PlotPoint {
     pub mark: Mark,
 }
 
+impl PlotPoint {
+    /// Whether the point has a position on logarithmic axes.
+    pub(super) fn is_drawn(&self) -> bool {
+        let positive = |value: f64| value.is_finite() && value > 0.0;
+        positive(self.x) && positive(self.error) && self.mark != Mark::Failed
+    }
+}
+
 /// Use of a level by the judge, and its marker in a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {

@@ -1,22 +1,16 @@
 //! The figures of convergence studies.
 
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
-use crate::verify::{Axis, Convergence, LevelOutcome, SuiteOutcome, Verdict};
+use crate::verify::{Axis, CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, Verdict};
 
 /// Maximum number of curves in one plot, because a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
 
-fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &Convergence)> {
-    let cases = outcome.cases.iter();
-    let studies = cases.filter_map(|case| Some((case.case.as_str(), case.convergence()?)));
-    studies.filter(|(_, study)| study.compared).collect()
-}
-
 /// Plots errors over spacings. All plots of a suite have the same axes. Cases with a single level
 /// have no order and are excluded; a table lists their errors.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let mut studies = studies(outcome);
-    studies.retain(|(_, study)| study.levels.len() > 1);
+    let is_plotted = |(_, study): &(&str, &Convergence)| study.compared && study.levels.len() > 1;
+    let studies: Vec<_> = outcome.results(CaseOutcome::convergence).filter(is_plotted).collect();
     let plots = studies.len().div_ceil(MOST_SERIES).max(1);
     let parts = studies.chunks(studies.len().div_ceil(plots).max(1));
     let drawn: Vec<LogLogPlot> = parts.map(|part| plot(outcome, part)).collect();
@@ -40,7 +34,9 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
         look: look(outcome, name),
         points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
     };
-    let mut orders = slopes(studies.iter().filter_map(|(_, study)| order(study)));
+    let converging = studies.iter().filter(|(_, study)| study.verdict() == Verdict::Converging);
+    let orders = converging.filter_map(|(_, study)| study.judgement.order);
+    let mut orders = slopes(orders.map(|order| order.value));
     if orders.is_empty() {
         orders.extend(studies.first().map(|(_, study)| study.formal_order));
     }
@@ -61,12 +57,6 @@ fn spacing(axis: Axis) -> &'static str {
         Axis::Time => "time step dt (s)",
         Axis::Particles => "particle spacing h/ppc^(1/D) (m)",
     }
-}
-
-/// Returns the observed order of a converging series, for a reference slope.
-fn order(study: &Convergence) -> Option<f64> {
-    let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging)?;
-    Some(order.value)
 }
 
 /// Converts observed orders to reference slopes: rounds to thirds and removes duplicates.

@@ -9,7 +9,7 @@ use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Machine, Ranking,
 use serde_json::{Value, json};
 
 /// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.
-pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Value {
+pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Vec<Value> {
     let ranking = |ranking: &Ranking| {
         let columns = cost_columns(ranking);
         json!({
@@ -59,20 +59,13 @@ pub fn diagnosis_json(found: &Diagnosis) -> Value {
 /// Creates the JSON document, indented and with a final newline.
 pub fn timed_json(timed: &[TimedSuite]) -> String {
     let suites = timed.iter().map(suite).collect::<Vec<_>>();
-    format!(
-        "{:#}
-",
-        json!({ "suites": suites })
-    )
+    format!("{:#}\n", json!({ "suites": suites }))
 }
 
 fn suite(timed: &TimedSuite) -> Value {
     let cases = timed.outcome.cases.iter().enumerate();
-    let ranked = [
-        (rankings(&timed.by_seconds(), "seconds")),
-        (rankings(&timed.by_transfers(), "transfers")),
-    ];
-    let cost: Vec<Value> = ranked.iter().filter_map(Value::as_array).flatten().cloned().collect();
+    let mut cost = rankings(&timed.by_seconds(), "seconds");
+    cost.extend(rankings(&timed.by_transfers(), "transfers"));
     json!({
         "suite": timed.outcome.suite,
         "machine": machine(&timed.machine),

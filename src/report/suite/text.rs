@@ -99,20 +99,18 @@ pub fn summary(outcomes: &[SuiteOutcome]) -> String {
 type SuiteCase<'a> = (&'a SuiteOutcome, &'a CaseOutcome);
 
 fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
+    type VerdictColumn<'a> = TableColumn<'a, SuiteCase<'a>>;
     [
-        TableColumn::<SuiteCase<'a>>::text("", "whether all is as expected", |(_, case)| {
-            case.result()
-        }),
-        TableColumn::<SuiteCase<'a>>::text("case", "suite and case", |(suite, case)| {
+        VerdictColumn::text("", "whether all is as expected", |(_, case)| case.result()),
+        VerdictColumn::text("case", "suite and case", |(suite, case)| {
             format!("{}::{}", suite.suite, case.case)
         })
         .flush_left(),
-        TableColumn::<SuiteCase<'a>>::text("verdict", "verdict", |(_, case)| case.verdict.clone())
-            .flush_left(),
-        TableColumn::<SuiteCase<'a>>::text("order", "observed order", move |(_, case)| {
+        VerdictColumn::text("verdict", "verdict", |(_, case)| case.verdict.clone()).flush_left(),
+        VerdictColumn::text("order", "observed order", move |(_, case)| {
             case.convergence().and_then(|study| study.judgement.order).map(|order| order.shown())
         }),
-        TableColumn::<SuiteCase<'a>>::text("expected", "expected", |(_, case)| {
+        VerdictColumn::text("expected", "expected", |(_, case)| {
             Some(match &case.expected {
                 _ if !case.is_tested() => case.reason.clone(),
                 // The cause of a failure is in no other column.

@@ -11,7 +11,7 @@ pub fn diagnosis(found: &Diagnosis) -> String {
     paragraph_lines(&mut lines, &paragraph(found));
     if !found.runs.is_empty() {
         lines.push(String::new());
-        lines.extend(Table::new(&columns(), found.runs.iter()).lines());
+        lines.extend(Table::new(&columns(), &found.runs).lines());
     }
     if !found.skipped.is_empty() {
         row(&mut lines, "beyond the budget", &found.skipped.join("; "));
@@ -160,16 +160,13 @@ fn unknown_cause(found: &Diagnosis) -> String {
 /// Ratio of errors above which more particles count as a cause.
 const WORSE: f64 = 1.15;
 
-fn columns<'a>() -> [TableColumn<'a, &'a ChangedRun>; 4] {
+fn columns<'a>() -> [TableColumn<'a, ChangedRun>; 4] {
+    type RunColumn<'a> = TableColumn<'a, ChangedRun>;
     [
-        TableColumn::<&ChangedRun>::text("changed", "the change", |run| run.change.clone())
-            .flush_left(),
-        TableColumn::<&ChangedRun>::text("verdict", "verdict", |run| run.verdict.to_string())
-            .flush_left(),
-        TableColumn::<&ChangedRun>::text("order", "observed order", |run| {
-            run.order.map(|order| order.shown())
-        }),
-        TableColumn::<&ChangedRun>::text(
+        RunColumn::text("changed", "the change", |run| run.change.clone()).flush_left(),
+        RunColumn::text("verdict", "verdict", |run| run.verdict.to_string()).flush_left(),
+        RunColumn::text("order", "observed order", |run| run.order.map(|order| order.shown())),
+        RunColumn::text(
             "error/before",
             "error on the finest level, divided by the error before",
             |run| {
