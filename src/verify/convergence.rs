@@ -89,15 +89,6 @@ pub struct LevelOutcome {
     pub stable_time_step: Option<f64>,
 }
 
-impl Convergence {
-    /// Whether the method fails at the problem. Such a failure may be expected.
-    pub fn fails(&self) -> bool {
-        use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
-        let failures = [TooLow, AtFloor, Oscillatory, Divergent, Failed];
-        !self.bounded && self.accepted.is_none() && failures.contains(&self.judgement.verdict)
-    }
-}
-
 impl LevelOutcome {
     /// Whether the time step is longer than the stable time step, if the latter is known.
     pub fn is_too_long(&self) -> bool {
@@ -124,6 +115,13 @@ impl LevelOutcome {
 }
 
 impl Convergence {
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
+        use Verdict::{AtFloor, Divergent, Failed, Oscillatory, TooLow};
+        let failures = [TooLow, AtFloor, Oscillatory, Divergent, Failed];
+        !self.bounded && self.accepted.is_none() && failures.contains(&self.judgement.verdict)
+    }
+
     /// Returns the exact displacement (m) of the observed point in 1-D at the end of the run;
     /// `None` without an observed point or an exact solution.
     pub fn observed_exact(&self) -> Option<f64> {

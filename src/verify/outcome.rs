@@ -38,6 +38,20 @@ impl SuiteOutcome {
             Some(joined) => joined.cases.extend(other.cases),
         }
     }
+
+    /// Whether every case passed.
+    pub fn passed(&self) -> bool {
+        self.cases.iter().all(CaseOutcome::passed)
+    }
+
+    /// Returns the results of one kind of study with the names of their cases. `of` is an accessor,
+    /// such as [`CaseOutcome::stability`].
+    pub fn results<'a, R: 'a>(
+        &'a self,
+        of: fn(&'a CaseOutcome) -> Option<&'a R>,
+    ) -> impl Iterator<Item = (&'a str, &'a R)> {
+        self.cases.iter().filter_map(move |case| Some((case.case.as_str(), of(case)?)))
+    }
 }
 
 /// Result of one case.
@@ -79,22 +93,6 @@ pub enum Exemption {
     NotGated,
     /// The author of the solver excepts the case, so it has not run.
     Excepted,
-}
-
-impl SuiteOutcome {
-    /// Whether every case passed.
-    pub fn passed(&self) -> bool {
-        self.cases.iter().all(CaseOutcome::passed)
-    }
-
-    /// Returns the results of one kind of study with the names of their cases. `of` is an accessor,
-    /// such as [`CaseOutcome::stability`].
-    pub fn results<'a, R: 'a>(
-        &'a self,
-        of: fn(&'a CaseOutcome) -> Option<&'a R>,
-    ) -> impl Iterator<Item = (&'a str, &'a R)> {
-        self.cases.iter().filter_map(move |case| Some((case.case.as_str(), of(case)?)))
-    }
 }
 
 impl CaseOutcome {
@@ -251,41 +249,31 @@ impl CaseOutcome {
 
     /// Returns the convergence study; `None` for other kinds of study.
     pub fn convergence(&self) -> Option<&Convergence> {
-        match self.study.as_ref()? {
-            StudyResults::Convergence(study) => Some(study),
-            _ => None,
-        }
+        let StudyResults::Convergence(study) = self.study.as_ref()? else { return None };
+        Some(study)
     }
 
     /// Returns the internal-force study; `None` for other kinds of study.
     pub fn internal_force(&self) -> Option<&InternalForce> {
-        match self.study.as_ref()? {
-            StudyResults::InternalForce(study) => Some(study),
-            _ => None,
-        }
+        let StudyResults::InternalForce(study) = self.study.as_ref()? else { return None };
+        Some(study)
     }
 
     /// Returns the stability study; `None` for other kinds of study.
     pub fn stability(&self) -> Option<&StabilityStudy> {
-        match self.study.as_ref()? {
-            StudyResults::Stability(study) => Some(study),
-            _ => None,
-        }
+        let StudyResults::Stability(study) = self.study.as_ref()? else { return None };
+        Some(study)
     }
 
     /// Returns the gradient study; `None` for other kinds of study.
     pub fn gradient(&self) -> Option<&GradientStudy> {
-        match self.study.as_ref()? {
-            StudyResults::Gradient(study) => Some(study),
-            _ => None,
-        }
+        let StudyResults::Gradient(study) = self.study.as_ref()? else { return None };
+        Some(study)
     }
 
     /// Returns the spectrum study; `None` for other kinds of study.
     pub fn spectrum(&self) -> Option<&SpectrumStudy> {
-        match self.study.as_ref()? {
-            StudyResults::Spectrum(study) => Some(study),
-            _ => None,
-        }
+        let StudyResults::Spectrum(study) = self.study.as_ref()? else { return None };
+        Some(study)
     }
 }

@@ -187,7 +187,7 @@ pub(super) fn length(error: &[f64]) -> f64 {
 }
 
 /// Returns the largest length of vectors in `dimension` dimensions; NaN if any length is NaN.
-pub(super) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
+pub(in crate::verify) fn largest_length(vectors: &[f64], dimension: usize) -> f64 {
     vectors.chunks_exact(dimension.max(1)).map(length).fold(0.0, larger)
 }
 

@@ -63,9 +63,7 @@ impl GradientStudy {
     pub fn fails(&self) -> bool {
         self.state().0 == GradientState::Wrong
     }
-}
 
-impl GradientStudy {
     /// Returns the state of the derivative, and the reason with measured values. The reason names
     /// the cause of a wrong derivative if runs without derivatives reveal it.
     pub fn state(&self) -> (GradientState, String) {

@@ -10,27 +10,15 @@
 //! limit = u0 -+ max(|delta|, 3 max(1, 1/(r^p - 1)) |u0 - w0|)
 //! ```
 //!
-//! Reasons for the two terms in the interval of the limit:
-//!
-//! - If `u = U + C h^p + D h^s` with `s > p`, the extrapolation from a triple differs from U by a
-//!   term of order s. Refinement by `r` divides this term by `r^s`. So the distance of the finest
-//!   extrapolation from U is `|u0 - w0| / (r^s - 1)`, at most `|u0 - w0| / (r^p - 1)`. The factor 3
-//!   is the factor of safety for a fit that cannot be checked (Roache 1998, two grids; Eca &
-//!   Hoekstra 2014, J. Comput. Phys. 262, 104, orders outside the expected range).
-//! - The difference between the two extrapolations can vanish by chance. The interval therefore
-//!   always extends to the finest value, like the grid convergence index with a factor of 1 (Roache
-//!   1994).
-//!
-//! Eca & Hoekstra also widen their estimate by a fit through all levels. Such a fit is not needed
-//! here, because the second triple shows whether four values contradict a model with three
-//! unknowns. Series that Eca & Hoekstra classify as oscillating or divergent give no estimate here.
-//!
-//! The coverage of the interval was measured over the suites with exact solutions
-//! (`docs/estimate.md`).
+//! `docs/estimate.md` gives the reasons for the terms, their sources (Roache 1994, 1998; Eca &
+//! Hoekstra 2014, J. Comput. Phys. 262, 104) and the measured coverage of the interval. Eca &
+//! Hoekstra also widen their estimate by a fit through all levels, which is not needed here: the
+//! second triple shows whether four values contradict a model with three unknowns. Series that Eca
+//! & Hoekstra classify as oscillating or divergent give no estimate here.
 
 use crate::verify::{Interval, Richardson};
 use serde::Serialize;
-use std::fmt;
+use thiserror::Error;
 
 /// Number of levels in an estimate. The finest levels are used.
 pub const LEVELS_OF_ESTIMATE: usize = 4;
@@ -87,17 +75,23 @@ impl LimitEstimate {
 }
 
 /// Reason why a series has no estimate.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Error)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 pub enum EstimateRefusal {
     /// Fewer than four levels.
+    #[error("too few levels: {levels}, expected {LEVELS_OF_ESTIMATE} or more")]
     TooFewLevels {
         /// Number of levels.
         levels: usize,
     },
     /// A number is not finite, or two levels have the same spacing.
+    #[error("unusable values: spacings must be positive and different, values finite")]
     Unusable,
     /// The last change is within the rounding errors of the values.
+    #[error(
+        "rounding: the last change, {change:.1e}, is below {LEAST_CHANGE} times the rounding of \
+         the values, {rounding:.1e}"
+    )]
     Rounding {
         /// Size of the last change.
         change: f64,
@@ -105,10 +99,16 @@ pub enum EstimateRefusal {
         rounding: f64,
     },
     /// The changes alternate in sign.
+    #[error("oscillation: the changes between the finest levels alternate in sign")]
     Oscillation,
     /// The changes do not shrink under refinement.
+    #[error("no asymptotic range: the changes between the finest levels do not shrink")]
     Divergence,
     /// The orders of the two triples differ too much.
+    #[error(
+        "no asymptotic range: the orders of the two finest triples, {coarse:.2} and {fine:.2}, \
+         differ by more than {ORDER_SCATTER}"
+    )]
     OrderScatter {
         /// Order of the coarser triple.
         coarse: f64,
@@ -116,6 +116,10 @@ pub enum EstimateRefusal {
         fine: f64,
     },
     /// The order of a triple is not plausible for a numerical method.
+    #[error(
+        "no asymptotic range: the order {order:.2} of three levels is outside [{LEAST_ORDER}, \
+         {LARGEST_ORDER}]"
+    )]
     OrderOutOfRange {
         /// The order.
         order: f64,
@@ -133,40 +137,6 @@ impl EstimateRefusal {
             Self::Divergence | Self::OrderScatter { .. } | Self::OrderOutOfRange { .. } => {
                 "no asymptotic range"
             }
-        }
-    }
-}
-
-impl fmt::Display for EstimateRefusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::TooFewLevels { levels } => {
-                write!(f, "too few levels: {levels}, expected {LEVELS_OF_ESTIMATE} or more")
-            }
-            Self::Unusable => f.write_str(
-                "unusable values: spacings must be positive and different, values finite",
-            ),
-            Self::Rounding { change, rounding } => write!(
-                f,
-                "rounding: the last change, {change:.1e}, is below {LEAST_CHANGE} times the \
-                 rounding of the values, {rounding:.1e}"
-            ),
-            Self::Oscillation => {
-                f.write_str("oscillation: the changes between the finest levels alternate in sign")
-            }
-            Self::Divergence => f.write_str(
-                "no asymptotic range: the changes between the finest levels do not shrink",
-            ),
-            Self::OrderScatter { coarse, fine } => write!(
-                f,
-                "no asymptotic range: the orders of the two finest triples, {coarse:.2} and \
-                 {fine:.2}, differ by more than {ORDER_SCATTER}"
-            ),
-            Self::OrderOutOfRange { order } => write!(
-                f,
-                "no asymptotic range: the order {order:.2} of three levels is outside \
-                 [{LEAST_ORDER}, {LARGEST_ORDER}]"
-            ),
         }
     }
 }

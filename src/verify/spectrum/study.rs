@@ -59,9 +59,7 @@ impl SpectrumStudy {
     pub fn fails(&self) -> bool {
         self.rows.iter().any(|row| row.measured.is_err())
     }
-}
 
-impl SpectrumStudy {
     /// Returns text with the largest magnitude of the measured phase errors and the smallest
     /// amplitude.
     pub fn reason(&self) -> String {

@@ -66,9 +66,7 @@ impl StabilityStudy {
         self.sought.is_none()
             && !self.rows.iter().all(|row| row.trial.as_ref().is_some_and(is_stable))
     }
-}
 
-impl StabilityStudy {
     /// Summarises the verdicts of the rows, or the stability limits.
     pub fn verdict(&self) -> String {
         if let Some(sought) = &self.sought {

@@ -7,6 +7,7 @@
 
 use crate::subject::{Failure, Samples, Subject};
 use crate::verify::conservation::{Balance, ConservationError, Conserved};
+use crate::verify::error::norm::largest_length;
 use crate::verify::{Scales, Stability, Trial, larger};
 
 /// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
@@ -101,7 +102,8 @@ impl TrialMonitor {
         }
         self.null_most = larger(self.null_most, self.null);
         self.energy = larger(self.energy, self.last);
-        self.speed = larger(self.speed, fastest(&self.samples) / self.scales.speed);
+        let fastest = largest_length(&self.samples.velocity, self.samples.dimension);
+        self.speed = larger(self.speed, fastest / self.scales.speed);
         if let Some(balance) = &mut self.balance {
             balance.look(subject.totals().as_ref());
         }
@@ -135,9 +137,6 @@ impl TrialMonitor {
         steps: u64,
     ) -> Trial {
         let drift = self.balance.as_ref().map_or(ConservationError::NONE, Balance::drift);
-        let largest = |column: &[f64], size: usize| {
-            column.chunks_exact(size.max(1)).map(length).fold(0.0, larger)
-        };
         let d = self.samples.dimension;
         Trial {
             verdict,
@@ -154,8 +153,8 @@ impl TrialMonitor {
             largest_null_share: self.null_most / self.kinetic,
             stress_spread: stress_spread(&self.samples),
             checkerboard: checkerboard(&self.samples),
-            stress: largest(&self.samples.stress, d * d) / self.scales.modulus,
-            displacement: largest(&self.samples.displacement, d),
+            stress: largest_length(&self.samples.stress, d * d) / self.scales.modulus,
+            displacement: largest_length(&self.samples.displacement, d),
             ledger: subject.energy_balance(),
         }
     }
@@ -177,14 +176,6 @@ fn stored(samples: &Samples, modulus: f64) -> f64 {
     let squares = samples.stress.chunks_exact(d * d).map(|s| s.iter().map(|s| s * s).sum::<f64>());
     squares.zip(&samples.weight).map(|(square, weight)| weight * square).sum::<f64>()
         / (2.0 * modulus)
-}
-
-fn fastest(samples: &Samples) -> f64 {
-    samples.velocity.chunks_exact(samples.dimension.max(1)).map(length).fold(0.0, larger)
-}
-
-fn length(components: &[f64]) -> f64 {
-    components.iter().fold(0.0, |all, c| libm::hypot(all, *c))
 }
 
 /// Maximum number of particles for a neighbour search. The search computes the distances of all
@@ -354,11 +345,9 @@ mod tests {
 
     #[test]
     fn the_fastest_counts_whatever_its_direction() {
-        let velocity = vec![1.0, -1.0, 3.0, -4.0, 0.0, 4.5];
-        assert_eq!(fastest(&Samples { dimension: 2, velocity, ..Samples::default() }), 5.0);
-        assert_eq!(fastest(&Samples::default()), 0.0);
-        let velocity = vec![1.0, f64::NAN, 2.0];
-        assert!(fastest(&Samples { dimension: 1, velocity, ..Samples::default() }).is_nan());
+        assert_eq!(largest_length(&[1.0, -1.0, 3.0, -4.0, 0.0, 4.5], 2), 5.0);
+        assert_eq!(largest_length(&[], 0), 0.0);
+        assert!(largest_length(&[1.0, f64::NAN, 2.0], 1).is_nan());
     }
 
     fn row(stress: &[f64]) -> Samples {
