@@ -2,7 +2,7 @@
 
 use crate::report::columns::stability::json_columns;
 use crate::report::columns::{TableColumn, interval, number};
-use crate::report::columns::{force, gradient, json_object, level, spectrum};
+use crate::report::columns::{force, gradient, json_objects, level, spectrum};
 use crate::report::figure::Figure;
 use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
@@ -64,7 +64,6 @@ impl StudyReport for ConvergenceReport {
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
         let study = case.convergence();
-        let columns = level::json_columns();
         let levels = study.into_iter().flat_map(level::rows);
         members(json!({
             "axis": study.map(|study| study.axis.name()),
@@ -74,7 +73,7 @@ impl StudyReport for ConvergenceReport {
             "judge": study.filter(|study| study.compared).map(judge),
             "observed_order": study.and_then(|study| study.judgement.order).map(interval),
             "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
-            "levels": levels.map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
+            "levels": json_objects(&level::json_columns(), levels),
         }))
     }
 
@@ -144,12 +143,8 @@ impl StudyReport for InternalForceReport {
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let study = case.internal_force();
-        let columns = force::columns();
-        let objects = |study: &InternalForce| -> Value {
-            study.rows.iter().map(|row| json_object(&columns, row)).collect()
-        };
-        members(json!({"forces": study.map(objects)}))
+        let objects = |study: &InternalForce| json_objects(&force::columns(), &study.rows);
+        members(json!({"forces": case.internal_force().map(objects)}))
     }
 }
 
@@ -179,11 +174,10 @@ impl StudyReport for StabilityReport {
 }
 
 fn stability_json(study: &StabilityStudy) -> Value {
-    let columns = json_columns(study);
     json!({
         "swept": study.swept,
         "sought": study.sought,
-        "rows": study.rows.iter().map(|row| json_object(&columns, row)).collect::<Vec<_>>(),
+        "rows": json_objects(&json_columns(study), &study.rows),
     })
 }
 
@@ -205,9 +199,6 @@ impl StudyReport for GradientReport {
 }
 
 fn gradient_json(study: &GradientStudy) -> Value {
-    let (levels, taylor, points) = (gradient::levels(), gradient::taylor(), gradient::points());
-    let level = |row: &gradient::GradientLevelRow| json_object(&levels, row);
-    let perturbed = |row: &gradient::TaylorRow| json_object(&taylor, row);
     json!({
         "functional": study.functional,
         "parameter": study.parameter,
@@ -215,10 +206,10 @@ fn gradient_json(study: &GradientStudy) -> Value {
         "value": number(study.value.computed),
         "reported_value": number(study.value.reported),
         "order": number(study.order()),
-        "levels": gradient::level_rows(study).iter().map(level).collect::<Vec<_>>(),
-        "taylor": gradient::taylor_rows(study).iter().map(perturbed).collect::<Vec<_>>(),
+        "levels": json_objects(&gradient::levels(), gradient::level_rows(study)),
+        "taylor": json_objects(&gradient::taylor(), gradient::taylor_rows(study)),
         "sweep": gradient::sweep(study),
-        "points": study.points.iter().map(|row| json_object(&points, row)).collect::<Vec<_>>(),
+        "points": json_objects(&gradient::points(), &study.points),
     })
 }
 
@@ -256,10 +247,7 @@ impl StudyReport for SpectrumReport {
     }
 
     fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let columns = spectrum::json_columns();
-        let objects = |study: &SpectrumStudy| -> Value {
-            study.rows.iter().map(|row| json_object(&columns, row)).collect()
-        };
+        let objects = |study: &SpectrumStudy| json_objects(&spectrum::json_columns(), &study.rows);
         members(json!({"spectrum": case.spectrum().map(objects)}))
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::verify::Interval;
 use serde_json::{Map, Value, json};
-use std::borrow::Cow;
+use std::borrow::{Borrow, Cow};
 
 pub(crate) mod cost;
 pub(crate) mod force;
@@ -167,6 +167,13 @@ pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) ->
         }
     }
     object.into()
+}
+
+pub(crate) fn json_objects<R>(
+    columns: &[TableColumn<'_, R>],
+    rows: impl IntoIterator<Item = impl Borrow<R>>,
+) -> Value {
+    rows.into_iter().map(|row| json_object(columns, row.borrow())).collect()
 }
 
 /// Returns the number, or `"nan"`, `"inf"` or `"-inf"`.

@@ -44,11 +44,20 @@ pub(super) fn compare(
 /// expectations can be compared.
 fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> Moved {
     let is_broken = old.passed && !new.passed;
+    let (rank, notes) = if is_broken {
+        (Rank::Broken, new.unmet.clone())
+    } else {
+        (Rank::OtherProblem, Vec::new())
+    };
+    Moved { notes, ..both(name, rank, old, new) }
+}
+
+/// Returns the change of a case that is in both runs, with its verdicts and orders only.
+fn both(name: String, rank: Rank, old: &CaseDocument, new: &CaseDocument) -> Moved {
     Moved {
-        verdict: [Some(shown(old)), Some(shown(new))],
+        verdict: [old, new].map(|case| Some(shown(case))),
         order: [old, new].map(|case| case.observed_order.map(|order| order.value.0)),
-        notes: if is_broken { new.unmet.clone() } else { Vec::new() },
-        ..lone(name, if is_broken { Rank::Broken } else { Rank::OtherProblem }, new)
+        ..lone(name, rank, new)
     }
 }
 
@@ -81,16 +90,7 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     let studies = old.stability.as_ref().zip(new.stability.as_ref());
     let rows = studies.map(|(old, new)| stability::compare(old, new, tolerance));
     let rows = rows.unwrap_or_default();
-    let mut found = Moved {
-        name,
-        rank: Rank::Otherwise,
-        verdict: [Some(shown(old)), Some(shown(new))],
-        order: [old, new].map(|case| case.observed_order.map(|order| order.value.0)),
-        error,
-        work,
-        notes: Vec::new(),
-        weight: 0.0,
-    };
+    let mut found = Moved { error, work, ..both(name, Rank::Otherwise, old, new) };
     let otherwise = otherwise(old, new, comparable, refined, &rows);
     (found.rank, found.weight) = verdict_rank(old, new, &rows)
         .or_else(|| figure_rank(&found, &rows))

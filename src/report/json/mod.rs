@@ -3,7 +3,7 @@
 pub(crate) mod schema;
 use crate::report::columns::cost::json_columns as cost_columns;
 use crate::report::columns::timed_level::{json_columns as timed_columns, rows, timing};
-use crate::report::columns::{interval, json_object, number};
+use crate::report::columns::{interval, json_objects, number};
 use crate::report::text::diagnosis::paragraph;
 use crate::verify::{CaseOutcome, Cause, ChangedRun, Diagnosis, Machine, Ranking, TimedSuite};
 use serde_json::{Value, json};
@@ -11,13 +11,12 @@ use serde_json::{Value, json};
 /// Converts rankings to JSON, one entry for each problem. `work` is the name of the unit of work.
 pub(crate) fn rankings(rankings: &[Ranking], work: &str) -> Vec<Value> {
     let ranking = |ranking: &Ranking| {
-        let columns = cost_columns(ranking);
         json!({
             "problem": ranking.problem,
             "size": number(ranking.size),
             "work": work,
             "targets": ranking.targets,
-            "methods": ranking.rows.iter().map(|row| json_object(&columns, row)).collect::<Vec<_>>(),
+            "methods": json_objects(&cost_columns(ranking), &ranking.rows),
         })
     };
     rankings.iter().map(ranking).collect()
@@ -84,9 +83,8 @@ fn machine(machine: &Machine) -> Value {
 }
 
 fn case(timed: &TimedSuite, index: usize, case: &CaseOutcome) -> Value {
-    let columns = timed_columns();
     json!({
         "case": case.case,
-        "levels": rows(timed, index).map(|row| json_object(&columns, &row)).collect::<Vec<_>>(),
+        "levels": json_objects(&timed_columns(), rows(timed, index)),
     })
 }

@@ -1,7 +1,7 @@
 //! Section of a suite: text, verdicts, figures, the complete report, and the suite file.
 
 use super::html::Html;
-use super::tables::{SuiteSource, case_id, figure_cells, result, scrolled, suite_id};
+use super::tables::{SuiteSource, case_id, figure_cells, heads, link, result, scrolled, suite_id};
 use crate::report::figure::plot::style::{SUPERSCRIPT, WIDTH};
 use crate::report::{svg, text};
 use crate::verify::{CaseOutcome, SuiteOutcome};
@@ -9,10 +9,7 @@ use crate::verify::{CaseOutcome, SuiteOutcome};
 pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
     let (id, suite) = (suite_id(outcome), outcome.suite.as_str());
-    let heading = vec![
-        Html::tag("a", &[("href", &format!("#{id}"))], suite),
-        Html::text(&format!(": {}", outcome.title)),
-    ];
+    let heading = vec![link(&id, suite), Html::text(&format!(": {}", outcome.title))];
     let mut parts = vec![Html::tag("h2", &[], heading), links(source)];
     let paragraphs = outcome.about.split("\n\n").filter(|text| !text.trim().is_empty());
     parts.extend(paragraphs.map(|text| Html::tag("p", &[], text)));
@@ -30,12 +27,10 @@ pub(super) fn section(source: &SuiteSource<'_>) -> Html {
 
 fn links(source: &SuiteSource<'_>) -> Html {
     let suite = &source.outcome.suite;
-    let link =
-        |kind: &str, words: &str| Html::tag("a", &[("href", &format!("#{kind}-{suite}"))], words);
-    let top = Html::tag("a", &[("href", "#verdicts")], "all verdicts");
     let between = || Html::text(" · ");
-    let yaml = link("yaml", source.file);
-    let parts = vec![link("report", "report"), between(), yaml, between(), top];
+    let yaml = link(&format!("yaml-{suite}"), source.file);
+    let top = link("verdicts", "all verdicts");
+    let parts = vec![link(&format!("report-{suite}"), "report"), between(), yaml, between(), top];
     Html::tag("p", &[("class", "links")], parts)
 }
 
@@ -44,22 +39,18 @@ fn links(source: &SuiteSource<'_>) -> Html {
 fn cases(outcome: &SuiteOutcome) -> Html {
     let judged = outcome.cases.iter().filter_map(CaseOutcome::convergence).find(|s| s.compared);
     let measured = outcome.cases.iter().any(|case| case.convergence().is_some());
-    let head =
-        |(name, class): (&str, &str)| Html::tag("th", &[("scope", "col"), ("class", class)], name);
-    let mut heads = [("Case", "word"), ("Result", "word"), ("Verdict", "word")].map(head).to_vec();
+    let mut columns = vec![("Case", "word"), ("Result", "word"), ("Verdict", "word")];
     if measured {
-        let figures = ["Order", "Error, finest level", "Transfers"];
-        heads.extend(figures.map(|name| head((name, "number"))));
+        columns.extend(["Order", "Error, finest level", "Transfers"].map(|name| (name, "number")));
     }
-    heads.extend([("Found", "word"), ("Expected", "word")].map(head));
+    columns.extend([("Found", "word"), ("Expected", "word")]);
     let groups = outcome.cases.chunk_by(|a, b| a.expectation() == b.expectation());
     let rows: Vec<Html> = groups.flat_map(|group| rows(outcome, group, measured)).collect();
     let mut table = Vec::new();
     table.extend(judged.map(|study| {
         Html::tag("caption", &[], format!("Error on the finest level: {}", study.judged()))
     }));
-    let heads = Html::tag("tr", &[], heads);
-    table.extend([Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)]);
+    table.extend([heads(columns), Html::block("tbody", &[], &rows)]);
     let label = format!("Verdicts of {}", outcome.suite);
     scrolled(&label, Html::block("table", &[], &table))
 }
@@ -80,11 +71,8 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
         cells.push(Html::tag("td", &[("class", "prose")], found));
         if k == 0 {
             let rows = group.len().to_string();
-            cells.push(Html::tag(
-                "td",
-                &[("class", "prose"), ("rowspan", &rows)],
-                case.expectation(),
-            ));
+            let attributes = [("class", "prose"), ("rowspan", rows.as_str())];
+            cells.push(Html::tag("td", &attributes, case.expectation()));
         }
         Html::tag("tr", &[("id", &case_id(outcome, case))], cells)
     };
@@ -92,13 +80,8 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
 }
 
 fn report(outcome: &SuiteOutcome) -> Html {
-    let text = Html::text(&text(outcome));
-    folded(
-        &format!("report-{}", outcome.suite),
-        "Report",
-        &format!("Report of {}", outcome.suite),
-        text,
-    )
+    let id = format!("report-{}", outcome.suite);
+    folded(&id, "Report", &format!("Report of {}", outcome.suite), Html::text(&text(outcome)))
 }
 
 fn file(source: &SuiteSource<'_>) -> Html {

@@ -22,10 +22,8 @@ pub struct SuiteSource<'a> {
 /// Creates the table that counts the cases with the formal order, for each group of suites and each
 /// basis.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
-    let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
-    let heads: Vec<Html> = ["Topic"].iter().chain(&COLUMNS).map(|name| head(name)).collect();
     let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
-        let link = Html::tag("a", &[("href", &format!("#group-{}", plain(group)))], group);
+        let link = link(&format!("group-{}", plain(group)), group);
         let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
         let outcomes: Vec<_> = sources.iter().map(|source| source.outcome).collect();
         cells.extend(shares(&outcomes).map(|(kept, all)| share(kept, all)));
@@ -36,17 +34,29 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
                  Blue: all; grey: half or more; yellow: fewer; a dash: no such case. Many cases are \
                  included because the method is known to lose its order there, which counts as \
                  expected.";
-    let table =
-        [Html::tag("thead", &[], Html::tag("tr", &[], heads)), Html::block("tbody", &[], &rows)];
-    Html::block(
-        "section",
-        &[("id", "methods"), ("aria-labelledby", "methods-head")],
-        &[
-            Html::tag("h2", &[("id", "methods-head")], "Methods by topic"),
-            Html::tag("p", &[("class", "muted")], about),
-            scrolled("Topics and bases", Html::block("table", &[("class", "matrix")], &table)),
-        ],
-    )
+    let table = [bases("Topic"), Html::block("tbody", &[], &rows)];
+    let table = scrolled("Topics and bases", Html::block("table", &[("class", "matrix")], &table));
+    titled("methods", "Methods by topic", about, table)
+}
+
+/// Creates a section with a heading, a remark and a table.
+fn titled(id: &str, title: &str, about: &str, table: Html) -> Html {
+    let head = format!("{id}-head");
+    let about = Html::tag("p", &[("class", "muted")], about);
+    let parts = [Html::tag("h2", &[("id", &head)], title), about, table];
+    Html::block("section", &[("id", id), ("aria-labelledby", &head)], &parts)
+}
+
+/// Creates the headings of a table with one column for each basis.
+fn bases(first: &'static str) -> Html {
+    heads([first].into_iter().chain(COLUMNS).map(|name| (name, "word")))
+}
+
+/// Creates the headings of a table, each with the class of its column.
+pub(super) fn heads<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>) -> Html {
+    let head = |(name, class)| Html::tag("th", &[("scope", "col"), ("class", class)], name);
+    let heads: Vec<Html> = columns.into_iter().map(head).collect();
+    Html::tag("thead", &[], Html::tag("tr", &[], heads))
 }
 
 /// Creates the cell `K of N`: K of the N cases reach the order of theory. The colour shows whether
@@ -77,12 +87,6 @@ fn plain(name: &str) -> String {
 
 /// Creates the table of all suites with their results, in groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
-    let head = |name: &str| Html::tag("th", &[("scope", "col"), ("class", "word")], name);
-    let heads = Html::tag(
-        "tr",
-        &[],
-        ["Suite"].iter().chain(&COLUMNS).map(|name| head(name)).collect::<Vec<_>>(),
-    );
     let columns = (COLUMNS.len() + 1).to_string();
     let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let name = Html::tag("th", &[("scope", "rowgroup"), ("colspan", &columns)], group);
@@ -91,7 +95,7 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
         rows.extend(sources.into_iter().map(suite_row));
         Html::block("tbody", &[], &rows)
     };
-    let mut table = vec![Html::tag("thead", &[], heads)];
+    let mut table = vec![bases("Suite")];
     table.extend(by_group(sources, |source| source.outcome).into_iter().map(group));
     let parts = [
         Html::tag("h2", &[], "Suites"),
@@ -119,8 +123,7 @@ fn key() -> Html {
 
 fn suite_row(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
-    let link =
-        Html::tag("a", &[("href", &format!("#{}", suite_id(outcome)))], outcome.suite.as_str());
+    let link = link(&suite_id(outcome), &outcome.suite);
     let title = Html::tag("span", &[("class", "muted title")], format!(" {}", outcome.title));
     let mut name = vec![link, title];
     if !outcome.passed() {
@@ -135,44 +138,31 @@ fn suite_row(source: &SuiteSource<'_>) -> Html {
     Html::tag("tr", &[], cells)
 }
 
-/// Heading of each column of the verdict table, and whether the column contains numbers.
-const VERDICT_COLUMNS: [(&str, bool); 8] = [
-    ("Suite", false),
-    ("Case", false),
-    ("Result", false),
-    ("Verdict", false),
-    ("Order", true),
-    ("Error, finest level", true),
-    ("Transfers", true),
-    ("Expected", false),
+/// Heading of each column of the verdict table, and the class of the column.
+const VERDICT_COLUMNS: [(&str, &str); 8] = [
+    ("Suite", "word"),
+    ("Case", "word"),
+    ("Result", "word"),
+    ("Verdict", "word"),
+    ("Order", "number"),
+    ("Error, finest level", "number"),
+    ("Transfers", "number"),
+    ("Expected", "word"),
 ];
 
 pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
     let cases = sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |case| (s, case)));
     let rows: Vec<Html> = cases.map(|(source, case)| case_row(source, case)).collect();
-    let head = |(name, number): (&str, bool)| {
-        let class = if number { "number" } else { "word" };
-        Html::tag("th", &[("scope", "col"), ("class", class)], name)
-    };
-    let heads = Html::tag("tr", &[], VERDICT_COLUMNS.map(head).to_vec());
     let legend = "Order: observed, with its 95 % interval. Transfers: pairs of a particle and a \
                   node on the finest level. The report of a suite names the quantity of the error.";
-    let table = [Html::tag("thead", &[], heads), Html::block("tbody", &[], &rows)];
-    Html::block(
-        "section",
-        &[("id", "verdicts"), ("aria-labelledby", "verdicts-head")],
-        &[
-            Html::tag("h2", &[("id", "verdicts-head")], "Verdicts"),
-            Html::tag("p", &[("class", "muted")], legend),
-            scrolled("All verdicts", Html::block("table", &[], &table)),
-        ],
-    )
+    let table = [heads(VERDICT_COLUMNS), Html::block("tbody", &[], &rows)];
+    let table = scrolled("All verdicts", Html::block("table", &[], &table));
+    titled("verdicts", "Verdicts", legend, table)
 }
 
 fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     let outcome = source.outcome;
-    let suite =
-        Html::tag("a", &[("href", &format!("#{}", suite_id(outcome)))], outcome.suite.as_str());
+    let suite = link(&suite_id(outcome), &outcome.suite);
     let name = |content: Html| Html::tag("td", &[("class", "name")], content);
     let [order, error, transfers] = figure_cells(case);
     let basis = case.setting("basis").unwrap_or(case.subject);
@@ -247,5 +237,10 @@ pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
 /// Creates a link to the row of a case. `full` adds the name of the suite.
 pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome, full: bool) -> Html {
     let name = if full { format!("{}::{}", outcome.suite, case.case) } else { case.case.clone() };
-    Html::tag("a", &[("href", &format!("#{}", case_id(outcome, case)))], name)
+    link(&case_id(outcome, case), &name)
+}
+
+/// Creates a link to an element of the page.
+pub(super) fn link(id: &str, words: &str) -> Html {
+    Html::tag("a", &[("href", &format!("#{id}"))], words)
 }
