@@ -120,9 +120,7 @@ impl GradientRun<'_> {
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
         let entry = |(parameter, reported): (&GradientParameter, f64)| {
             let q = nominal(problem, *parameter)?;
-            let by = q * libm::exp2(-f64::from(EVIDENCE_LEVEL));
-            let at = |q: f64| value(problem.clone().with_parameter(*parameter, q));
-            let difference = (at(q + by)? - at(q - by)?) / (2.0 * by);
+            let difference = self.around(problem, *parameter, q, EVIDENCE_LEVEL)?.difference();
             Ok(GradientEntry { parameter: parameter.name(), reported, difference })
         };
         let entries = self.request.iter().zip(gradient).map(entry);
@@ -151,12 +149,9 @@ impl GradientRun<'_> {
         let q = nominal(problem, parameter)?;
         let index = self.request.iter().position(|known| *known == parameter).unwrap_or(0);
         let reported = self.gradient(problem)?.gradient[index];
-        let at = |q: f64| self.value(&problem.clone().with_parameter(parameter, q));
-        let difference = |level: u32| -> Result<f64, GradientError> {
-            let by = q * libm::exp2(-f64::from(level));
-            Ok((at(q + by)?.value - at(q - by)?.value) / (2.0 * by))
-        };
-        let exact = (4.0 * difference(EVIDENCE_LEVEL)? - difference(EVIDENCE_LEVEL - 1)?) / 3.0;
+        let around = |level: u32| self.around(problem, parameter, q, level);
+        let (fine, coarse) = (around(EVIDENCE_LEVEL)?, around(EVIDENCE_LEVEL - 1)?);
+        let exact = (4.0 * fine.difference() - coarse.difference()) / 3.0;
         Ok((reported - exact) / exact)
     }
 
@@ -291,6 +286,20 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
+    /// Returns the values of the functional with the value `q` of a parameter changed by q 2^-level
+    /// in both directions.
+    fn around(
+        &self,
+        problem: &LevelProblem,
+        parameter: GradientParameter,
+        q: f64,
+        level: u32,
+    ) -> Result<Perturbed, GradientError> {
+        let at = |q: f64| self.value(&problem.clone().with_parameter(parameter, q));
+        let by = q * libm::exp2(-f64::from(level));
+        Ok(Perturbed { level, by, above: at(q + by)?.value, below: at(q - by)?.value })
+    }
+
     /// Returns values of the functional with the parameter value `q` perturbed by fractions of
     /// itself.
     fn perturbed(
@@ -299,15 +308,10 @@ impl GradientRun<'_> {
         q: f64,
         progress: Progress<'_>,
     ) -> Result<Vec<Perturbed>, GradientError> {
-        let parameter = self.parameter().parameter;
-        let value = |q: f64| -> Result<f64, GradientError> {
-            Ok(self.value(&problem.clone().with_parameter(parameter, q))?.value)
-        };
         let perturbed = |level: u32| {
-            let by = q * libm::exp2(-f64::from(level));
-            let (above, below) = (value(q + by)?, value(q - by)?);
+            let found = self.around(problem, self.parameter().parameter, q, level)?;
             progress();
-            Ok(Perturbed { level, by, above, below })
+            Ok(found)
         };
         (FIRST_LEVEL..=LAST_LEVEL).into_par_iter().map(perturbed).collect()
     }

@@ -241,14 +241,7 @@ const SUM: Declaration = Declaration {
     shape: TensorShape::Scalar,
     computed: |_| Cow::from(&[]),
     exact: |_, _, _, _| false,
-    exact_at_all: None,
-    size: SolutionSize::Magnitude,
-    rounding_size: |_| f64::NAN,
-    is_primary: false,
-    is_optional: true,
-    is_of_motion: true,
-    needs_deformation_gradient: false,
-    sum: None,
+    ..STRESS
 };
 
 pub(super) const KINETIC_ENERGY: Declaration = Declaration {

@@ -1,6 +1,7 @@
 //! Compares an observed order with the range that a suite could expect, and suggests how to make
 //! the expectation stronger.
 
+use crate::verify::figure::counted;
 use crate::verify::{
     Axis, Convergence, FEWEST_LEVELS, Interval, Level, LevelOutcome, NormName, OrderHypothesis,
     Verdict, format_number, judge, two_sided_95,
@@ -22,18 +23,13 @@ pub(crate) fn range(order: f64) -> String {
     let (low, high) = OrderHypothesis::formal(order).range();
     format!("[{}, {}]", format_number(low), format_number(high))
 }
-
-pub(crate) fn counted(study: &Convergence) -> impl Iterator<Item = &LevelOutcome> {
-    study.levels.iter().filter(|level| level.usable)
-}
-
 /// Half-width of the confidence interval of an order above which more levels are suggested.
 const WIDE: f64 = 0.03;
 
 /// Lists reasons why an expectation cannot be stronger, and remedies: more levels, or another norm.
 pub(crate) fn advice(study: &Convergence) -> Vec<String> {
     let mut advice = Vec::new();
-    let usable = counted(study).count();
+    let usable = counted(&study.levels).count();
     let Some(order) = study.judgement.order else {
         if usable < FEWEST_LEVELS {
             let more = FEWEST_LEVELS - usable;
@@ -80,7 +76,7 @@ fn other_norm(study: &Convergence, judged: &Interval) -> Option<String> {
     let order = |norm: NormName| {
         let level =
             |level: &LevelOutcome| Level::new(level.spacing, level.run.errors.in_norm(norm));
-        let levels: Vec<Level> = counted(study).map(level).collect();
+        let levels: Vec<Level> = counted(&study.levels).map(level).collect();
         let judgement = judge(&levels, &OrderHypothesis { formal_order, expected: None, axis });
         let order = judgement.order.filter(|_| judgement.verdict == Verdict::Converging)?;
         Some((norm, order))

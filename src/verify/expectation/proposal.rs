@@ -4,8 +4,9 @@
 //! taken from the run and are marked accordingly. A range is proposed only if the observed
 //! order lies inside the range, at a distance of at least twice its uncertainty from either bound.
 
-use super::advice::{advice, counted, is_inside, range};
+use super::advice::{advice, is_inside, range};
 use crate::named::named;
+use crate::verify::figure::counted;
 use crate::verify::{Axis, Conserved, Convergence, LevelOutcome, Verdict, format_number, larger};
 
 /// Maximum drift that is explained by rounding of the sums.
@@ -142,7 +143,7 @@ fn floor(study: &Convergence) -> Option<String> {
 }
 
 fn error_bound(study: &Convergence) -> Option<String> {
-    let largest = counted(study).map(|level| level.error).reduce(larger)?;
+    let largest = counted(&study.levels).map(|level| level.error).reduce(larger)?;
     let bound = rounded_up(ROOM_OF_ERROR * largest);
     (bound > 0.0 && bound.is_finite()).then(|| format!("error_below: {bound:e}"))
 }
@@ -164,7 +165,7 @@ fn rounded_up(value: f64) -> f64 {
 fn drifts(study: &Convergence) -> Vec<ProposedKey> {
     let worst = |sum: Conserved| {
         let drift = |level: &LevelOutcome| level.run.drift.map(|drift| drift.of(sum));
-        let all: Option<Vec<f64>> = counted(study).map(drift).collect();
+        let all: Option<Vec<f64>> = counted(&study.levels).map(drift).collect();
         all?.into_iter().reduce(larger)
     };
     let kept = |sum: &&Conserved| worst(**sum).is_some_and(|drift| drift <= ROUNDING);

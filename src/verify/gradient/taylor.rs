@@ -43,6 +43,13 @@ pub struct Perturbed {
     pub below: f64,
 }
 
+impl Perturbed {
+    /// Returns the central difference `(J(q + e) - J(q - e))/(2 e)`.
+    pub(crate) fn difference(&self) -> f64 {
+        (self.above - self.below) / (2.0 * self.by)
+    }
+}
+
 /// Values of a function around a point, and the derivative reported at this point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taylor {
@@ -79,7 +86,7 @@ impl Taylor {
 
     /// Returns the central differences `(J(q + e) - J(q - e))/(2 e)`.
     pub fn differences(&self) -> Vec<f64> {
-        self.perturbed.iter().map(|p| (p.above - p.below) / (2.0 * p.by)).collect()
+        self.perturbed.iter().map(Perturbed::difference).collect()
     }
 
     /// Returns the state of the derivative, and the reason with measured values.
