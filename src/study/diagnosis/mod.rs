@@ -1,14 +1,5 @@
 //! Determines why a case does not have the theoretical order.
 //!
-//! ```text
-//! session        runs of one case within a budget; checks whether `check` accepts a remedy
-//! steps          steps longer than the stable step
-//! walls          particles outside the grid, and walls that move
-//! levels         levels that are too coarse; an equilibrium without damping
-//! regularity     jumps of the exact solution, its length scale, and the order that it allows
-//! probes         changes of the problem, the levels or the method, one at a time
-//! ```
-//!
 //! The finest levels run again with one change at a time (as in the isolating runs of Roy 2005, J.
 //! Comput. Phys. 205, 131). A change reveals the cause if it restores the order. If no change does,
 //! one that raises the order is reported, or else the one with the largest decrease of the finest

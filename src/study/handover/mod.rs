@@ -1,11 +1,4 @@
 //! Converts a level of a study to a problem for any solver.
-//!
-//! ```text
-//! initial   grid, faces, materials, forces and steps of a level
-//! particles initial particles, and their exact state at a later time
-//! fields    initial state, loads and face conditions at points that a solver chooses
-//! needs     capabilities that a suite requires; suites with an external solver as their method
-//! ```
 
 mod fields;
 mod initial;

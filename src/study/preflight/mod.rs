@@ -1,15 +1,5 @@
 //! Warnings and notes about a suite, with positions in its file, found before anything runs.
 //!
-//! ```text
-//! subject      the checked study, and the paths in its file
-//! grid         levels that count for an order, a motion that leaves the grid, and a box whose last
-//!              particles start on nodes, with linear functions
-//! error_floor  errors that refinement does not lower: small strain, single precision, and
-//!              linearised laws
-//! alignment    interfaces and loaded faces inside a cell
-//! undamped     an equilibrium without dissipation
-//! ```
-//!
 //! Rules about orders do not apply to a suite that only bounds an error. Suites acknowledge
 //! intended findings by name, with the key `acknowledge`.
 

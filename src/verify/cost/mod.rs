@@ -1,12 +1,5 @@
 //! Cost of accuracy: the method that reaches an error with the least work.
 //!
-//! | module | contents |
-//! |---|---|
-//! | [`sample`](Sample) | levels, the converging part, the Pareto front, the work at an error |
-//! | [`exponent`](Exponent) | cost of one more digit, compared with theory |
-//! | [`ranking`](Ranking) | methods of one problem, ranked by their cost |
-//! | [`timing`](Timing) | measured seconds, and a suite with timed levels |
-//!
 //! Work is any additive measure, such as seconds or the number of particle-node transfers, which is
 //! equal on all machines. Rankings do not extrapolate: a method whose levels all have larger errors
 //! does not reach the target.

@@ -266,7 +266,7 @@ impl RunResult {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::subject::RunCounters;
     use approx::assert_relative_eq;
@@ -294,7 +294,7 @@ mod tests {
         }
     }
 
-    struct AtRest;
+    pub(in crate::verify) struct AtRest;
 
     impl Truth for AtRest {
         fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {

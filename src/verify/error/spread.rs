@@ -131,20 +131,9 @@ pub fn spread(runs: &[RunRecord], norm: NormName) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::verify::error::run::tests::AtRest;
     use approx::assert_relative_eq;
     use rstest::rstest;
-
-    struct AtRest;
-
-    impl Truth for AtRest {
-        fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
-            into.fill(0.0);
-        }
-
-        fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
-            into.fill(0.0);
-        }
-    }
 
     /// Creates a run with one instant, with the given labels (m) and displacements (m).
     fn record(points: &[(f64, f64)], norm: NormName) -> RunRecord {

@@ -1,11 +1,4 @@
 //! Judges the derivatives that a differentiable solver reports.
-//!
-//! ```text
-//! taylor   remainder of the Taylor series with the derivative, at one value of the parameter
-//! sweep    the derivative over an interval of the parameter
-//! cause    the probable mistake in a wrong derivative
-//! study    all checks of the derivative with respect to one parameter, and its state
-//! ```
 
 mod cause;
 mod study;

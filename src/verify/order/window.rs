@@ -162,9 +162,4 @@ mod tests {
         let window = asymptotic(&points, points.len(), 2.0).unwrap();
         assert_eq!(window.range, expected);
     }
-
-    #[test]
-    fn three_levels_have_no_window() {
-        assert!(asymptotic(&points(&[2.0, 2.0]), 3, 2.0).is_none());
-    }
 }

@@ -1,14 +1,4 @@
 //! Stability: whether a run stays bounded, and the limit of a parameter.
-//!
-//! | module | contents |
-//! |---|---|
-//! | [`trial_result`](Trial) | verdict and measured values of one run |
-//! | [`trial`](trial()) | one run: energy relative to its initial value, J, largest speed |
-//! | [`amplification`](amplification()) | matrix of one step, from runs of perturbed states |
-//! | [`radius`](spectral_radius) | the largest eigenvalue of the amplification matrix |
-//! | [`limit`](stability_limit()) | smallest unstable value of a parameter |
-//! | [`expectation`](StabilityExpectation) | expectations of suites |
-//! | [`outcome`](StabilityStudy) | the rows of a report |
 
 mod amplification;
 mod expectation;
