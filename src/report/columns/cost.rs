@@ -53,21 +53,16 @@ pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
 }
 
 fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
-    let two = |value: f64| Cell::number(value, decimals(2));
+    type ExponentColumn<'a> = TableColumn<'a, Exponent>;
+    let of = |heading, key, about, value: fn(&Exponent) -> f64| {
+        ExponentColumn::new(heading, key, about, move |e| Cell::number(value(e), decimals(2)))
+    };
     [
-        TableColumn::<Exponent>::new("k", "value", "exponent of work ~ error^k", move |e| {
-            two(e.observed.value)
-        }),
-        TableColumn::<Exponent>::new("low", "low", "lower end of its interval", move |e| {
-            two(e.observed.low)
-        }),
-        TableColumn::<Exponent>::new("high (95 %)", "high", "upper end", move |e| {
-            two(e.observed.high)
-        }),
-        TableColumn::<Exponent>::new("theory", "theory", "exponent in theory", move |e| {
-            two(e.theory)
-        }),
-        TableColumn::<Exponent>::new(
+        of("k", "value", "exponent of work ~ error^k", |e| e.observed.value),
+        of("low", "low", "lower end of its interval", |e| e.observed.low),
+        of("high (95 %)", "high", "upper end", |e| e.observed.high),
+        of("theory", "theory", "exponent in theory", |e| e.theory),
+        ExponentColumn::new(
             "",
             "agrees",
             "whether the exponent agrees with theory, or else the difference",
@@ -99,16 +94,13 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {
+    type ReachedColumn<'a> = TableColumn<'a, Reached>;
     [
-        TableColumn::<Reached>::json("work", "work for the error", |(reach, _)| {
-            reach.work().map(number)
-        }),
-        TableColumn::<Reached>::json("at_most", "whether less work may be enough", |(reach, _)| {
+        ReachedColumn::json("work", "work for the error", |(reach, _)| reach.work().map(number)),
+        ReachedColumn::json("at_most", "whether less work may be enough", |(reach, _)| {
             matches!(reach, Reach::Already { .. })
         }),
-        TableColumn::<Reached>::json("times", "times the least work", |(_, times)| {
-            times.map(number)
-        }),
+        ReachedColumn::json("times", "times the least work", |(_, times)| times.map(number)),
     ]
 }
 

@@ -44,20 +44,30 @@ fn map(outcome: &SuiteOutcome, studies: &[(&str, &StabilityStudy)], figure: RunF
         let value = value(row, figure);
         MapField { value: Some(value), text: short(value) }
     };
-    let row = |(name, study): &(&str, &StabilityStudy)| {
-        ((*name).to_owned(), study.rows.iter().map(field).collect())
-    };
-    let first = studies.first().map(|(_, study)| *study);
-    let map = Map {
-        title: format!("{}: {}", outcome.title, figure.head()),
-        x_label: first.map_or(String::new(), |study| study.swept.clone()),
-        z_label: figure.head().to_owned(),
-        columns: first
-            .map_or(Vec::new(), |study| study.rows.iter().map(|r| column_head(r.value)).collect()),
-        rows: merged_fields(studies.iter().map(row).collect()),
-    };
+    let title = format!("{}: {}", outcome.title, figure.head());
+    let map = swept_map(title, figure.head().to_owned(), studies, field);
     let file = format!("{}-{}.svg", outcome.suite, figure.name());
     Figure { file, svg: map.to_svg(), pgfplots: map.to_pgfplots() }
+}
+
+/// Creates a map with a row for each case and a column for each value of the swept parameter.
+pub(crate) fn swept_map(
+    title: String,
+    z_label: String,
+    studies: &[(&str, &StabilityStudy)],
+    field: impl Fn(&StabilityRow) -> MapField,
+) -> Map {
+    let fields = |study: &StabilityStudy| study.rows.iter().map(&field).collect();
+    let rows = studies.iter().map(|(name, study)| ((*name).to_owned(), fields(study))).collect();
+    let first = studies.first().map(|(_, study)| study);
+    let values = first.into_iter().flat_map(|study| &study.rows);
+    Map {
+        title,
+        x_label: first.map_or(String::new(), |study| study.swept.clone()),
+        z_label,
+        columns: values.map(|row| column_head(row.value)).collect(),
+        rows: merged_fields(rows),
+    }
 }
 
 #[cfg(test)]

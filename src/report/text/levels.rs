@@ -307,31 +307,26 @@ struct ObservedLimit {
     is_covered: Option<bool>,
 }
 
-impl ObservedLimit {
-    fn estimate(&self) -> Option<LimitEstimate> {
-        self.result.ok()
-    }
-}
-
 fn limit_columns() -> [TableColumn<'static, ObservedLimit>; 8] {
     type LimitColumn = TableColumn<'static, ObservedLimit>;
+    let of = |heading, about, text: fn(&LimitEstimate) -> String| {
+        LimitColumn::text(heading, about, move |row| row.result.as_ref().ok().map(text))
+    };
     [
         LimitColumn::text("case", "case", |row| row.case.clone()).flush_left(),
-        LimitColumn::text("order", "order of the finest three values", |row| {
-            row.estimate().map(|estimate| decimals(2)(estimate.order.value))
+        of("order", "order of the finest three values", |estimate| {
+            decimals(2)(estimate.order.value)
         }),
-        LimitColumn::text("+-", "half-width of the interval of the order", |row| {
-            row.estimate().map(|estimate| decimals(2)(estimate.order.half_width()))
+        of("+-", "half-width of the interval of the order", |estimate| {
+            decimals(2)(estimate.order.half_width())
         }),
-        LimitColumn::text("extrapolated u", "extrapolated value (m)", |row| {
-            row.estimate().map(|estimate| limit_shown(&estimate))
-        }),
-        LimitColumn::text("+- (95 %)", "half-width of the interval of the limit (m)", |row| {
-            row.estimate().map(|estimate| short(estimate.limit.half_width()))
+        of("extrapolated u", "extrapolated value (m)", limit_shown),
+        of("+- (95 %)", "half-width of the interval of the limit (m)", |estimate| {
+            short(estimate.limit.half_width())
         }),
         LimitColumn::text("true error", "distance of the limit from the exact value (m)", |row| {
-            let exact = row.exact?;
-            row.estimate().map(|estimate| short((estimate.limit.value - exact).abs()))
+            let (exact, estimate) = (row.exact?, row.result.ok()?);
+            Some(short((estimate.limit.value - exact).abs()))
         }),
         LimitColumn::text(
             "exact u inside",

@@ -3,7 +3,7 @@
 use super::table::{Table, merged_blocks};
 use crate::report::columns::TableColumn;
 use crate::report::columns::stability::{self, ledger_text, limit_of, limit_text};
-use crate::report::figure::map::{column_head, merged_fields};
+use crate::report::figure::sweep::swept_map;
 use crate::report::figure::{Map, MapField};
 use crate::subject::{EnergyBalance, LedgerStage};
 use crate::verify::{CaseOutcome, StabilityLimit, StabilityRow, StabilityStudy, SuiteOutcome};
@@ -26,16 +26,7 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
             beyond => limit_text(beyond),
         }),
     };
-    let row = |(name, study): &(&str, &StabilityStudy)| {
-        ((*name).to_owned(), study.rows.iter().map(field).collect())
-    };
-    Some(Map {
-        title: outcome.title.clone(),
-        x_label: first.swept.clone(),
-        z_label: format!("limit of {sought}"),
-        columns: first.rows.iter().map(|row| column_head(row.value)).collect(),
-        rows: merged_fields(studies.iter().map(row).collect()),
-    })
+    Some(swept_map(outcome.title.clone(), format!("limit of {sought}"), &studies, field))
 }
 
 /// Name of a case and its study.
@@ -134,6 +125,7 @@ fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::figure::map::merged_fields;
 
     fn row(name: &str, text: &str) -> (String, Vec<MapField>) {
         (name.to_owned(), vec![MapField { value: None, text: text.to_owned() }])
