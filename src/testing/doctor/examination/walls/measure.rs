@@ -51,7 +51,7 @@ pub(super) struct Wall {
     /// crosses one cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to the product of velocity and step length.
-    pub(super) jump: Option<f64>,
+    pub(super) jump: f64,
     /// Displacement along gravity at the wall, for the original and for half the step length. Unit:
     /// g t times the time in which a wave crosses one cell.
     pub(super) sinking: Option<[f64; 2]>,
@@ -168,7 +168,7 @@ pub(super) fn walls_across(
             falling,
             offset,
             through: courses.get(push).filter(|_| push == 0 || axis == 0).map(through),
-            jump: Some(courses[0].farthest(displacement, 1, [0.0; 3]) / (SPEED * c * plain.dt)),
+            jump: courses[0].farthest(displacement, 1, [0.0; 3]) / (SPEED * c * plain.dt),
             sinking: sunk.map(|sunk| {
                 let halved = halved.as_ref().and_then(|halved| halved.first());
                 [sunk[place], halved.map_or(sunk[place], |halved| sinking(side, halved))]
