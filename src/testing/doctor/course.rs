@@ -97,6 +97,12 @@ impl Course {
         self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
     }
 
+    /// Returns the largest change of a displacement in the first step (m).
+    pub(super) fn first_motion(&self) -> f64 {
+        let pairs = self.points(displacement, 0).zip(self.points(displacement, 1));
+        pairs.map(|((_, a), (_, b))| size(minus(b, a))).fold(0.0, f64::max)
+    }
+
     /// Returns the label of every point and its vector in state `k`; missing components are zero.
     pub(super) fn points(
         &self,
@@ -137,8 +143,20 @@ pub(super) fn shown(x: f64) -> String {
 }
 
 pub(super) fn shown_vector(x: [f64; 3], dimension: usize) -> String {
-    let all: Vec<String> = x[..dimension].iter().map(|x| shown(*x)).collect();
-    format!("({})", all.join(", "))
+    shown_list(&x[..dimension])
+}
+
+pub(super) fn shown_list(numbers: &[f64]) -> String {
+    format!("({})", numbers.iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", "))
+}
+
+/// Returns the largest difference between the entries of two lists; NaN is ignored.
+pub(super) fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+pub(super) fn transposed(tensor: &[f64], d: usize) -> Vec<f64> {
+    (0..d * d).map(|k| tensor[(k % d) * d + k / d]).collect()
 }
 
 pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -170,6 +188,11 @@ pub(super) struct AffineField {
 impl AffineField {
     pub(super) fn uniform(value: [f64; 3]) -> Self {
         Self { value, ..Self::default() }
+    }
+
+    /// Creates a uniform field whose only component is that along `axis`.
+    pub(super) fn along(axis: usize, value: f64) -> Self {
+        Self::uniform(std::array::from_fn(|i| if i == axis { value } else { 0.0 }))
     }
 
     pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {

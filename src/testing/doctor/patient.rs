@@ -41,18 +41,44 @@ pub(super) struct Patient<'a> {
 }
 
 impl Examined {
-    pub(super) fn new(measured: String, findings: Vec<SolverFinding>) -> Self {
-        Self { measured, findings }
+    pub(super) fn new(measured: String, findings: impl IntoIterator<Item = SolverFinding>) -> Self {
+        Self { measured, findings: findings.into_iter().collect() }
+    }
+
+    /// Adds the findings of `other` whose names are new, and its measured values.
+    pub(super) fn add(&mut self, other: Self) {
+        if !self.measured.is_empty() && !other.measured.is_empty() {
+            self.measured.push_str("; ");
+        }
+        self.measured.push_str(&other.measured);
+        for finding in other.findings {
+            if self.findings.iter().all(|known| known.name != finding.name) {
+                self.findings.push(finding);
+            }
+        }
+    }
+}
+
+/// Returns the run, or its failure if it ended early.
+pub(super) fn complete(course: Course) -> Result<Course, Hindrance> {
+    match course.failure {
+        Some(failure) => Err(Hindrance::Broke(failure)),
+        None => Ok(course),
     }
 }
 
 impl Patient<'_> {
     /// Returns the maximum relative error of a motion that is exact except for rounding.
     pub(super) fn rounding(&self) -> f64 {
+        // 24 bits resolve 6e-8. Several hundred steps and a change of units increase the error.
+        self.tolerance(1e-9, 1e-3)
+    }
+
+    /// Returns the tolerance for the precision of the solver.
+    pub(super) fn tolerance(&self, double: f64, single: f64) -> f64 {
         match self.solver.precision() {
-            Precision::Double => 1e-9,
-            // 24 bits resolve 6e-8. Several hundred steps and a change of units increase the error.
-            Precision::Single => 1e-3,
+            Precision::Double => double,
+            Precision::Single => single,
         }
     }
 
@@ -103,15 +129,9 @@ impl Patient<'_> {
 
     /// Runs `scenes`. All runs must complete.
     pub(super) fn run_all(&self, scenes: &[BoxScene]) -> Result<Vec<Course>, Hindrance> {
-        let complete = |scene| {
-            let course = self.run(scene)?;
-            match course.failure {
-                Some(failure) => Err(Hindrance::Broke(failure)),
-                None => Ok(course),
-            }
-        };
+        let run = |scene| complete(self.run(scene)?);
         // Results are collected first, so that the returned error does not depend on thread timing.
-        let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(complete).collect();
+        let courses: Vec<Result<Course, Hindrance>> = scenes.par_iter().map(run).collect();
         courses.into_iter().collect()
     }
 

@@ -7,8 +7,11 @@ use super::patient::Examined;
 /// Measured quantities of one place or run; `None` for a quantity that was not measured.
 pub(super) type Row<const N: usize> = (String, [Option<f64>; N]);
 
-/// Values that identify a finding; `None` for a quantity that may have any value.
-pub(super) type Pattern<const N: usize> = [Option<f64>; N];
+/// Values that identify a finding; [`ANY`] for a quantity that may have any value.
+pub(super) type Pattern<const N: usize> = [f64; N];
+
+/// Any value of a quantity.
+pub(super) const ANY: f64 = f64::NAN;
 
 /// Expected values of `N` quantities, and the findings if other values are measured.
 pub(super) struct Rules<const N: usize> {
@@ -27,17 +30,17 @@ impl<const N: usize> Rules<N> {
     pub(super) fn judge(&self, rows: &[Row<N>]) -> Examined {
         let agrees = |(_, values): &Row<N>, pattern: &Pattern<N>| {
             values.iter().zip(pattern).zip(&self.quantities).all(|((value, wanted), quantity)| {
-                let (Some(value), Some(wanted)) = (value, wanted) else { return true };
-                (value - wanted).abs() <= quantity.2 * wanted.abs().max(1.0)
+                let near = quantity.2 * wanted.abs().max(1.0);
+                value.is_none_or(|value| wanted.is_nan() || (value - wanted).abs() <= near)
             })
         };
         // A pattern without any measured quantity identifies nothing, except the last one.
         let fits = |row: &Row<N>, pattern: &Pattern<N>| {
             let mut pairs = row.1.iter().zip(pattern);
-            let is_last = pattern.iter().all(Option::is_none);
-            agrees(row, pattern) && (is_last || pairs.any(|(a, b)| a.is_some() && b.is_some()))
+            let is_last = pattern.iter().all(|wanted| wanted.is_nan());
+            agrees(row, pattern) && (is_last || pairs.any(|(a, b)| a.is_some() && !b.is_nan()))
         };
-        let expected = self.quantities.map(|(_, expected, _)| Some(expected));
+        let expected = self.quantities.map(|(_, expected, _)| expected);
         let wrong: Vec<&Row<N>> = rows.iter().filter(|row| !agrees(row, &expected)).collect();
         let finding = wrong.first().and_then(|first| {
             let mut findings = self.findings.iter();
@@ -55,7 +58,7 @@ impl<const N: usize> Rules<N> {
             .collect();
         let rows = rows.iter().map(|row| self.text(row)).collect::<Vec<_>>().join("; ");
         let measured = format!("{rows}. Expected: {}", expected.join(", "));
-        Examined::new(measured, finding.into_iter().collect())
+        Examined::new(measured, finding)
     }
 
     fn text(&self, (place, values): &Row<N>) -> String {

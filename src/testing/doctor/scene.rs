@@ -17,7 +17,7 @@ pub(super) const ELASTIC: [&str; 6] =
     ["linear_elastic", "neo_hookean", "corotated", "hencky", SMALL_STRAIN, "j2"];
 
 /// All laws except those of soils, for scenes in which the law has no effect or is not examined.
-pub(super) const ANY: [&str; 8] = [
+pub(super) const ANY_LAW: [&str; 8] = [
     "linear_elastic",
     "neo_hookean",
     "corotated",
@@ -185,6 +185,27 @@ impl BoxScene {
     pub(super) fn centre(&self) -> [f64; 3] {
         let (low, high) = &self.body;
         std::array::from_fn(|i| if i < self.dimension { 0.5 * (low[i] + high[i]) } else { 0.0 })
+    }
+
+    /// Returns the field that is zero at the centre of the body and has this gradient.
+    pub(super) fn linear(&self, gradient: impl Fn(usize, usize) -> f64) -> AffineField {
+        let d = self.dimension;
+        let slope = |i: usize, j: usize| if i < d && j < d { gradient(i, j) } else { 0.0 };
+        let gradient = std::array::from_fn(|i| std::array::from_fn(|j| slope(i, j)));
+        AffineField { gradient, centre: self.centre(), ..AffineField::default() }
+    }
+
+    /// Returns the field of [`Self::linear`] whose only slope is that of component `i` along
+    /// axis `j`.
+    pub(super) fn slope(&self, (i, j): (usize, usize), slope: f64) -> AffineField {
+        self.linear(|a, b| if (a, b) == (i, j) { slope } else { 0.0 })
+    }
+
+    /// Whether a reference position is less than `reach` cells from the centre along each axis.
+    pub(super) fn is_central(&self, label: &[f64; 3], reach: f64) -> bool {
+        let centre = self.centre();
+        let near = reach * self.h * (1.0 + 1e-9);
+        (0..self.dimension).all(|i| (label[i] - centre[i]).abs() <= near)
     }
 
     /// Returns Lame's parameters lambda and mu (Pa).

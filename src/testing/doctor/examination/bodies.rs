@@ -5,7 +5,7 @@
 
 use super::stress::{STEPS, TRAVEL, moduli_by_momentum, spreading};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{Row, Rules};
+use crate::testing::doctor::rules::{ANY, Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -26,35 +26,35 @@ const RULES: Rules<2> = Rules {
     findings: &[
         (
             "one-law-for-all-bodies",
-            [Some(1.0), Some(1.0 / STIFFER)],
+            [1.0, 1.0 / STIFFER],
             "the second body has the parameters of the first body",
         ),
         (
             "one-law-for-all-bodies",
-            [Some(STIFFER), Some(1.0)],
+            [STIFFER, 1.0],
             "the first body has the parameters of the last body",
         ),
         (
             "one-density-for-all-bodies",
-            [Some(1.0), Some(HEAVIER)],
+            [1.0, HEAVIER],
             "the second body has the density of the first body",
         ),
         (
             "one-density-for-all-bodies",
-            [Some(1.0 / HEAVIER), Some(1.0)],
+            [1.0 / HEAVIER, 1.0],
             "the first body has the density of the last body",
         ),
         (
             "one-material-for-all-bodies",
-            [Some(1.0), Some(HEAVIER / STIFFER)],
+            [1.0, HEAVIER / STIFFER],
             "the second body has the law and the density of the first body",
         ),
         (
             "one-material-for-all-bodies",
-            [Some(STIFFER / HEAVIER), Some(1.0)],
+            [STIFFER / HEAVIER, 1.0],
             "the first body has the law and the density of the last body",
         ),
-        ("bodies-differ", [None; 2], "the bodies do not have their own moduli and densities"),
+        ("bodies-differ", [ANY; 2], "the bodies do not have their own moduli and densities"),
     ],
     look_at: "`materials` of the problem, which has one entry for each body, and `body` of \
               `particles`, the index of the entry; masses are those of `particles`",

@@ -4,11 +4,11 @@
 use super::force::ramp;
 use crate::external::ProblemNeeds;
 use crate::testing::doctor::course::{
-    AffineField, Course, Field, displacement, minus, shown, size, velocity,
+    AffineField, Course, Field, displacement, largest_difference, minus, shown, size, velocity,
 };
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 const STEPS: u64 = 6;
 
@@ -22,7 +22,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 };
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         let mut scene = BoxScene::of_cells(kind, [0.25; 3], 3.0, 6.0);
         let mut velocity = [0.25; 3];
         velocity[kind.0..].fill(0.0);
@@ -30,10 +30,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         BoxScene { steps: STEPS, dt: 0.05, ..scene }
     })?;
     let (problem, _) = scene.problem()?;
-    let stepwise = patient.run_problem(&scene, problem.clone())?;
-    if let Some(failure) = stepwise.failure {
-        return Err(Hindrance::Broke(failure));
-    }
+    let stepwise = complete(patient.run_problem(&scene, problem.clone())?)?;
     let mut findings: Vec<SolverFinding> = wrong_weights(&stepwise, &scene).into_iter().collect();
     let second = patient.run_problem(&scene, problem.clone())?;
     if findings.is_empty() {
@@ -60,20 +57,17 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 /// points are a sample of the particles, the sum may be wrong by less than one weight.
 fn wrong_weights(course: &Course, scene: &BoxScene) -> Option<SolverFinding> {
     let weights = &course.states[0].weight;
-    let volume: f64 =
-        scene.body.0.iter().zip(&scene.body.1).map(|(low, high)| high - low).product();
-    let (sum, largest) =
-        (weights.iter().sum::<f64>(), weights.iter().fold(0.0_f64, |a, b| a.max(*b)));
+    let lengths = scene.body.0.iter().zip(&scene.body.1).map(|(low, high)| high - low);
+    let (volume, sum) = (lengths.product::<f64>(), weights.iter().sum::<f64>());
+    let largest = weights.iter().copied().fold(0.0, f64::max);
     let is_near = (sum - volume).abs() <= (0.95 * largest).min(0.5 * volume) + 1e-6 * volume;
+    let (n, d, [sum, share]) = (weights.len(), scene.dimension, [sum, sum / volume].map(shown));
     (!is_near).then(|| {
         SolverFinding::defect(
             "weights-of-points",
             format!(
-                "the weights of {} points sum to {} m^{}, which is {} times the volume of the body",
-                weights.len(),
-                shown(sum),
-                scene.dimension,
-                shown(sum / volume)
+                "the weights of {n} points sum to {sum} m^{d}, which is {share} times the volume of \
+                 the body"
             ),
             "the weights of the points in `ready` are not the volumes that the points represent",
             "`weight` of `points`: volumes of the undeformed body (m, m^2 or m^3), not masses or \
@@ -87,9 +81,8 @@ fn wrong_weights(course: &Course, scene: &BoxScene) -> Option<SolverFinding> {
 /// of the column.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
-    let pairs = field(&a.states[last]).iter().zip(field(&b.states[other]));
-    let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    largest / a.farthest(field, last, [0.0; 3]).max(f64::MIN_POSITIVE)
+    largest_difference(field(&a.states[last]), field(&b.states[other]))
+        / a.farthest(field, last, [0.0; 3]).max(f64::MIN_POSITIVE)
 }
 
 fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<SolverFinding> {
@@ -97,10 +90,10 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
         return None;
     }
     let difference = difference(displacement, first, second);
+    let shown = shown(difference);
     let seen = format!(
-        "the final displacements of two runs of the same problem differ by {} of the largest \
-         displacement",
-        shown(difference)
+        "the final displacements of two runs of the same problem differ by {shown} of the largest \
+         displacement"
     );
     Some(if difference <= patient.rounding() {
         SolverFinding::remark(
@@ -130,13 +123,9 @@ fn grouped_under_acceleration(
 ) -> Result<Option<SolverFinding>, Hindrance> {
     let accelerated = |gravity: bool| {
         let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 3.0, 3.0);
-        let mut stretch = AffineField { centre: scene.centre(), ..AffineField::default() };
-        for i in 0..kind.0 {
-            stretch.gradient[i][i] = 0.1;
-            // Particles change cells at this velocity.
-            stretch.value[i] = 1.0;
-        }
-        scene.velocity = stretch;
+        scene.velocity = scene.linear(|i, j| if i == j { 0.1 } else { 0.0 });
+        // Particles change cells at this velocity.
+        scene.velocity.value[..kind.0].fill(1.0);
         scene.gravity = gravity.then(|| vec![0.37; kind.0]);
         BoxScene { young: 3.0, steps: STEPS, dt: 0.02, ..scene }
     };
@@ -160,10 +149,7 @@ fn grouped_under_acceleration(
     if stepwise.failure.is_some() {
         return Ok(None);
     }
-    let at_once = patient.run_problem(&scene, at_once)?;
-    if let Some(failure) = at_once.failure {
-        return Err(Hindrance::Broke(failure));
-    }
+    let at_once = complete(patient.run_problem(&scene, at_once)?)?;
     Ok(grouped(&stepwise, &at_once, patient, "under acceleration"))
 }
 
@@ -180,7 +166,7 @@ fn grouped(
         let (a, b) =
             (field(&stepwise.states[stepwise.last()]), field(&at_once.states[at_once.last()]));
         let scale = a.iter().map(|x| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
-        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / scale
+        largest_difference(a, b) / scale
     });
     let columns = others.into_iter().fold(0.0, f64::max);
     // Rounding errors of stresses are larger, because stresses depend on differences of
@@ -190,14 +176,12 @@ fn grouped(
     }
     let distance = |course: &Course| size(course.mean(displacement, course.last()));
     let steps = STEPS as f64 * distance(at_once) / distance(stepwise);
+    let [off, speed, columns, steps] = [off, speed, columns, steps].map(shown);
     let seen = format!(
         "{motion}, {STEPS} steps in one `advance` and {STEPS} messages of one step give different \
-         results: the final states differ by {} of the displacement, {} of the velocity and {} of \
-         stress or F. With one message, the body moves as far as in {} single steps",
-        shown(off),
-        shown(speed),
-        shown(columns),
-        shown(steps)
+         results: the final states differ by {off} of the displacement, {speed} of the velocity \
+         and {columns} of stress or F. With one message, the body moves as far as in {steps} \
+         single steps"
     );
     Some(SolverFinding::defect(
         "steps-depend-on-messages",

@@ -6,7 +6,7 @@ use crate::testing::doctor::course::{AffineField, displacement, shown, times};
 use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::motion::{CHANGED, uniform};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, H};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, ELASTIC, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
@@ -28,7 +28,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     // All numbers have few binary digits, so one half of the particles lies exactly on faces after
     // 3, 11, ... steps, and the other half after 7, 15, ... steps. No particle starts on a face: a
     // total Lagrangian solver would find it there in every step, and invert it.
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         let from = [0.75, 0.25, 0.5].map(|x| x + 0.375 * H);
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);
         let mut velocity = [VELOCITY[0]; 3];
@@ -73,7 +73,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let (stiff, soft) = (&stiff.measured, &found.measured);
         rounding_remark(format!("with stiffness: {stiff}; without stiffness: {soft}"))
     });
-    Ok(Examined::new(stiff.measured, finding.into_iter().collect()))
+    Ok(Examined::new(stiff.measured, finding))
 }
 
 fn rounding_remark(seen: String) -> SolverFinding {

@@ -7,7 +7,7 @@ use crate::testing::doctor::course::{
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
@@ -26,7 +26,7 @@ const GRAVITY: f64 = 3.7;
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &scene)?;
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &scene)?;
     let course = patient.run(&scene)?;
     let mut g = [0.0; 3];
     g[scene.dimension - 1] = -GRAVITY;
@@ -61,7 +61,7 @@ fn scene(kind: Kind) -> BoxScene {
 /// Whether the solver takes several shorter steps for each step. `false` for solvers without
 /// gravity.
 pub(super) fn divides_steps(patient: &Patient<'_>) -> bool {
-    let course = patient.able(&[2, 3, 1], &ANY, &scene).and_then(|scene| patient.run(&scene));
+    let course = patient.able(&[2, 3, 1], &ANY_LAW, &scene).and_then(|scene| patient.run(&scene));
     course.is_ok_and(|course| {
         course.last() > 1 && FallTimes::new(&course, -GRAVITY).is_of_shorter_steps()
     })

@@ -8,7 +8,7 @@ use crate::testing::doctor::course::{
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
 use std::sync::{Arc, Mutex, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -53,7 +53,7 @@ impl ForceSource for AskedForce {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let moving = patient.able_with(
         &[2, 3, 1],
-        &ANY,
+        &ANY_LAW,
         &|kind| {
             let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 6.0);
             scene.velocity = AffineField::uniform([VELOCITY[0], 0.0, 0.0]);
@@ -101,7 +101,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown(course.mean(velocity, course.last())[0] - VELOCITY[0]),
         shown(integral(course.times[course.last()]))
     );
-    Ok(Examined::new(measured, found.into_iter().collect()))
+    Ok(Examined::new(measured, found))
 }
 
 fn integral(t: f64) -> f64 {

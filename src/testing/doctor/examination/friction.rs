@@ -5,7 +5,7 @@
 
 use crate::testing::doctor::course::{AffineField, Course, line, velocity};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{Row, Rules};
+use crate::testing::doctor::rules::{ANY, Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -46,36 +46,32 @@ const RULES: Rules<4> = Rules {
     findings: &[
         (
             "contact-missing",
-            [Some(0.0), None, Some(0.0), None],
+            [0.0, ANY, 0.0, ANY],
             "the contact exerts no force: bodies pass through the wall or through each other",
         ),
         (
             "contact-pulls",
-            [Some(1.0), None, Some(1.0), None],
+            [1.0, ANY, 1.0, ANY],
             "the contact also acts on bodies that separate, as if they were bonded",
         ),
-        (
-            "friction-missing",
-            [Some(1.0), Some(0.0), Some(0.0), None],
-            "the contact exerts no friction",
-        ),
+        ("friction-missing", [1.0, 0.0, 0.0, ANY], "the contact exerts no friction"),
         (
             "friction-pushes",
-            [Some(1.0), Some(-1.0), Some(0.0), None],
+            [1.0, -1.0, 0.0, ANY],
             "the friction force has the direction of the sliding velocity",
         ),
         (
             "friction-reverses",
-            [Some(1.0), Some(1.0), Some(0.0), None],
+            [1.0, 1.0, 0.0, ANY],
             "friction does not end when the body stops, and pushes it back",
         ),
         (
             "friction-differs",
-            [Some(1.0), None, Some(0.0), None],
+            [1.0, ANY, 0.0, ANY],
             "the friction force is not mu times the normal force: another factor, no limit \
              (sticking), or a normal force of another time",
         ),
-        ("contact-differs", [None; 4], "the normal force of the contact is wrong"),
+        ("contact-differs", [ANY; 4], "the normal force of the contact is wrong"),
     ],
     look_at: "nodes on a wall with `friction`, or nodes that both bodies reach: the normal \
               velocity changes only where the bodies approach each other; the tangential velocity \

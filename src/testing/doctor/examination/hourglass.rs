@@ -9,7 +9,7 @@
 
 use crate::testing::doctor::course::{Course, displacement};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::Rules;
+use crate::testing::doctor::rules::{ANY, Rules};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -28,7 +28,7 @@ const RULES: Rules<1> = Rules {
     quantities: [("displacement divided by velocity times time", 0.0, 0.4)],
     findings: &[(
         "hourglass-mode",
-        [None],
+        [ANY],
         "no stress resists the alternating mode: square or hexahedral elements with one quadrature \
          point and without hourglass control, or particles that move with a share of their own \
          velocity, from which the grid never receives this mode",

@@ -9,7 +9,7 @@
 use super::stress::{impulses, inside, require_whole_body};
 use crate::mpm::{det_of_rows, inverse};
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, minus, shown, size, velocity,
+    AffineField, Course, displacement, minus, shown, shown_list, transposed, velocity,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -106,23 +106,19 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         }
     }
     // A wrong F also causes a wrong stress, so findings on F replace findings on the stress.
-    let mut findings: Vec<SolverFinding> = Vec::new();
-    for finding in if of_f.is_empty() { of_law } else { of_f } {
-        if findings.iter().all(|known| known.name != finding.name) {
-            findings.push(finding);
-        }
-    }
-    if findings.is_empty()
+    let mut all = Examined::default();
+    all.add(Examined::new(measured.join("; "), if of_f.is_empty() { of_law } else { of_f }));
+    if all.findings.is_empty()
         && let Some((ratio, finding)) = volumes(patient, (first.dimension, first.law))?
     {
-        measured.push(format!(
+        let measured = format!(
             "in a body that is stretched to 1.5 times its length, the force is {} of the expected \
              force (accepted: 0.85 to 1.15)",
             shown(ratio)
-        ));
-        findings.extend(finding);
+        );
+        all.add(Examined::new(measured, finding));
     }
-    Ok(Examined::new(measured.join("; "), findings))
+    Ok(all)
 }
 
 /// The stress in the middle of a body, compared with the law.
@@ -194,10 +190,8 @@ fn starts_deformed(course: &Course, scene: &BoxScene) -> bool {
     let d = scene.dimension;
     let start = &course.problem.particles.deformation_gradient[..d * d];
     let f = inside(course, scene, &course.states[1].deformation_gradient);
-    let pairs = course.points(displacement, 0).zip(course.points(displacement, 1));
-    let off = pairs.map(|((_, a), (_, b))| size(minus(a, b))).fold(0.0, f64::max);
     f.is_none_or(|f| error(&f, start) <= 0.1)
-        && off <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
+        && course.first_motion() <= 0.3 * course.farthest(displacement, 0, [0.0; 3])
 }
 
 /// Compares the momentum flux in a body stretched to 1.5 times its length with the flux according
@@ -208,16 +202,14 @@ fn volumes(
     kind: Kind,
 ) -> Result<Option<(f64, Option<SolverFinding>)>, Hindrance> {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 12.0, 5.0);
-    scene.velocity = field(&scene, &|i, j| if (i, j) == (0, 0) { STRETCHED } else { 0.0 });
+    scene.velocity = scene.slope((0, 0), STRETCHED);
     // Waves travel one cell during the stretch.
     scene.young = scene.density * H * H;
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     let courses = patient.run_all(&[scene.clone(), scene.soft()])?;
     let stretched = deformation_gradient(&courses[1], &scene)[0] - 1.0;
-    if require_whole_body(&courses[0], &scene).is_err() {
-        return Ok(None);
-    }
-    if !((stretched - STRETCHED).abs() <= FOLLOWS * STRETCHED) {
+    let is_stretched = (stretched - STRETCHED).abs() <= FOLLOWS * STRETCHED;
+    if require_whole_body(&courses[0], &scene).is_err() || !is_stretched {
         return Ok(None);
     }
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
@@ -236,15 +228,15 @@ fn volumes(
         return Ok(Some((ratio, None)));
     }
     let masses = mass_ratio(patient, &scene);
-    let seen = format!(
-        "{}: the impulse of the internal force is {} of the expected impulse{}",
-        scene.law,
-        shown(ratio),
-        masses.map_or(String::new(), |mass| format!(
+    let by_mass = masses.map(shown).map_or(String::new(), |mass| {
+        format!(
             ". Under a given total force, the accelerations show that the mass of the stretched \
-             body is {} times the initial mass",
-            shown(mass)
-        ))
+             body is {mass} times the initial mass"
+        )
+    });
+    let (law, force) = (scene.law, shown(ratio));
+    let seen = format!(
+        "{law}: the impulse of the internal force is {force} of the expected impulse{by_mass}"
     );
     let finding = if masses.is_some_and(|mass| !((mass - 1.0).abs() <= 0.1)) {
         SolverFinding::defect(
@@ -289,24 +281,15 @@ fn mass_ratio(patient: &Patient<'_>, scene: &BoxScene) -> Option<f64> {
 
 fn scene(kind: Kind) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
-    scene.velocity = field(&scene, &|i, j| GRADIENT[i][j]);
+    scene.velocity = scene.linear(|i, j| GRADIENT[i][j]);
     let scene = BoxScene { steps: STEPS, dt: 1.0 / STEPS as f64, ..scene };
     BoxScene { young: SOFT.sqrt() * scene.young, ..scene }
 }
 
 fn deformed(kind: Kind) -> BoxScene {
     let scene = scene(kind);
-    let displacement = field(&scene, &|i, j| START[i][j]);
+    let displacement = scene.linear(|i, j| START[i][j]);
     BoxScene { displacement, ..scene }
-}
-
-/// Creates a field that is zero at the centre of the body and has the given gradient.
-fn field(scene: &BoxScene, gradient: &dyn Fn(usize, usize) -> f64) -> AffineField {
-    let d = scene.dimension;
-    let gradient = std::array::from_fn(|i| {
-        std::array::from_fn(|j| if i < d && j < d { gradient(i, j) } else { 0.0 })
-    });
-    AffineField { gradient, centre: scene.centre(), ..AffineField::default() }
 }
 
 /// Computes F in the middle of the body at the end of the run, row by row.
@@ -318,13 +301,8 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
 /// displacements.
 fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
-    let is_near =
-        |label: &[f64; 3]| (0..d).all(|i| (label[i] - centre[i]).abs() <= scene.h * (1.0 + 1e-9));
-    let points: Vec<_> = course
-        .points(displacement, k)
-        .filter(|(label, _)| is_near(label))
-        .map(|(label, u)| (minus(label, centre), u))
-        .collect();
+    let points = course.points(displacement, k).filter(|(label, _)| scene.is_central(label, 1.0));
+    let points: Vec<_> = points.map(|(label, u)| (minus(label, centre), u)).collect();
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {
@@ -341,7 +319,7 @@ fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f
 /// stress (Pa) and F of the problem, row by row.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
-    let displacement = field(scene, &|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
+    let displacement = scene.linear(|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
     let deformed = BoxScene { displacement, velocity: AffineField::default(), ..scene.clone() };
     let (problem, _) = deformed.problem()?;
     let particles = problem.particles;
@@ -355,14 +333,10 @@ fn error(tensor: &[f64], expected: &[f64]) -> f64 {
     differences.fold(0.0, |largest, x| if x <= largest { largest } else { x }) / scale
 }
 
-fn transposed(tensor: &[f64], d: usize) -> Vec<f64> {
-    (0..d * d).map(|k| tensor[(k % d) * d + k / d]).collect()
-}
-
 fn of_gradient(name: &str, mean: &[f64], f: &[f64], scene: &BoxScene) -> SolverFinding {
     let d = scene.dimension;
-    let seen =
-        format!("{name}: in the middle of the body, F is {}, expected {}", list(mean), list(f));
+    let [seen, expected] = [mean, f].map(shown_list);
+    let seen = format!("{name}: in the middle of the body, F is {seen}, expected {expected}");
     let look_at = "the column, which is F = dx/dX row after row: F_ij = dx_i/dX_j; the update F <- \
                    (I + dt L) F with the new velocity gradient L, not F (I + dt L)";
     if error(mean, &transposed(f, d)) <= NEAR {
@@ -390,10 +364,11 @@ fn of_stress(
     scene: &BoxScene,
 ) -> Result<SolverFinding, Hindrance> {
     let d = scene.dimension;
+    let relative =
+        |stress: &[f64]| shown_list(&stress.iter().map(|s| s / scene.young).collect::<Vec<_>>());
+    let [seen, expected] = [mean, stress].map(relative);
     let seen = format!(
-        "{name}: in the middle of the body, the stress divided by E is {}, expected {}",
-        list(&mean.iter().map(|s| s / scene.young).collect::<Vec<_>>()),
-        list(&stress.iter().map(|s| s / scene.young).collect::<Vec<_>>())
+        "{name}: in the middle of the body, the stress divided by E is {seen}, expected {expected}"
     );
     let of_rate = |rate: &[f64]| {
         let off = error(mean, rate);
@@ -476,12 +451,8 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     let d = scene.dimension;
     let (lambda, mu) = scene.lame();
     let identity = Matrix3::identity();
-    let end =
-        Matrix3::from_fn(
-            |i, j| {
-                if i < d && j < d { f[i * d + j] } else { f64::from(u8::from(i == j)) }
-            },
-        );
+    let entry = |i, j| if i < d && j < d { f[i * d + j] } else { f64::from(u8::from(i == j)) };
+    let end = Matrix3::from_fn(entry);
     let change = (end - identity) / PARTS as f64;
     let mut sigma = Matrix3::zeros();
     for part in 0..PARTS {
@@ -493,8 +464,4 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
         sigma += law + spin * sigma - sigma * spin;
     }
     Some((0..d * d).map(|k| sigma[(k / d, k % d)]).collect())
-}
-
-fn list(tensor: &[f64]) -> String {
-    format!("({})", tensor.iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", "))
 }

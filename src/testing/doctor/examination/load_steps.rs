@@ -6,7 +6,7 @@
 
 use crate::testing::doctor::course::{Course, displacement};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{Pattern, Row, Rules};
+use crate::testing::doctor::rules::{ANY, Pattern, Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, FACES, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -46,14 +46,14 @@ const RULES: Rules<7> = Rules {
         ("load-one-step-late", ramp(0.0, 0.0, 0.2), "load step k has the load of step k - 1"),
         (
             "load-steps-differ",
-            [Some(1.0), None, None, None, None, None, None],
+            [1.0, ANY, ANY, ANY, ANY, ANY, ANY],
             "the column is correct after one load step of one, but wrong in five: the load does \
              not grow in equal parts, or the state after a step (F, stress, volume, displacement) \
              is not the start of the next one",
         ),
         (
             "column-differs",
-            [None; 7],
+            [ANY; 7],
             "gravity, particle masses, the modulus of uniaxial strain lambda + 2 mu or the \
              conditions on faces are wrong, or the iteration for the equilibrium stops too early",
         ),
@@ -67,7 +67,7 @@ const RULES: Rules<7> = Rules {
 const fn ramp(one: f64, first: f64, growth: f64) -> Pattern<7> {
     let (second, third) = (first + growth, first + 2.0 * growth);
     let (fourth, fifth) = (third + growth, third + 2.0 * growth);
-    [Some(one), Some(first), Some(second), Some(third), Some(fourth), Some(fifth), Some(0.0)]
+    [one, first, second, third, fourth, fifth, 0.0]
 }
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {

@@ -6,7 +6,7 @@ use crate::testing::doctor::course::{AffineField, displacement, shown, velocity}
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::{CHANGED, uniform};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, ELASTIC, FACES, H, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",
@@ -41,16 +41,12 @@ const CELLS: f64 = 4.0;
 const LONG: f64 = 12.0;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let first = patient.able(&[2, 1, 3], &ANY, &|kind| along(kind, 0))?;
+    let first = patient.able(&[2, 1, 3], &ANY_LAW, &|kind| along(kind, 0))?;
     let mut all = Examined::default();
     for axis in 0..first.dimension {
         let examined = one_axis(patient, &along((first.dimension, first.law), axis), axis)?;
-        if axis == 0 {
-            all.measured = examined.measured;
-        }
-        let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
-        let new: Vec<SolverFinding> = examined.findings.into_iter().filter(is_new).collect();
-        all.findings.extend(new);
+        let measured = if axis == 0 { examined.measured } else { String::new() };
+        all.add(Examined::new(measured, examined.findings));
     }
     Ok(all)
 }
@@ -59,9 +55,7 @@ fn along(kind: Kind, axis: usize) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], CELLS, 3.0);
     scene.grid.0[axis] = scene.body.0[axis];
     scene.grid.1[axis] = scene.body.1[axis];
-    let mut velocity = [0.0; 3];
-    velocity[axis] = VELOCITY[0];
-    scene.velocity = AffineField::uniform(velocity);
+    scene.velocity = AffineField::along(axis, VELOCITY[0]);
     scene.faces = FACES[axis].map(|face| (face, "periodic")).to_vec();
     BoxScene { steps: 60, dt: 0.025, ..scene }
 }
@@ -93,9 +87,7 @@ fn lost_at_ends(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<f64, H
     scene.grid.1[axis] = scene.body.1[axis];
     (scene.young, scene.poisson) = (3.1, 0.0);
     scene.faces = FACES[axis].map(|face| (face, "periodic")).to_vec();
-    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
-    field.gradient[axis][axis] = 1e-3;
-    scene.velocity = field;
+    scene.velocity = scene.slope((axis, axis), 1e-3);
     let scene = scene.with_waves(2.5, 10);
     let course = patient.run(&scene)?;
     let momentum = |k: usize| -> f64 {

@@ -7,7 +7,7 @@ use crate::testing::doctor::course::{
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",
@@ -22,7 +22,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         let scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 4.0);
         BoxScene { young: 3.0, steps: 20, dt: 0.01, ..scene }
     })?;

@@ -10,7 +10,8 @@ use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, require_
 use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, dot, minus, shown, shown_vector, size, times,
+    AffineField, Course, displacement, dot, largest_difference, minus, shown, shown_list,
+    shown_vector, size, times, transposed,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -100,11 +101,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         Err(Hindrance::Lacks(_) | Hindrance::Masked(_)) => None,
     };
     let Some(seen) = seen else {
-        let (mut all, graded) = (first?, start_gradient::examine(patient, &undeformed)?);
-        if !graded.measured.is_empty() {
-            all.measured = format!("{}; {}", all.measured, graded.measured);
-        }
-        all.findings.extend(graded.findings);
+        let mut all = first?;
+        all.add(start_gradient::examine(patient, &undeformed)?);
         return Ok(all);
     };
     for placement in &PLACEMENTS[1..] {
@@ -143,19 +141,9 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
     let mut all = Examined::default();
     for (scene, course) in scenes.iter().zip(&courses) {
         let forces = Forces::new(course, scene);
-        if !all.measured.is_empty() {
-            all.measured.push_str("; ");
-        }
-        all.measured.push_str(&format!(
-            "{}: {} (relative error of the force vector: {})",
-            scene.law,
-            forces.describe(),
-            shown(forces.error)
-        ));
-        let finding = cause(course, scene, &forces);
-        let is_new = |finding: &SolverFinding| all.findings.iter().all(|f| f.name != finding.name);
-        let new = finding.filter(is_new);
-        all.findings.extend(new);
+        let (law, force, error) = (scene.law, forces.describe(), shown(forces.error));
+        let measured = format!("{law}: {force} (relative error of the force vector: {error})");
+        all.add(Examined::new(measured, cause(course, scene, &forces)));
     }
     // Wrong components also change the magnitude, or all of the stress of other laws.
     if all.findings.iter().any(|finding| finding.name == COMPONENTS) {
@@ -175,16 +163,11 @@ fn scene(kind: Kind, offset: [f64; 3], placement: BodyPlacement) -> BoxScene {
     let lowest = [0.75, 0.25, 0.5];
     let from = std::array::from_fn(|axis| lowest[axis] + offset[axis] * H);
     let mut scene = BoxScene::of_cells(kind, from, placement.cells[kind.0 - 1], 7.0);
-    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
-    if kind.0 == 1 {
-        field.gradient[0][0] = STRETCH;
-    } else {
-        field.gradient[0][1] = SHEAR;
-    }
-    if kind.1 == SMALL_STRAIN {
-        field.gradient = field.gradient.map(|row| row.map(|slope| SMALL * slope));
-    }
-    scene.displacement = field;
+    let factor = if kind.1 == SMALL_STRAIN { SMALL } else { 1.0 };
+    scene.displacement = match kind.0 {
+        1 => scene.slope((0, 0), factor * STRETCH),
+        _ => scene.slope((0, 1), factor * SHEAR),
+    };
     scene.young = 3.1;
     scene.with_waves(TRAVEL * placement.steps as f64 / STEPS as f64, placement.steps)
 }
@@ -194,8 +177,7 @@ fn scene(kind: Kind, offset: [f64; 3], placement: BodyPlacement) -> BoxScene {
 fn stretched(kind: Kind, placement: BodyPlacement) -> BoxScene {
     let mut scene = scene(kind, placement.stretched, placement);
     scene.ppc = 3;
-    scene.displacement.gradient = [[0.0; 3]; 3];
-    scene.displacement.gradient[0][0] = 0.5;
+    scene.displacement = scene.slope((0, 0), 0.5);
     scene
 }
 
@@ -291,11 +273,6 @@ impl Forces {
     }
 }
 
-/// Returns the maximum difference between the entries of two lists.
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
 /// Returns the entries of the column `stress` that differ from the initial stress after one step,
 /// and whether the column has a stress. NaN differs. `None` if the solver has no such column.
 fn wrong_entries_of_column(course: &Course, scene: &BoxScene) -> Option<(Vec<usize>, bool)> {
@@ -342,9 +319,7 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     // A wrong start is detected after the first step, because the motion in this step is much
     // smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
-    let before: Vec<[f64; 3]> = course.points(displacement, 0).map(|(_, u)| u).collect();
-    let pairs = course.points(displacement, 1).zip(before);
-    let off = pairs.map(|((_, u), start)| size(minus(u, start))).fold(0.0, f64::max) / reach;
+    let off = course.first_motion() / reach;
     let law = scene.law;
     if !(off <= 0.2) {
         return Some(SolverFinding::defect(
@@ -361,13 +336,12 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     }
     let f = &course.problem.particles.deformation_gradient[..d * d];
     let identity: Vec<f64> = (0..d * d).map(|k| f64::from(u8::from(k / d == k % d))).collect();
-    let largest = largest_difference;
-    let size_of_f = largest(f, &identity);
+    let size_of_f = largest_difference(f, &identity);
     let mean = inside(course, scene, &course.states[1].deformation_gradient);
-    let f_is_lost = mean.as_ref().is_some_and(|mean| !(largest(mean, f) <= 0.5 * size_of_f));
+    let differs = |other: &[f64]| mean.as_ref().map(|mean| largest_difference(mean, other));
+    let f_is_lost = differs(f).is_some_and(|off| !(off <= 0.5 * size_of_f));
     let force = format!("{law}: {}", forces.describe());
-    let turned: Vec<f64> = (0..d * d).map(|k| f[(k % d) * d + k / d]).collect();
-    if mean.as_ref().is_some_and(|mean| f_is_lost && largest(mean, &turned) <= 0.2 * size_of_f) {
+    if f_is_lost && differs(&transposed(f, d)).is_some_and(|off| off <= 0.2 * size_of_f) {
         return Some(SolverFinding::defect(
             "initial-deformation-transposed",
             format!("{force}; after one step, F is the transpose of the initial F"),
@@ -376,11 +350,10 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         ));
     }
     if f_is_lost {
-        let mean =
-            mean.unwrap_or_default().iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", ");
+        let mean = shown_list(&mean.unwrap_or_default());
         return Some(SolverFinding::defect(
             "initial-deformation-dropped",
-            format!("{force}; after one step, F is ({mean})"),
+            format!("{force}; after one step, F is {mean}"),
             "the solver ignores the initial F and starts with F = I",
             "`particles.deformation_gradient` of the problem; the initialisation of F",
         ));

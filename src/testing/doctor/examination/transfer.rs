@@ -14,10 +14,10 @@
 //! PIC. If the matrix is transposed, the loss of a rotation is twice that of PIC.
 
 use super::fall::divides_steps;
-use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
+use crate::testing::doctor::course::{Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, Kind};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",
@@ -69,7 +69,7 @@ struct Losses {
 }
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let plain = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
+    let plain = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
     let kind = (plain.dimension, plain.law);
     let mut motions = vec![SlowMotion::Stretch];
     if kind.0 > 1 {
@@ -105,13 +105,13 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         shown(rotation.later)
     );
     let finding = cause(patient, [stretch, rotation, small], &averaging);
-    Ok(Examined::new(measured, finding.into_iter().collect()))
+    Ok(Examined::new(measured, finding))
 }
 
 /// Examines a stretching body, for solvers that ignore the initial velocity, confuse vectors of
 /// different points, or increase the velocity.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| scene(kind, SlowMotion::Stretch))?;
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
     let speed = |k: usize| course.farthest(velocity, k, [0.0; 3]);
     let (start, first, end) = (speed(0), speed(1), speed(course.last()));
@@ -168,15 +168,12 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
 
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.271, 0.391, 0.141], 4.0, 3.0);
-    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
-    match motion {
-        SlowMotion::Rotation => {
-            field.gradient[0][1] = -RATE;
-            field.gradient[1][0] = RATE;
-        }
-        SlowMotion::Stretch => (0..kind.0).for_each(|i| field.gradient[i][i] = RATE),
-    }
-    scene.velocity = field;
+    scene.velocity = scene.linear(|i, j| match (motion, i, j) {
+        (SlowMotion::Rotation, 0, 1) => -RATE,
+        (SlowMotion::Rotation, 1, 0) => RATE,
+        (SlowMotion::Stretch, ..) if i == j => RATE,
+        _ => 0.0,
+    });
     BoxScene { steps: STEPS, dt: 0.02, ..scene.soft() }
 }
 

@@ -3,7 +3,7 @@
 use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY, BoxScene, H};
+use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
@@ -18,7 +18,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    let scene = patient.able(&[2, 3, 1], &ANY, &|kind| {
+    let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         // This position keeps particles away from cell faces, even if the solver is half a step
         // ahead.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];

@@ -2,10 +2,9 @@
 
 use super::faces::position_rounding;
 use super::stress::spreading;
-use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, displacement, shown};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::ELASTIC;
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -27,14 +26,8 @@ const TINY: f64 = THOUSANDTH * THOUSANDTH * THOUSANDTH * THOUSANDTH;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ELASTIC, &spreading)?;
-    let plain = patient.run(&scene)?;
-    if let Some(failure) = plain.failure {
-        return Err(Hindrance::Broke(failure));
-    }
-    let most = match patient.solver.precision() {
-        Precision::Double => 1e-6,
-        Precision::Single => 0.02,
-    };
+    let plain = complete(patient.run(&scene)?)?;
+    let most = patient.tolerance(1e-6, 0.02);
     let (mut measured, mut spoiled) = (Vec::new(), Vec::new());
     for (what, length, time, mass) in [
         ("lengths", THOUSANDTH, 1.0, 1.0),
@@ -71,7 +64,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
              output with few digits",
         )
     });
-    Ok(Examined::new(measured, finding.into_iter().collect()))
+    Ok(Examined::new(measured, finding))
 }
 
 /// Returns the largest difference of final displacements, relative to the largest displacement.

@@ -7,7 +7,7 @@
 //! each step multiplies the amplitude of a mode with the angular frequency w by
 //! `sqrt(1 + w^2 dt^2)`.
 
-use crate::testing::doctor::course::{AffineField, Course, dot, shown, velocity};
+use crate::testing::doctor::course::{Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
@@ -62,7 +62,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
              the new stress",
         )
     });
-    Ok(Examined::new(measured, finding.into_iter().collect()))
+    Ok(Examined::new(measured, finding))
 }
 
 fn scene(kind: Kind) -> BoxScene {
@@ -70,9 +70,7 @@ fn scene(kind: Kind) -> BoxScene {
     // next nodes with a tiny weight while the body vibrates, where USL is unstable.
     let from = [0.75, 0.25, 0.5].map(|x| x + 0.5 * H);
     let mut scene = BoxScene::of_cells(kind, from, CELLS, 2.0);
-    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
-    field.gradient[0][0] = RATE;
-    scene.velocity = field;
+    scene.velocity = scene.slope((0, 0), RATE);
     scene.young = 3.1;
     let travel = 2.0 * PERIODS * CELLS;
     scene.with_waves(travel, libm::ceil(travel / COURANT) as u64)

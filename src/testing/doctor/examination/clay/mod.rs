@@ -56,5 +56,5 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         .each_ref()
         .map(|end| format!("p/p0 {} and q/p0 {} after {}", shown(end.p), shown(end.q), end.path));
     let measured = format!("cam_clay in {}-D: {}", first.dimension, texts.join(", "));
-    Ok(Examined::new(measured, finding(&ends).into_iter().collect()))
+    Ok(Examined::new(measured, finding(&ends)))
 }

@@ -20,10 +20,7 @@ pub(super) use soils::SOILS;
 
 use super::laws::deformation_gradient;
 use super::stress::{inside, require_whole_body};
-use crate::subject::Precision;
-use crate::testing::doctor::course::{
-    AffineField, Course, displacement, minus, shown, size, times,
-};
+use crate::testing::doctor::course::{Course, displacement, minus, shown, shown_list, size, times};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
@@ -176,17 +173,12 @@ impl Leg {
     }
 
     fn finding(&self, (name, cause, look_at): LawCause) -> SolverFinding {
-        let list = |stress: &[f64]| stress.iter().map(|s| shown(*s)).collect::<Vec<_>>().join(", ");
+        let (BoxScene { law, dimension, .. }, path) = (&self.scene, self.path.name);
+        let [stress, expected] = [&self.stress, &self.expected].map(|list| shown_list(list));
+        let [error, bound] = [self.relative_error(), self.bound].map(shown);
         let seen = format!(
-            "{} in {}-D, {}: in the middle of the body, the stress is ({}) Pa, expected ({}) Pa. \
-             The relative error is {}, the accepted error {}",
-            self.scene.law,
-            self.scene.dimension,
-            self.path.name,
-            list(&self.stress),
-            list(&self.expected),
-            shown(self.relative_error()),
-            shown(self.bound)
+            "{law} in {dimension}-D, {path}: in the middle of the body, the stress is {stress} Pa, \
+             expected {expected} Pa. The relative error is {error}, the accepted error {bound}"
         );
         SolverFinding::defect(name, seen, cause, look_at)
     }
@@ -199,8 +191,7 @@ fn examine(patient: &Patient<'_>, laws: &Laws) -> Result<Examined, Hindrance> {
         patient.able_with(dimensions, law, &scene, &|needs| needs.columns = vec!["stress"])
     };
     able(laws.dimensions, laws.names)?;
-    let (mut measured, mut findings) = (Vec::new(), Vec::<SolverFinding>::new());
-    let mut refused = None;
+    let (mut all, mut refused) = (Examined::default(), None);
     for law in laws.names {
         let mut run: Vec<Leg> = Vec::new();
         for d in laws.dimensions.iter().filter(|d| able(&[**d], &[*law]).is_ok()) {
@@ -212,26 +203,18 @@ fn examine(patient: &Patient<'_>, laws: &Laws) -> Result<Examined, Hindrance> {
         }
         for legs in run.chunk_by(|a, b| a.scene.dimension == b.scene.dimension) {
             let errors = legs.iter().map(|leg| {
-                format!(
-                    "{} {} (<= {})",
-                    leg.path.name,
-                    shown(leg.relative_error()),
-                    shown(leg.bound)
-                )
+                let [error, bound] = [leg.relative_error(), leg.bound].map(shown);
+                format!("{} {error} (<= {bound})", leg.path.name)
             });
-            measured.push(format!(
-                "{law} in {}-D: relative error of the stress in {}",
-                legs[0].scene.dimension,
-                errors.collect::<Vec<_>>().join(", ")
-            ));
+            let (d, errors) = (legs[0].scene.dimension, errors.collect::<Vec<_>>().join(", "));
+            let measured = format!("{law} in {d}-D: relative error of the stress in {errors}");
+            all.add(Examined::new(measured, None));
         }
-        let of_law = finding(&run, laws)?;
-        let is_new = |finding: &SolverFinding| findings.iter().all(|one| one.name != finding.name);
-        findings.extend(of_law.filter(is_new));
+        all.add(Examined::new(String::new(), finding(&run, laws)?));
     }
     match refused {
-        Some(reason) if measured.is_empty() => Err(Hindrance::Lacks(reason)),
-        _ => Ok(Examined::new(measured.join("; "), findings)),
+        Some(reason) if all.measured.is_empty() => Err(Hindrance::Lacks(reason)),
+        _ => Ok(all),
     }
 }
 
@@ -313,10 +296,7 @@ fn bound(
     let strain = slopes.iter().flatten().fold(0.0, |most: f64, slope| most.max(slope.abs()));
     let (lambda, mu) = scene.lame();
     let ratio = strain * (lambda + 2.0 * mu) / largest(expected);
-    let rounding = match patient.solver.precision() {
-        Precision::Double => 1e-9,
-        Precision::Single => NEAR,
-    };
+    let rounding = patient.tolerance(1e-9, NEAR);
     let uneven = if scene.extras.viscosity > 0.0 { 6.0 } else { 2.0 } * unevenness;
     1.25 * strain * (measures[0] + measures[1] * ratio) + uneven * (1.0 + ratio) + rounding
 }
@@ -325,16 +305,13 @@ fn bound(
 /// gradient that grows in proportion to time, relative to the final displacements there. A sample
 /// of the points has too few near the middle to show the deviation, which grows towards the faces.
 fn unevenness(course: &Course, scene: &BoxScene) -> f64 {
-    let centre = scene.centre();
     let reach = if require_whole_body(course, scene).is_ok() { 1.0 } else { 1.5 };
     let field = with_gradient(scene, &deformation_gradient(course, scene)).velocity;
-    let is_near = |label: &[f64; 3]| {
-        (0..scene.dimension).all(|i| (label[i] - centre[i]).abs() <= reach * scene.h * (1.0 + 1e-9))
-    };
     let end = course.times[course.last()];
     let (mut most, mut whole) = (0.0, 0.0_f64);
     for k in 1..=course.last() {
-        for (x, u) in course.points(displacement, k).filter(|(label, _)| is_near(label)) {
+        let points = course.points(displacement, k);
+        for (x, u) in points.filter(|(label, _)| scene.is_central(label, reach)) {
             let off = size(minus(u, times(course.times[k] / end, field.at(x))));
             most = f64::max(most, off);
             whole = whole.max(size(field.at(x)));
@@ -346,10 +323,7 @@ fn unevenness(course: &Course, scene: &BoxScene) -> f64 {
 /// Creates a body whose displacement gradient grows to `gradient` in `steps` steps.
 pub(super) fn path(kind: Kind, gradient: &StrainGradient, steps: u64) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.5, 0.625], 6.0, 5.0);
-    let d = scene.dimension;
-    let part = |i: usize, j: usize| if i < d && j < d { gradient[i][j] } else { 0.0 };
-    let gradient = std::array::from_fn(|i| std::array::from_fn(|j| part(i, j)));
-    scene.velocity = AffineField { gradient, centre: scene.centre(), ..AffineField::default() };
+    scene.velocity = scene.linear(|i, j| gradient[i][j]);
     (scene.young, scene.poisson, scene.density) = (YOUNG, POISSON, DENSITY);
     BoxScene { steps, dt: 1.0 / steps as f64, ..scene }
 }

@@ -2,7 +2,7 @@
 //!
 //! Also checks the columns `stress` and `deformation_gradient`, if the solver reports them.
 
-use crate::testing::doctor::course::{AffineField, Course, shown, velocity};
+use crate::testing::doctor::course::{Course, shown, shown_list, transposed, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
@@ -51,12 +51,7 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
-    let mut field = AffineField { centre: scene.centre(), ..AffineField::default() };
-    field.gradient[0][0] = STRETCH;
-    if kind.0 > 1 {
-        field.gradient[0][1] = SHEAR;
-    }
-    scene.velocity = field;
+    scene.velocity = scene.linear(|i, j| [[STRETCH, SHEAR, 0.0], [0.0; 3], [0.0; 3]][i][j]);
     scene.young = 3.1;
     scene.with_waves(TRAVEL, STEPS)
 }
@@ -181,9 +176,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     let (lambda, mu) = scene.lame();
     let mut stress = vec![0.0; d * d];
     let mut strain = vec![0.0; d * d];
-    for i in 0..d {
-        stress[i * d + i] = lambda * STRETCH * t;
-    }
+    (0..d).for_each(|i| stress[i * d + i] = lambda * STRETCH * t);
     stress[0] += 2.0 * mu * STRETCH * t;
     strain[0] = STRETCH * t;
     if d > 1 {
@@ -254,20 +247,20 @@ fn of_stress(seen: &[f64], wanted: &[f64]) -> Option<SolverFinding> {
     let cause = if is(seen, wanted, -1.0) {
         "the column is positive in compression".to_owned()
     } else if is(seen, wanted, factor) {
+        let factor = shown(factor);
         format!(
-            "the column is {} times the expected stress: another unit, or stress times volume",
-            shown(factor)
+            "the column is {factor} times the expected stress: another unit, or stress times volume"
         )
     } else {
         "the column contains a different tensor, or its components are in a different order"
             .to_owned()
     };
+    let [seen, wanted] = [seen, wanted].map(shown_list);
     Some(SolverFinding::defect(
         "stress-column",
         format!(
-            "in the middle of the body, the column `stress` is {} Pa; the motion gives {} Pa",
-            all(seen),
-            all(wanted)
+            "in the middle of the body, the column `stress` is {seen} Pa; the motion gives {wanted} \
+             Pa"
         ),
         &cause,
         "the column, which is the Cauchy stress in Pa: positive in tension, row after row, d x d \
@@ -279,29 +272,22 @@ fn of_gradient(seen: &[f64], wanted: &[f64], d: usize) -> Option<SolverFinding> 
     if is(seen, wanted, 1.0) {
         return None;
     }
-    let turned: Vec<f64> = (0..d * d).map(|k| wanted[(k % d) * d + k / d]).collect();
-    let name = if is(seen, &turned, 1.0) {
-        "deformation-gradient-transposed"
+    let (name, cause) = if is(seen, &transposed(wanted, d), 1.0) {
+        ("deformation-gradient-transposed", "the column contains the transpose of F")
     } else {
-        "deformation-gradient-column"
+        (
+            "deformation-gradient-column",
+            "the column contains a different tensor, or F is not updated with the motion",
+        )
     };
+    let [seen, wanted] = [seen, wanted].map(shown_list);
     Some(SolverFinding::defect(
         name,
         format!(
-            "in the middle of the body, the column gives F - I = {}; the motion gives {}",
-            all(seen),
-            all(wanted)
+            "in the middle of the body, the column gives F - I = {seen}; the motion gives {wanted}"
         ),
-        if name.ends_with("transposed") {
-            "the column contains the transpose of F"
-        } else {
-            "the column contains a different tensor, or F is not updated with the motion"
-        },
+        cause,
         "the column, which is F = dx/dX row after row: F_ij = dx_i/dX_j; arrays that are stored by \
          columns; the update F <- (I + dt L) F",
     ))
-}
-
-fn all(tensor: &[f64]) -> String {
-    format!("({})", tensor.iter().map(|x| shown(*x)).collect::<Vec<_>>().join(", "))
 }

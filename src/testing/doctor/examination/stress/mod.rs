@@ -20,7 +20,6 @@ pub(super) use measure::{
     moduli_by_momentum, spreading,
 };
 
-use crate::subject::Precision;
 use crate::testing::doctor::course::{Course, minus, shown, size, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -55,12 +54,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     for scene in std::iter::once(first.clone()).chain(others) {
         let (examined, share) = examine_scene(patient, &scene, averages)?;
         averages = share > 1e-6;
-        if !all.measured.is_empty() {
-            all.measured.push_str("; ");
-        }
-        all.measured.push_str(&examined.measured);
-        if !examined.findings.is_empty() {
-            all.findings = examined.findings;
+        all.add(examined);
+        if !all.findings.is_empty() {
             break;
         }
     }
@@ -76,8 +71,7 @@ fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFi
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
     let (course, mut measured) = measure(patient, &stretched, true)?;
-    measured.along = -measured.along;
-    measured.across = -measured.across;
+    (measured.along, measured.across) = (-measured.along, -measured.across);
     measured.shear = measured.shear.map(|shear| -shear);
     let finding = moduli::cause(&course, &stretched, &measured);
     Ok(finding.map(|finding| {
@@ -189,21 +183,19 @@ fn viscosity(measured: &MeasuredModuli, scene: &BoxScene) -> SolverFinding {
 }
 
 fn describe(scene: &BoxScene, measured: &MeasuredModuli) -> String {
-    let (lambda, mu) = scene.lame();
-    let whole = shown(lambda + 2.0 * mu);
-    let along = shown(measured.along);
-    if scene.dimension == 1 {
+    let (d, (lambda, mu), shear) = (scene.dimension, scene.lame(), measured.shear);
+    let [whole, lambda, mu] = [lambda + 2.0 * mu, lambda, mu].map(shown);
+    let [along, across] = [measured.along, measured.across].map(shown);
+    if d == 1 {
         return format!(
             "in 1-D, the modulus from the momentum flux is {along} Pa, expected {whole} Pa"
         );
     }
-    let [across, one, other] = [measured.across, measured.shear[0], measured.shear[1]].map(shown);
+    let [one, other] = shear.map(shown);
     format!(
-        "in {}-D, the moduli from the momentum flux are {along} Pa along the stretch, {across} Pa \
-         across the stretch, and {one} and {other} Pa in shear; expected {whole}, {} and {} Pa",
-        scene.dimension,
-        shown(lambda),
-        shown(mu)
+        "in {d}-D, the moduli from the momentum flux are {along} Pa along the stretch, {across} Pa \
+         across the stretch, and {one} and {other} Pa in shear; expected {whole}, {lambda} and \
+         {mu} Pa"
     )
 }
 
@@ -215,14 +207,9 @@ fn lost_momentum(
 ) -> Option<SolverFinding> {
     let last = course.last();
     let (start, end) = (course.mean(velocity, 0), course.mean(velocity, last));
-    let change: [f64; 3] = std::array::from_fn(|i| end[i] - start[i]);
     let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
-    let share = size(change) / gain;
-    let most = match patient.solver.precision() {
-        Precision::Double => 1e-6,
-        Precision::Single => 0.02,
-    };
-    let most = sampling_error(course, scene).max(most);
+    let share = size(minus(end, start)) / gain;
+    let most = sampling_error(course, scene).max(patient.tolerance(1e-6, 0.02));
     (!(share <= most)).then(|| {
         SolverFinding::defect(
             "momentum-lost",
