@@ -191,22 +191,26 @@ impl ColumnText {
             Self::Bytes { f64: (offset, length) } => {
                 let end = length.checked_mul(8).and_then(|length| offset.checked_add(length));
                 let part = end.and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
-                    let name = name.to_owned();
-                    ProgramError::ColumnBytes { name, length, offset, bytes: bytes.len() }
+                    ProgramError::Protocol(format!(
+                        "sent the column `{name}` as {length} doubles from byte {offset}, but the \
+                         message has {} bytes",
+                        bytes.len()
+                    ))
                 })?;
                 let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
                 part.chunks_exact(8).map(number).collect()
             }
         };
         if numbers.len() != count {
-            let (name, found) = (name.to_owned(), numbers.len());
-            return Err(ProgramError::ColumnLength { name, found, expected: count });
+            return Err(ProgramError::Protocol(format!(
+                "sent {} numbers in the column `{name}`, expected {count}",
+                numbers.len()
+            )));
         }
-        match numbers.iter().position(|number| !number.is_finite()) {
-            Some(index) => {
-                let (name, value) = (name.to_owned(), numbers[index]);
-                Err(ProgramError::NotFinite { name, value, index })
-            }
+        match numbers.iter().enumerate().find(|(_, number)| !number.is_finite()) {
+            Some((index, value)) => Err(ProgramError::Protocol(format!(
+                "sent {value} as number {index} of the column `{name}`"
+            ))),
             None => Ok(numbers),
         }
     }
@@ -227,7 +231,8 @@ impl Answer {
             } else {
                 "not a JSON object; print other text on standard error".to_owned()
             };
-            ProgramError::NoMessage { reason, excerpt: excerpt(&text) }
+            let excerpt = excerpt(&text);
+            ProgramError::Protocol(format!("sent an invalid message ({reason}): `{excerpt}`"))
         })
     }
 

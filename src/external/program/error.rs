@@ -1,7 +1,6 @@
 //! Failures of a solver program, and untrusted text in messages.
 
-use crate::external::fields::FieldError;
-use crate::subject::{HIGHEST_ORDER, LONGEST_NAME};
+use crate::subject::LONGEST_NAME;
 use std::io;
 use thiserror::Error;
 
@@ -51,141 +50,15 @@ pub enum ProgramError {
     /// An answer contains a number that JSON does not support, such as NaN.
     #[error("answered with {0}, which is not a finite number")]
     NoNumber(&'static str),
-    /// The output contains a line that is not a message of the protocol.
-    #[error("sent an invalid message ({reason}): `{excerpt}`")]
-    NoMessage {
-        /// The violated rule.
-        reason: String,
-        /// Beginning of the line.
-        excerpt: String,
-    },
-    /// The type of the answer does not match the request.
-    #[error("answered `{request}` with `{answer}`")]
-    UnexpectedAnswer {
-        /// Type of the request.
-        request: &'static str,
-        /// Type of the answer.
-        answer: &'static str,
-    },
-    /// The solver uses an unsupported version of the protocol.
-    #[error(
-        "uses version {stated} of the protocol; expected version {} or {}",
-        .expected[0],
-        .expected[1]
-    )]
-    Version {
-        /// Version that the solver stated.
-        stated: u64,
-        /// Versions that are supported.
-        expected: [u64; 2],
-    },
-    /// The solver's name is invalid.
-    #[error(
-        "has the invalid name `{0}`: expected up to {max} letters, digits, `-`, `_` or `.`",
-        max = LONGEST_NAME
-    )]
-    Name(String),
-    /// The solver's formal order is out of range.
-    #[error(
-        "has the formal order {0}: expected a number above 0 and up to {max}",
-        max = HIGHEST_ORDER
-    )]
-    FormalOrder(f64),
-    /// A second process stated a different name, version or capability than the first process.
-    #[error("sent a different `hello` than in the first process")]
-    ChangedHello,
+    /// A message violates the protocol, as described.
+    #[error("{0}")]
+    Protocol(String),
     /// The solver refuses the problem, for the given reason.
     #[error("{0}")]
     Refused(String),
     /// The solver reports a failure, with a description.
     #[error("reports: {0}")]
     Failed(String),
-    /// A required column is missing.
-    #[error("sent no column `{0}`")]
-    NoColumn(&'static str),
-    /// A column refers to bytes outside the block.
-    #[error(
-        "sent the column `{name}` as {length} doubles from byte {offset}, but the message has \
-         {bytes} bytes"
-    )]
-    ColumnBytes {
-        /// Name of the column.
-        name: String,
-        /// Number of doubles in the column.
-        length: usize,
-        /// Index of the first byte of the column.
-        offset: usize,
-        /// Size of the block of bytes.
-        bytes: usize,
-    },
-    /// A column has the wrong number of entries.
-    #[error("sent {found} numbers in the column `{name}`, expected {expected}")]
-    ColumnLength {
-        /// Name of the column.
-        name: String,
-        /// Number of entries.
-        found: usize,
-        /// Required number of entries.
-        expected: usize,
-    },
-    /// A column has an entry that is not finite.
-    #[error("sent {value} as number {index} of the column `{name}`")]
-    NotFinite {
-        /// Name of the column.
-        name: String,
-        /// The entry.
-        value: f64,
-        /// Index of the entry.
-        index: usize,
-    },
-    /// The smallest determinant of F is not a positive number.
-    #[error("sent {0} as `min_j`, which must be positive")]
-    Determinant(f64),
-    /// A gradient has the wrong number of derivatives.
-    #[error("sent a gradient of {found} numbers, expected {expected}: {names}")]
-    GradientLength {
-        /// Number of derivatives in the gradient.
-        found: usize,
-        /// Number of requested derivatives.
-        expected: usize,
-        /// Names of the requested parameters.
-        names: String,
-    },
-    /// A gradient contains a number that JSON does not support, such as NaN.
-    #[error(
-        "answered `differentiate` with {word}, which is not a finite number; requested: {names}"
-    )]
-    GradientNoNumber {
-        /// Text of the number.
-        word: &'static str,
-        /// Names of the requested parameters.
-        names: String,
-    },
-    /// A derivative, or the value of the functional, is not finite.
-    #[error("sent {value} as the {of}")]
-    GradientNotFinite {
-        /// The number.
-        value: f64,
-        /// Description of the number, with the parameter of a derivative.
-        of: String,
-    },
-    /// The solver stated sample points, but there are none.
-    #[error("sent an empty list of points")]
-    NoPoints,
-    /// The solver's points are outside the bodies of the problem.
-    #[error("sent invalid points: {0}")]
-    Points(FieldError),
-    /// A request for values cannot be answered.
-    #[error("requested values of `{field}`: {reason}")]
-    Request {
-        /// Name of the field.
-        field: String,
-        /// The reason.
-        reason: FieldError,
-    },
-    /// The solver sent more requests for values than any correct solver needs.
-    #[error("requested values {0} times, more than the limit")]
-    TooManyRequests(u64),
     /// A failure of a process that also wrote to its standard error.
     #[error("{error}; its last output on standard error: {lines}")]
     WithStandardError {
@@ -194,6 +67,20 @@ pub enum ProgramError {
         /// Last lines of standard error.
         lines: String,
     },
+}
+
+impl ProgramError {
+    pub(super) fn unexpected(request: &str, answer: &str) -> Self {
+        Self::Protocol(format!("answered `{request}` with `{answer}`"))
+    }
+
+    pub(super) fn invalid_name(name: &str) -> Self {
+        let name = printable(name);
+        Self::Protocol(format!(
+            "has the invalid name `{name}`: expected up to {LONGEST_NAME} letters, digits, `-`, `_` \
+             or `.`"
+        ))
+    }
 }
 
 /// Converts untrusted text to one line of at most 200 characters.

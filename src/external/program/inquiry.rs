@@ -55,7 +55,8 @@ impl Inquiry {
     /// # Errors
     /// If a point is outside the bodies. The points of solvers of version 1 are not checked.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
-        self.bodies = self.bodies_of(labels).map_err(ProgramError::Points)?;
+        let invalid = |reason| ProgramError::Protocol(format!("sent invalid points: {reason}"));
+        self.bodies = self.bodies_of(labels).map_err(invalid)?;
         self.labels = labels.to_vec();
         Ok(())
     }
@@ -80,11 +81,16 @@ impl Inquiry {
     ) -> Result<Outgoing, ProgramError> {
         self.asked += 1;
         if self.asked > self.most {
-            return Err(ProgramError::TooManyRequests(self.asked));
+            let asked = self.asked;
+            let reason = format!("requested values {asked} times, more than the limit");
+            return Err(ProgramError::Protocol(reason));
         }
         let ValueRequest { of, t, reference_position, displacement, body } = request;
         let name = of.as_deref().unwrap_or("body_force");
-        let refused = |reason: FieldError| ProgramError::Request { field: printable(name), reason };
+        let refused = |reason: FieldError| {
+            let field = printable(name);
+            ProgramError::Protocol(format!("requested values of `{field}`: {reason}"))
+        };
         let field = field_named(name, &self.loads, &self.faces).map_err(refused)?;
         let t = time(field, t).map_err(refused)?;
         let numbers = |name: &str, column: ColumnText| {

@@ -61,7 +61,7 @@ impl SolverProgram {
     /// If `name` is not a valid solver name.
     pub fn called(self, name: &str) -> Result<Self, ProgramError> {
         if !is_solver_name(name) {
-            return Err(ProgramError::Name(printable(name)));
+            return Err(ProgramError::invalid_name(name));
         }
         Ok(Self { called: Some(name.to_owned()), ..self })
     }
@@ -80,7 +80,8 @@ impl SolverProgram {
     pub(super) fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
-            return Err(ProgramError::ChangedHello);
+            let reason = "sent a different `hello` than in the first process";
+            return Err(ProgramError::Protocol(reason.to_owned()));
         }
         connection.expect_up_to(longest_answer(problem));
         let binary = hello.capabilities.known.binary;
@@ -103,9 +104,7 @@ impl SolverProgram {
             }
             (Answer::Cannot { reason }, _) => Err(ProgramError::Refused(printable(&reason))),
             (Answer::Failed { reason }, _) => Err(ProgramError::Failed(printable(&reason))),
-            (other, _) => {
-                Err(ProgramError::UnexpectedAnswer { request: "problem", answer: other.name() })
-            }
+            (other, _) => Err(ProgramError::unexpected("problem", other.name())),
         }
     }
 }
@@ -144,16 +143,21 @@ fn connected(
     connection.send(Outgoing::new("hello", message, false));
     let (answer, _) = connection.answer()?;
     let Answer::Hello(hello) = answer else {
-        return Err(ProgramError::UnexpectedAnswer { request: "hello", answer: answer.name() });
+        return Err(ProgramError::unexpected("hello", answer.name()));
     };
-    if !VERSIONS.contains(&hello.protocol) {
-        return Err(ProgramError::Version { stated: hello.protocol, expected: VERSIONS });
+    let (stated, order, [first, last]) = (hello.protocol, hello.formal_order, VERSIONS);
+    if !VERSIONS.contains(&stated) {
+        return Err(ProgramError::Protocol(format!(
+            "uses version {stated} of the protocol; expected version {first} or {last}"
+        )));
     }
     if !is_solver_name(&hello.name) {
-        return Err(ProgramError::Name(printable(&hello.name)));
+        return Err(ProgramError::invalid_name(&hello.name));
     }
-    if !(hello.formal_order > 0.0 && hello.formal_order <= HIGHEST_ORDER) {
-        return Err(ProgramError::FormalOrder(hello.formal_order));
+    if !(order > 0.0 && order <= HIGHEST_ORDER) {
+        return Err(ProgramError::Protocol(format!(
+            "has the formal order {order}: expected a number above 0 and up to {HIGHEST_ORDER}"
+        )));
     }
     Ok((connection, hello))
 }
@@ -264,22 +268,20 @@ impl SolverProgram {
         });
         connection.send(Outgoing::new("differentiate", content, false));
         inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
-        let names = || names(request).join(", ");
         let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
             // The answer is invalid JSON, because it contains a word such as NaN. The index of the
             // number is unknown.
-            ProgramError::NoNumber(word) => ProgramError::GradientNoNumber { word, names: names() },
+            ProgramError::NoNumber(word) => ProgramError::Protocol(format!(
+                "answered `differentiate` with {word}, which is not a finite number; requested: {}",
+                names(request).join(", ")
+            )),
             error => error,
         });
-        let answer = answer?.0;
-        let gradient = match answer {
+        let gradient = match answer?.0 {
             Answer::Gradient { value, gradient } => checked(request, value, gradient)?,
             Answer::Cannot { reason } => return Err(ProgramError::Refused(printable(&reason))),
             Answer::Failed { reason } => return Err(ProgramError::Failed(printable(&reason))),
-            other => {
-                let (request, answer) = ("differentiate", other.name());
-                return Err(ProgramError::UnexpectedAnswer { request, answer });
-            }
+            other => return Err(ProgramError::unexpected("differentiate", other.name())),
         };
         connection.end();
         Ok(gradient)
@@ -295,14 +297,15 @@ fn checked(
     let names = names(request);
     if gradient.len() != names.len() {
         let (found, expected, names) = (gradient.len(), names.len(), names.join(", "));
-        return Err(ProgramError::GradientLength { found, expected, names });
+        let reason = format!("sent a gradient of {found} numbers, expected {expected}: {names}");
+        return Err(ProgramError::Protocol(reason));
     }
     let entries = names.iter().map(|name| format!("derivative with respect to `{name}`"));
     let entries = entries.zip(&gradient).map(|(of, entry)| (of, *entry));
     let value_of = (format!("value of `{}`", request.of.name()), value);
     let mut all = std::iter::once(value_of).chain(entries);
     match all.find(|(_, number)| !number.is_finite()) {
-        Some((of, value)) => Err(ProgramError::GradientNotFinite { value, of }),
+        Some((of, value)) => Err(ProgramError::Protocol(format!("sent {value} as the {of}"))),
         None => Ok(Gradient { value, gradient }),
     }
 }

@@ -80,7 +80,7 @@ impl ProgramSubject {
             let places = points.reference_position;
             samples.label = places.numbers("reference_position", count * d, bytes)?;
             if count == 0 {
-                return Err(ProgramError::NoPoints);
+                return Err(ProgramError::Protocol("sent an empty list of points".to_owned()));
             }
             inquiry.set_points(&samples.label)?;
             let start = |of| inquiry.start(of).unwrap_or_else(|| vec![0.0; count * d]);
@@ -141,9 +141,7 @@ impl ProgramSubject {
                 self.look(*state, &bytes)
             }
             Answer::Failed { reason } => Err(ProgramError::Failed(printable(&reason))),
-            other => {
-                Err(ProgramError::UnexpectedAnswer { request: "advance", answer: other.name() })
-            }
+            other => Err(ProgramError::unexpected("advance", other.name())),
         }
     }
 
@@ -154,9 +152,10 @@ impl ProgramSubject {
             columns.remove(name).map(|column| column.numbers(name, count, bytes)).transpose()
         };
         let samples = &mut self.samples;
+        let missing = |name| ProgramError::Protocol(format!("sent no column `{name}`"));
         samples.displacement =
-            column("displacement", n * d)?.ok_or(ProgramError::NoColumn("displacement"))?;
-        samples.velocity = column("velocity", n * d)?.ok_or(ProgramError::NoColumn("velocity"))?;
+            column("displacement", n * d)?.ok_or_else(|| missing("displacement"))?;
+        samples.velocity = column("velocity", n * d)?.ok_or_else(|| missing("velocity"))?;
         samples.stress = column("stress", n * d * d)?.unwrap_or_default();
         let across = if d == 2 { column("stress_across", n)? } else { None };
         samples.stress_across = across.unwrap_or_default();
@@ -166,7 +165,8 @@ impl ProgramSubject {
         self.counters.crossings = crossings;
         self.counters.left_domain = left_domain;
         if let Some(j) = min_j.filter(|j| !(*j > 0.0 && j.is_finite())) {
-            return Err(ProgramError::Determinant(j));
+            let reason = format!("sent {j} as `min_j`, which must be positive");
+            return Err(ProgramError::Protocol(reason));
         }
         self.counters.min_j = min_j.unwrap_or(f64::NAN);
         Ok(())
