@@ -6,7 +6,7 @@ use crate::testing::doctor::course::{
 };
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -33,21 +33,18 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let (last, d) = (course.last(), scene.dimension);
     let end = course.times[last];
     let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
+    let wanted = [times(end, g), times(0.5 * end * end, g)];
+    let [v, u] = [v, u].map(|mean| shown_vector(mean, d));
+    let [exact_v, exact_u] = wanted.map(|wanted| shown_vector(wanted, d));
     let measured = format!(
-        "after {last} steps, v = {} m/s and u = {} m; expected v = {} m/s and u = {} m",
-        shown_vector(v, d),
-        shown_vector(u, d),
-        shown_vector(times(end, g), d),
-        shown_vector(times(0.5 * end * end, g), d)
+        "after {last} steps, v = {v} m/s and u = {u} m; expected v = {exact_v} m/s and u = {exact_u} \
+         m"
     );
     let finding = of_force(patient, &course, g).or_else(|| of_times(patient, &course, g));
-    let findings: Vec<SolverFinding> = finding.into_iter().collect();
-    if findings.is_empty()
-        && let Some(failure) = course.failure
-    {
-        return Err(Hindrance::Broke(failure));
+    if finding.is_none() {
+        complete(course)?;
     }
-    Ok(Examined::new(measured, findings))
+    Ok(Examined::new(measured, finding))
 }
 
 fn scene(kind: Kind) -> BoxScene {
@@ -107,13 +104,11 @@ fn of_force(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
         ));
     }
     if (factor - 1.0).abs() > 1e-3 {
-        let seen =
-            format!("the acceleration is {} times the gravity of the problem", shown(factor));
         let (name, cause) = factor_cause(factor, course);
         return Some(SolverFinding::defect(
             name,
-            seen,
-            &cause,
+            format!("the acceleration is {} times the gravity of the problem", shown(factor)),
+            cause,
             "the code that adds body forces: add mass times `body_force_value` (m/s2) to the nodal \
              force, once and with the sign of the problem",
         ));
@@ -283,36 +278,29 @@ fn of_times(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     let [low, high] = fall.share.map(shown);
     let range = if low == high { low } else { format!("{low} to {high}") };
     let rule = RULES.iter().find(|rule| (rule.holds)(&fall))?;
-    let steps = match fall.count() {
-        Some(k) if rule.name == "steps-are-divided" => {
-            format!(". The solver takes {k} steps of dt/{k} for each step")
-        }
-        _ => String::new(),
-    };
-    Some(SolverFinding {
-        weight: rule.weight,
-        name: rule.name,
-        seen: format!(
-            "the measured velocity is v = g (t{}), expected v = g t; the measured displacement is \
-             u = g t^2/2{}, expected u = g t^2/2. Each step moves the body by v dt + (1 + q) g \
-             dt^2/2 with q = {range}, where v is the velocity before the step{steps}",
-            term(late, " dt"),
-            term(ahead, " g t dt/2")
-        ),
-        cause: rule.cause.to_owned(),
-        look_at: rule.look_at.to_owned(),
-    })
+    let count = fall.count().filter(|_| rule.name == "steps-are-divided");
+    let steps = count
+        .map_or(String::new(), |k| format!(". The solver takes {k} steps of dt/{k} for each step"));
+    let (late, ahead) = (term(late, " dt"), term(ahead, " g t dt/2"));
+    let seen = format!(
+        "the measured velocity is v = g (t{late}), expected v = g t; the measured displacement is \
+         u = g t^2/2{ahead}, expected u = g t^2/2. Each step moves the body by v dt + (1 + q) g \
+         dt^2/2 with q = {range}, where v is the velocity before the step{steps}"
+    );
+    let finding = SolverFinding::defect(rule.name, seen, rule.cause, rule.look_at);
+    Some(SolverFinding { weight: rule.weight, ..finding })
 }
 
-pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, String) {
+/// Returns the name of the finding on accelerations that are wrong by `factor`, and the cause.
+pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, &'static str) {
     let density = course.problem.materials[0].density;
     let mass = course.problem.particles.mass.first().copied().unwrap_or(f64::NAN);
     let is = |wanted: f64| (factor / wanted - 1.0).abs() <= NEAR;
     if factor.abs() <= 1e-3 {
-        return ("gravity-missing", "gravity or the body force has no effect".to_owned());
+        return ("gravity-missing", "gravity or the body force has no effect");
     }
     if is(-1.0) {
-        return ("gravity-upwards", "gravity or the body force has the wrong sign".to_owned());
+        return ("gravity-upwards", "gravity or the body force has the wrong sign");
     }
     let h = course.problem.grid.h;
     let candidates = [
@@ -340,7 +328,5 @@ pub(super) fn factor_cause(factor: f64, course: &Course) -> (&'static str, Strin
         (1e-3, "a length is in mm instead of m"),
     ];
     let known = candidates.into_iter().find(|(wanted, _)| is(*wanted));
-    let cause =
-        known.map_or("the acceleration is multiplied by an unknown factor", |(_, cause)| cause);
-    ("gravity-scaled", cause.to_owned())
+    ("gravity-scaled", known.map_or("the acceleration is multiplied by an unknown factor", |k| k.1))
 }

@@ -7,9 +7,9 @@ use crate::testing::doctor::course::{
     AffineField, Course, line, minus, shown, size, times, velocity,
 };
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "force",
@@ -29,8 +29,18 @@ const RATE: f64 = 6.0;
 /// predicts.
 const NEAR: f64 = 0.1;
 
-/// Recorded requests: times (s) and reference positions (m).
-type Questions = Arc<Mutex<Vec<(f64, [f64; 3])>>>;
+/// A request: its time (s) and reference position (m).
+type Question = (f64, [f64; 3]);
+
+/// Recorded requests.
+#[derive(Clone, Default)]
+struct Questions(Arc<Mutex<Vec<Question>>>);
+
+impl Questions {
+    fn lock(&self) -> MutexGuard<'_, Vec<Question>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
 
 /// A force along the first axis as a function of position (m) and time (s).
 type ForceAlong = fn(f64, f64) -> f64;
@@ -45,7 +55,7 @@ struct AskedForce {
 impl ForceSource for AskedForce {
     fn at(&self, _: usize, label: &[f64], t: f64) -> [f64; 3] {
         let place = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
-        self.asked.lock().unwrap_or_else(PoisonError::into_inner).push((t, place));
+        self.asked.lock().push((t, place));
         [(self.force)(place[0], t), 0.0, 0.0]
     }
 }
@@ -62,30 +72,25 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         &|needs| needs.manufactured = true,
     )?;
     let asked = Questions::default();
-    let mut course = run(patient, &moving, &asked, true, |_, t| FORCE + RATE * t);
+    let force: ForceAlong = |_, t| FORCE + RATE * t;
+    let mut course = run(patient, &moving, &asked, true, force);
     // A request for a position outside the body ends the run, so a second run without this check
     // records all requests.
     if matches!(course, Err(Hindrance::Broke(_))) {
-        let again = run(patient, &moving, &asked, false, |_, t| FORCE + RATE * t);
-        if again.is_ok() {
-            course = again;
-        }
+        course = run(patient, &moving, &asked, false, force).or(course);
     }
     // Wrong requests are reported as the cause of a failed run.
     let requests = other_times(&asked, &moving).or_else(|| places(&asked, &moving));
     let course = match (course, requests) {
         (Err(Hindrance::Broke(_)), Some(finding)) => {
-            return Ok(Examined::new(
-                "nothing, because the run ended early".to_owned(),
-                vec![finding],
-            ));
+            let measured = "nothing, because the run ended early".to_owned();
+            return Ok(Examined::new(measured, Some(finding)));
         }
         (Err(other), _) => return Err(other),
         (Ok(course), None) => course,
         (Ok(_), Some(finding)) => {
-            let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
-            let measured = format!("{count} values were requested");
-            return Ok(Examined::new(measured, vec![finding]));
+            let measured = format!("{} values were requested", asked.lock().len());
+            return Ok(Examined::new(measured, Some(finding)));
         }
     };
     let mut found = of_time(&asked, &course);
@@ -94,12 +99,12 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         let course = run(patient, &resting, &Questions::default(), true, |x, _| x / H)?;
         found = of_points(&course, resting.dt / H);
     }
-    let count = asked.lock().unwrap_or_else(PoisonError::into_inner).len();
+    let (count, last) = (asked.lock().len(), course.last());
+    let gained = course.mean(velocity, last)[0] - VELOCITY[0];
+    let [gained, wanted] = [gained, integral(course.times[last])].map(shown);
     let measured = format!(
-        "{count} values were requested in {} steps; the speed increases by {} m/s, expected {} m/s",
-        course.last(),
-        shown(course.mean(velocity, course.last())[0] - VELOCITY[0]),
-        shown(integral(course.times[course.last()]))
+        "{count} values were requested in {last} steps; the speed increases by {gained} m/s, \
+         expected {wanted} m/s"
     );
     Ok(Examined::new(measured, found))
 }
@@ -124,34 +129,27 @@ fn run(
     force: ForceAlong,
 ) -> Result<Course, Hindrance> {
     let (mut problem, _) = scene.problem()?;
-    let asked = Arc::clone(asked);
-    problem.body_force = Some(BodyForceField(Arc::new(AskedForce { asked, force })));
+    let force = AskedForce { asked: asked.clone(), force };
+    problem.body_force = Some(BodyForceField(Arc::new(force)));
     if !checks_places {
         problem.fields = None;
     }
-    let course = patient.run_problem(scene, problem)?;
-    match course.failure {
-        Some(failure) => Err(Hindrance::Broke(failure)),
-        None => Ok(course),
-    }
+    complete(patient.run_problem(scene, problem)?)
 }
 
 /// Returns a finding if the solver requests forces for times outside the run.
 fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
-    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
-    let end = scene.steps as f64 * scene.dt;
-    let (first, last) =
-        asked.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (t, _)| {
-            (low.min(*t), high.max(*t))
-        });
+    let (asked, end) = (asked.lock(), scene.end());
+    let times = asked.iter().map(|(t, _)| *t);
+    let first = times.clone().fold(f64::INFINITY, f64::min);
+    let last = times.fold(f64::NEG_INFINITY, f64::max);
     let is_inside = first >= -scene.dt && last <= end + scene.dt;
+    let [first, last] = [first, last].map(shown);
     (!(asked.is_empty() || is_inside)).then(|| {
         SolverFinding::defect(
             "force-of-another-time",
             format!(
-                "the requested times are {} to {} s, but the run is from 0 to {end} s",
-                shown(first),
-                shown(last)
+                "the requested times are {first} to {last} s, but the run is from 0 to {end} s"
             ),
             "the force is requested at wrong times, for example at the step number instead of the \
              time",
@@ -163,7 +161,7 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
 
 /// Returns a finding if the solver requests forces at current instead of reference positions.
 fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
-    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
+    let asked = asked.lock();
     if asked.is_empty() {
         return Some(SolverFinding::defect(
             "force-not-asked",
@@ -174,17 +172,16 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
         ));
     }
     let (low, high) = (scene.body.0[0], scene.body.1[0]);
-    let late = 0.5 * scene.steps as f64 * scene.dt;
+    let late = 0.5 * scene.end();
     let outside = asked.iter().filter(|(t, x)| *t > late && !(low..=high).contains(&x[0])).count();
     let last = asked.iter().map(|(t, _)| *t).fold(0.0, f64::max);
+    let [late, way] = [late, VELOCITY[0] * last].map(shown);
     (outside > 0).then(|| {
         SolverFinding::defect(
             "force-at-present-positions",
             format!(
-                "{outside} of the positions requested after {} s are outside the initial body; the \
-                 body has moved by {} m",
-                shown(late),
-                shown(VELOCITY[0] * last)
+                "{outside} of the positions requested after {late} s are outside the initial body; \
+                 the body has moved by {way} m"
             ),
             "the force is requested at the current positions of particles instead of their \
              reference positions",
@@ -214,18 +211,15 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     if is_shifted && is_scheme && (-0.5 - NEAR..=NEAR).contains(&shift) {
         return None;
     }
-    let asked = asked.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut at: Vec<f64> = asked.iter().map(|(t, _)| *t).collect();
+    let mut at: Vec<f64> = asked.lock().iter().map(|(t, _)| *t).collect();
     at.sort_by(f64::total_cmp);
     at.dedup();
+    let count = at.len();
+    let [speed, exact, first, end_of_requests] =
+        [gained(last), wanted, at[0], at[count - 1]].map(shown);
     let seen = format!(
-        "the speed of the body increases by {} m/s, expected {} m/s. The requested times are {} to \
-         {} s: {} different times in {last} steps",
-        shown(gained(last)),
-        shown(wanted),
-        shown(at[0]),
-        shown(at[at.len() - 1]),
-        at.len()
+        "the speed of the body increases by {speed} m/s, expected {exact} m/s. The requested times \
+         are {first} to {end_of_requests} s: {count} different times in {last} steps"
     );
     if is_shifted && (late - 0.5).abs() <= NEAR {
         return Some(SolverFinding::remark(
@@ -282,22 +276,20 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
         v.push(speed[0]);
         across = across.max(size(minus(speed, times(speed[0], [1.0, 0.0, 0.0]))));
     }
-    let (_, found, _) = line(&x, &v);
-    let share = found / slope;
+    let share = line(&x, &v).1 / slope;
     // The accepted range is wide, because basis functions smooth a linear field near the edge of
     // the body, also with APIC and PIC.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;
     }
+    let [share, across] = [share, across].map(shown);
     Some(SolverFinding::defect(
         "force-of-other-points",
         format!(
             "the body force increases linearly with X. After one step, the increase of the \
-             velocities with X is {} of the expected one, and velocity components normal to X are \
-             up to {} m/s",
-            shown(share),
-            shown(across)
+             velocities with X is {share} of the expected one, and velocity components normal to X \
+             are up to {across} m/s"
         ),
         "received values are assigned to the wrong particles, or the columns of a state are in a \
          different order than the particles or `points`",

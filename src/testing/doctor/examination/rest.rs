@@ -6,7 +6,7 @@ use crate::testing::doctor::course::{
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -30,84 +30,69 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let last = course.last();
     let way = course.farthest(displacement, last, [0.0; 3]) / H;
     let speed = course.farthest(velocity, last, [0.0; 3]) / scene.wave_speed();
+    let [largest, fastest] = [way, speed].map(shown);
     let measured = format!(
-        "after {last} steps, the largest displacement is {} cells and the largest speed is {} of \
-         the wave speed",
-        shown(way),
-        shown(speed)
+        "after {last} steps, the largest displacement is {largest} cells and the largest speed is \
+         {fastest} of the wave speed"
     );
     let tolerance = patient.rounding();
-    let mut findings = Vec::new();
-    if !(way <= tolerance && speed <= tolerance) {
-        let claims_double = patient.solver.precision() == Precision::Double;
-        // Smaller motions are rounding errors of single precision, because an acceleration due to a
-        // defect causes far larger motion in one step.
-        let is_noise = claims_double && way.max(speed) <= 1e-5;
-        findings.push(if is_noise { single(way, speed) } else { cause(&course) });
-    } else if let Some(failure) = &course.failure {
-        return Err(Hindrance::Broke(failure.clone()));
+    if way <= tolerance && speed <= tolerance {
+        complete(course)?;
+        return Ok(Examined::new(measured, None));
     }
-    Ok(Examined::new(measured, findings))
+    let claims_double = patient.solver.precision() == Precision::Double;
+    // Smaller motions are rounding errors of single precision, because an acceleration due to a
+    // defect causes far larger motion in one step.
+    let is_noise = claims_double && way.max(speed) <= 1e-5;
+    let finding = if is_noise { single(way, speed) } else { cause(&course) };
+    Ok(Examined::new(measured, Some(finding)))
 }
 
 fn cause(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let (u, v) = (course.mean(displacement, last), course.mean(velocity, last));
-    let spread = |field, mean| course.farthest(field, last, mean);
-    let reach = |field| course.farthest(field, last, [0.0; 3]);
-    let are_positions =
-        course.points(displacement, last).all(|(label, u)| size(minus(u, label)) <= 1e-3 * H);
-    if are_positions {
+    let is_of_all = |field, mean| {
+        course.farthest(field, last, mean) <= AS_ONE * course.farthest(field, last, [0.0; 3])
+    };
+    let [mean_u, mean_v] = [u, v].map(|mean| shown_vector(mean, d));
+    if course.points(displacement, last).all(|(label, u)| size(minus(u, label)) <= 1e-3 * H) {
         return SolverFinding::defect(
             "positions-for-displacements",
-            format!(
-                "the mean of the column `displacement` is {} for a body at rest",
-                shown_vector(u, d)
-            ),
+            format!("the mean of the column `displacement` is {mean_u} for a body at rest"),
             "the column contains positions instead of displacements",
             "the displacements in the answer to `advance`: position minus `reference_position`",
         );
     }
-    let as_one = spread(displacement, u) <= AS_ONE * reach(displacement)
-        && spread(velocity, v) <= AS_ONE * reach(velocity);
-    if !as_one {
+    if !(is_of_all(displacement, u) && is_of_all(velocity, v)) {
         return apart(course);
     }
     let t = &course.times[1..];
     let speeds: Vec<f64> = (1..=last).map(|k| dot(course.mean(velocity, k), v) / size(v)).collect();
     let (_, slope, off) = line(t, &speeds);
     if size(v) > 0.0 && off <= AS_ONE * size(v) && slope * course.times[last] >= 0.5 * size(v) {
-        let g = times(slope / size(v), v);
-        let seen = format!(
-            "the whole body has the velocity {} m/s after {} s, an acceleration of {} m/s2",
-            shown_vector(v, d),
-            shown(course.times[last]),
-            shown_vector(g, d)
-        );
+        let (end, g) = (shown(course.times[last]), shown_vector(times(slope / size(v), v), d));
         return SolverFinding::defect(
             "gravity-left-on",
-            seen,
+            format!(
+                "the whole body has the velocity {mean_v} m/s after {end} s, an acceleration of {g} \
+                 m/s2"
+            ),
             "the solver applies gravity or another uniform acceleration that is not in the problem",
             "the default gravity of the solver: in this problem `loads` is empty and `body_force` \
              is \"none\", so the acceleration must be zero",
         );
     }
     if size(v) * course.times[last] >= 0.5 * size(u) {
-        let seen =
-            format!("the whole body has the velocity {} m/s, expected zero", shown_vector(v, d));
         return SolverFinding::defect(
             "velocity-of-its-own",
-            seen,
+            format!("the whole body has the velocity {mean_v} m/s, expected zero"),
             "the body starts with a velocity that is not in the problem",
             "the initial velocity: `particles.velocity` of this problem is zero",
         );
     }
     SolverFinding::defect(
         "displaced-from-the-start",
-        format!(
-            "from the start on, the whole body is displaced by {} m and does not move",
-            shown_vector(u, d)
-        ),
+        format!("from the start on, the whole body is displaced by {mean_u} m and does not move"),
         "displacements are not measured from `reference_position`, or particles are moved during \
          initialisation",
         "the origin of the grid; an offset between the coordinates of the solver and those of the \
@@ -117,24 +102,22 @@ fn cause(course: &Course) -> SolverFinding {
 
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
-    let centre = {
-        let labels = course.points(displacement, last).map(|(label, _)| label);
-        let sum = labels.fold([0.0; 3], |sum, x| std::array::from_fn(|i| sum[i] + x[i]));
-        times(1.0 / course.states[last].len() as f64, sum)
-    };
+    let labels = course.points(displacement, last).map(|(label, _)| label);
+    let sum = labels.fold([0.0; 3], |sum, x| std::array::from_fn(|i| sum[i] + x[i]));
+    let centre = times(1.0 / course.states[last].len() as f64, sum);
     let outward: f64 =
         course.points(velocity, last).map(|(label, v)| dot(v, minus(label, centre))).sum();
-    let speed = course.farthest(velocity, last, [0.0; 3]);
-    let seen = format!(
-        "points move with up to {} m/s, mostly {} relative to the centre of the body, and with {} \
-         m/s on average",
-        shown(speed),
+    let speed = shown(course.farthest(velocity, last, [0.0; 3]));
+    let (side, mean) = (
         if outward > 0.0 { "outwards" } else { "inwards" },
-        shown_vector(course.mean(velocity, last), d)
+        shown_vector(course.mean(velocity, last), d),
     );
     SolverFinding::defect(
         "stress-at-rest",
-        seen,
+        format!(
+            "points move with up to {speed} m/s, mostly {side} relative to the centre of the body, \
+             and with {mean} m/s on average"
+        ),
         "particles start with a stress or deformation that is not in the problem, or surface \
          tension, friction or a wall acts on the body",
         "the initial F (identity), stress (zero) and volume; volumes that are computed as h^D \

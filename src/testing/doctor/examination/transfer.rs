@@ -16,7 +16,7 @@
 use super::fall::divides_steps;
 use crate::testing::doctor::course::{Course, dot, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
+use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -71,12 +71,10 @@ struct Losses {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let plain = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
     let kind = (plain.dimension, plain.law);
-    let mut motions = vec![SlowMotion::Stretch];
-    if kind.0 > 1 {
-        motions.push(SlowMotion::Rotation);
-    }
-    let mut scenes: Vec<BoxScene> = motions.iter().map(|motion| scene(kind, *motion)).collect();
-    scenes.push(plain.scaled(0.125, 1.0, 1.0));
+    let turning = (kind.0 > 1).then(|| scene(kind, SlowMotion::Rotation));
+    let small = plain.scaled(0.125, 1.0, 1.0);
+    let scenes: Vec<BoxScene> =
+        std::iter::once(plain.clone()).chain(turning).chain([small]).collect();
     let courses = patient.run_all(&scenes)?;
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
@@ -92,17 +90,16 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
             "particles that the solver sorts by cell: columns must keep the order of the problem, \
              or of `points`",
         );
-        return Ok(Examined::new(seen.to_owned(), vec![finding]));
+        return Ok(Examined::new(seen.to_owned(), Some(finding)));
     }
     let averaging = |basis: &&str| Ok(losses_of(&plain.averaged(basis)?, &plain));
     let averaging = BASES.iter().map(averaging).collect::<Result<Vec<Losses>, Hindrance>>()?;
+    let [first, later] = [stretch.first, stretch.later].map(shown);
+    let [first_turn, later_turn] = [rotation.first, rotation.later].map(shown);
     let measured = format!(
-        "in units of h^2 (h: cell size), the moment of momentum decreases by {} in the first step \
-         and {} in each later step of a stretch, and by {} and {} in a rotation",
-        shown(stretch.first),
-        shown(stretch.later),
-        shown(rotation.first),
-        shown(rotation.later)
+        "in units of h^2 (h: cell size), the moment of momentum decreases by {first} in the first \
+         step and {later} in each later step of a stretch, and by {first_turn} and {later_turn} in \
+         a rotation"
     );
     let finding = cause(patient, [stretch, rotation, small], &averaging);
     Ok(Examined::new(measured, finding))
@@ -115,15 +112,14 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
     let course = patient.run(&scene)?;
     let speed = |k: usize| course.farthest(velocity, k, [0.0; 3]);
     let (start, first, end) = (speed(0), speed(1), speed(course.last()));
+    let speeds = [start, first, end].map(shown);
     let measured = format!(
         "the largest speed is {} m/s at the start, {} after one step and {} at the end",
-        shown(start),
-        shown(first),
-        shown(end)
+        speeds[0], speeds[1], speeds[2]
     );
     let defect = |name, cause, look_at| {
         let finding = SolverFinding::defect(name, measured.clone(), cause, look_at);
-        Ok(Examined::new(measured.clone(), vec![finding]))
+        Ok(Examined::new(measured.clone(), Some(finding)))
     };
     if !(end <= 10.0 * start) {
         return defect(
@@ -134,9 +130,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
              and 3/h^2 for cubic B-splines in MLS-MPM",
         );
     }
-    if let Some(failure) = &course.failure {
-        return Err(Hindrance::Broke(failure.clone()));
-    }
+    let course = complete(course)?;
     if course.farthest(velocity, 1, course.mean(velocity, 1)) <= 1e-2 * start {
         return defect(
             "initial-velocity-dropped",
@@ -163,7 +157,7 @@ fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance
             "the layout of vectors, which is point after point: x0 y0 x1 y1, not x0 x1 y0 y1",
         );
     }
-    Ok(Examined::new(measured, Vec::new()))
+    Ok(Examined::new(measured, None))
 }
 
 fn scene(kind: Kind, motion: SlowMotion) -> BoxScene {
@@ -203,18 +197,15 @@ fn cause(
     [stretch, rotation, small]: [Losses; 3],
     averaging: &[Losses],
 ) -> Option<SolverFinding> {
-    let seen = format!(
-        "each step reduces the moment of momentum by {} h^2 in a stretch, by {} h^2 in a rotation, \
-         and by {} h^2 in a stretch with all lengths divided by eight. PIC averaging takes {} h^2 \
-         with linear and {} h^2 with cubic functions. A correct affine transfer or FLIP takes \
-         nothing",
-        shown(stretch.later),
-        shown(rotation.later),
-        shown(small.later),
-        shown(averaging[0].later),
-        shown(averaging[averaging.len() - 1].later)
-    );
     let losses = [stretch.later, rotation.later, small.later];
+    let [loss, of_rotation, of_small] = losses.map(shown);
+    let [linear, cubic] = [averaging[0], averaging[averaging.len() - 1]].map(|l| shown(l.later));
+    let seen = format!(
+        "each step reduces the moment of momentum by {loss} h^2 in a stretch, by {of_rotation} h^2 \
+         in a rotation, and by {of_small} h^2 in a stretch with all lengths divided by eight. PIC \
+         averaging takes {linear} h^2 with linear and {cubic} h^2 with cubic functions. A correct \
+         affine transfer or FLIP takes nothing"
+    );
     if losses.iter().all(|loss| loss.abs() <= KEPT) {
         return first_step(stretch, rotation);
     }
@@ -289,13 +280,13 @@ fn cause(
 /// Returns a remark if the transfer averages in the first step only.
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
+    let loss = shown(first);
     (first > 10.0 * KEPT).then(|| {
         SolverFinding::remark(
             "first-step-spreads",
             format!(
-                "the first step reduces the moment of momentum by {} h^2, and later steps do not \
-                 change it",
-                shown(first)
+                "the first step reduces the moment of momentum by {loss} h^2, and later steps do \
+                 not change it"
             ),
             "particles start without the gradient of their velocity: the first step is a PIC step, \
              which averages velocities over cells",

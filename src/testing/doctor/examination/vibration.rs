@@ -40,11 +40,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let start = kinetic_energy(&course, 0);
     let most = (1..=course.last()).map(|k| kinetic_energy(&course, k) / start);
     let most = most.fold(0.0, |a, b| if b.is_nan() { f64::INFINITY } else { f64::max(a, b) });
+    let (last, steps, energy) = (course.last(), scene.steps, shown(most));
     let mut measured = format!(
-        "in {} of {} steps, the kinetic energy is at most {} times its initial value",
-        course.last(),
-        scene.steps,
-        shown(most)
+        "in {last} of {steps} steps, the kinetic energy is at most {energy} times its initial value"
     );
     if let Some(failure) = &course.failure {
         measured.push_str(&format!("; then the run failed: {failure}"));

@@ -30,12 +30,12 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     let (_, stiff) = motion.off();
     let (low, high) = first_share(motion);
     if is_whole && way.max(speed) <= 1e-3 * stiff.max(motion.patient.rounding()) {
+        let [stiff, speed] = [stiff, speed].map(shown);
         return Ok(SolverFinding::defect(
             "gradients-do-not-sum-to-zero",
             format!(
-                "the largest velocity error is {} of the speed, and {} in a run without stiffness",
-                shown(stiff),
-                shown(speed)
+                "the largest velocity error is {stiff} of the speed, and {speed} in a run without \
+                 stiffness"
             ),
             "the gradients at a particle do not sum to zero. A uniform velocity then has a \
              gradient at particles, which strains the body and causes stress",
@@ -67,16 +67,13 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
     if is_noise || !((twice.1 / once.1).max(once.1 / twice.1) <= SQRT_2) {
         return Ok(None);
     }
-    let rate = |share: f64| shown(share / scene.dt);
+    let rates = [once.0, once.1, twice.0, twice.1].map(|share| shown(share / scene.dt));
+    let [low, high, halved_low, halved_high] = rates;
     Ok(Some(SolverFinding::defect(
         "drag",
         format!(
-            "points lose {} to {} of their speed per second, depending on their positions, and {} \
-             to {} with half the time step",
-            rate(once.0),
-            rate(once.1),
-            rate(twice.0),
-            rate(twice.1)
+            "points lose {low} to {high} of their speed per second, depending on their positions, \
+             and {halved_low} to {halved_high} with half the time step"
         ),
         "the solver applies drag or damping that is not in the problem, with different strengths \
          at different nodes",
@@ -88,35 +85,33 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
 /// Returns the smallest and largest share of the speed that points have lost in state `k`.
 fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     let v = motion.velocity;
-    let losses = motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v));
-    losses.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
+    range(motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v)))
+}
+
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
 /// Returns the smallest and largest displacement of points in the first step, relative to v dt.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
     let scale = dot(v, v) * motion.course.times[1];
-    let shares = motion.course.points(displacement, 1).map(|(_, u)| dot(u, v) / scale);
-    shares.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| (low.min(s), high.max(s)))
+    range(motion.course.points(displacement, 1).map(|(_, u)| dot(u, v) / scale))
 }
 
 /// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of
 /// displacement and velocity in a run without stiffness.
 fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) -> SolverFinding {
     let (way, speed) = motion.off();
+    let [low, high, way, speed] = [low, high, way, speed].map(shown);
+    let [soft_way, soft_speed] = [soft.0, soft.1].map(shown);
     SolverFinding::defect(
         "weights-do-not-sum-to-one",
         format!(
-            "in the first step, points move by {} to {} of v dt, depending on their positions in \
-             the cells. In the whole run, displacement errors are up to {} of the distance \
-             travelled, and velocity errors up to {} of the speed; without stiffness they are {} \
-             and {}",
-            shown(low),
-            shown(high),
-            shown(way),
-            shown(speed),
-            shown(soft.0),
-            shown(soft.1)
+            "in the first step, points move by {low} to {high} of v dt, depending on their \
+             positions in the cells. In the whole run, displacement errors are up to {way} of the \
+             distance travelled, and velocity errors up to {speed} of the speed; without stiffness \
+             they are {soft_way} and {soft_speed}"
         ),
         "the weights of a particle do not sum to one, or the transfers to the grid and back use \
          different weights",
@@ -226,13 +221,13 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     if v_before > motion.patient.rounding() {
         return None;
     }
+    let (last_right, error) = (first - 1, shown(at));
     Some(SolverFinding::defect(
         "wrong-after-a-cell-crossing",
         format!(
-            "displacements are correct up to step {}, and their error at the end is {} of the \
-             distance travelled. In step {first} the first particle moves to another cell",
-            first - 1,
-            shown(at)
+            "displacements are correct up to step {last_right}, and their error at the end is \
+             {error} of the distance travelled. In step {first} the first particle moves to \
+             another cell"
         ),
         "when a particle has moved to another cell, the solver still uses data of the old cell",
         "cell indices, nodes and weights of particles, which must be recomputed in every step",
@@ -263,15 +258,14 @@ fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     if !(any_inside && inside <= motion.patient.rounding() && rim > 1e3 * inside.max(1e-12)) {
         return None;
     }
+    let mean = course.mean(velocity, course.last());
+    let (rim, [mean, v]) = (shown(rim), [mean, v].map(|v| shown_vector(v, d)));
     Some(SolverFinding::defect(
         LIGHT_NODES,
         format!(
-            "in step {first}, points near the surface have displacement errors of up to {} of v \
+            "in step {first}, points near the surface have displacement errors of up to {rim} of v \
              dt, and points more than {RIM} cells below the surface have none. The mean velocity \
-             at the end is {} m/s, expected {} m/s",
-            shown(rim),
-            shown_vector(course.mean(velocity, course.last()), d),
-            shown_vector(v, d)
+             at the end is {mean} m/s, expected {v} m/s"
         ),
         "nodes with little mass are skipped, and their momentum is lost",
         MASS_THRESHOLD,

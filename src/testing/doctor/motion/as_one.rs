@@ -49,15 +49,11 @@ impl UniformMotion<'_> {
         (1..=course.last()).all(|k| {
             let (u, v) = (course.mean(displacement, k), course.mean(velocity, k));
             let spread = [course.farthest(displacement, k, u), course.farthest(velocity, k, v)];
-            let errors = [
-                size(minus(u, times(course.times[k], self.velocity))),
-                size(minus(v, self.velocity)),
-            ];
+            let way = times(course.times[k], self.velocity);
+            let errors = [size(minus(u, way)), size(minus(v, self.velocity))];
             // Small differences between points may be rounding errors.
-            let small = [
-                1e-6 * size(self.velocity) * course.times[course.last()],
-                1e-6 * size(self.velocity),
-            ];
+            let speed = 1e-6 * size(self.velocity);
+            let small = [speed * course.times[course.last()], speed];
             (0..2).all(|i| spread[i] <= AS_ONE * errors[i] + small[i])
         })
     }
@@ -68,11 +64,10 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
     let last = course.last();
     let end = course.times[last];
     let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
-    if let Some(found) = turned(motion, "velocity", v) {
-        return Ok(Some(found));
-    }
-    if let Some(found) = turned(motion, "displacement", times(1.0 / end, u)) {
-        return Ok(Some(found));
+    let turned = turned(motion, "velocity", v)
+        .or_else(|| turned(motion, "displacement", times(1.0 / end, u)));
+    if turned.is_some() {
+        return Ok(turned);
     }
     let (_, speed) = motion.off();
     if speed <= motion.patient.rounding() { Ok(way(motion)) } else { of_speed(motion) }
@@ -100,7 +95,7 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<So
 
 /// Returns a finding if velocities are wrong or change.
 fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
-    let shares = shares(motion);
+    let shares = speed_shares(motion);
     let last = shares[shares.len() - 1];
     let t = &motion.course.times[1..];
     let error = (last - 1.0).abs().max((shares[0] - 1.0).abs());
@@ -131,17 +126,16 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     let halved = scene.with_half_the_step();
     let course = motion.patient.run(&halved)?;
     let again = UniformMotion { course, ..*motion };
-    let logs = shares_of(&again).into_iter().map(libm::log).collect::<Vec<f64>>();
+    let logs = speed_shares(&again).into_iter().map(libm::log).collect::<Vec<f64>>();
     let (_, halved, _) = line(&again.course.times[1..], &logs);
     let per_step = 1.0 - libm::exp(rate * scene.dt);
     let verb = if rate < 0.0 { "lost" } else { "gained" };
-    Ok(Some(if (halved / rate - 1.0).abs() <= 0.25 {
+    let is_drag = (halved / rate - 1.0).abs() <= 0.25;
+    let [share, rate, halved] = [per_step.abs(), -rate, -halved].map(shown);
+    Ok(Some(if is_drag {
         SolverFinding::defect(
             "drag",
-            format!(
-                "speed is {verb} at a rate of {} per second, independent of the time step",
-                shown(-rate)
-            ),
+            format!("speed is {verb} at a rate of {rate} per second, independent of the time step"),
             "the solver applies drag or damping, proportional to the velocity, that is not in the \
              problem",
             "the default settings of the solver: air drag, mass-proportional damping (Rayleigh's \
@@ -151,11 +145,8 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
         SolverFinding::defect(
             "speed-lost-each-step",
             format!(
-                "a share of {} of the speed is {verb} in each step, independent of the step length \
-                 ({} per second, and {} per second with half the step)",
-                shown(per_step.abs()),
-                shown(-rate),
-                shown(-halved)
+                "a share of {share} of the speed is {verb} in each step, independent of the step \
+                 length ({rate} per second, and {halved} per second with half the step)"
             ),
             "the weights of a particle sum to the same number at every position, but this number \
              is not one; or velocities are multiplied by a factor in each step",
@@ -167,11 +158,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
 
 /// Returns the mean velocity in the expected direction at each time, relative to the expected
 /// speed.
-fn shares(motion: &UniformMotion<'_>) -> Vec<f64> {
-    shares_of(motion)
-}
-
-fn shares_of(motion: &UniformMotion<'_>) -> Vec<f64> {
+fn speed_shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     let v = motion.velocity;
     let mean = |k| motion.course.mean(velocity, k);
     (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
@@ -184,13 +171,11 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let mean = |k| course.mean(displacement, k);
     let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
     let (ahead, slope, off) = line(t, &ways);
-    if let Some(found) = unequal_steps(&ways, dt) {
-        return Some(found);
-    }
     // Smaller errors are rounding errors, which another finding reports.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
-    if off > NEAR * dt || !is_systematic {
-        return None;
+    let unequal = unequal_steps(&ways, dt);
+    if unequal.is_some() || off > NEAR * dt || !is_systematic {
+        return unequal;
     }
     if (slope - 1.0).abs() <= 1e-6 {
         let steps = ahead / dt;
@@ -199,13 +184,10 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
             a if (a - 1.0).abs() <= NEAR => ("a step", "start-a-step-off"),
             _ => ("a constant time", "displaced-in-motion"),
         };
-        let side = if steps > 0.0 { "ahead" } else { "behind" };
+        let (by, side) = (shown(ahead.abs()), if steps > 0.0 { "ahead" } else { "behind" });
         return Some(SolverFinding::defect(
             name,
-            format!(
-                "in all states, positions are shifted in time by {} s ({side}): {amount}",
-                shown(ahead.abs())
-            ),
+            format!("in all states, positions are shifted in time by {by} s ({side}): {amount}"),
             "the reported positions do not belong to the times after each step",
             "positions that are moved before the first step, or reported for the middle of a step; \
              the number of steps that `advance` takes",
@@ -243,16 +225,14 @@ fn unequal_steps(ways: &[f64], dt: f64) -> Option<SolverFinding> {
     if steps == [0] && ((off - 0.5).abs() <= NEAR || (off - 1.0).abs() <= NEAR) {
         return None;
     }
+    let (count, number, length) = (lengths.len(), first + 1, shown(lengths[first]));
+    let (right, several) = (count - steps.len(), " (the first of several such steps)");
+    let several = if steps.len() > 1 { several } else { "" };
     Some(SolverFinding::defect(
         "steps-of-another-length",
         format!(
-            "velocities are correct, and {} of {} steps move the body by v dt, but step {} moves \
-             it by {} v dt{}",
-            lengths.len() - steps.len(),
-            lengths.len(),
-            first + 1,
-            shown(lengths[first]),
-            if steps.len() > 1 { " (the first of several such steps)" } else { "" }
+            "velocities are correct, and {right} of {count} steps move the body by v dt, but step \
+             {number} moves it by {length} v dt{several}"
         ),
         "positions are moved with another step length in these steps, for example to end the run or \
          to write output at a certain time, or they are changed after the step",
@@ -273,17 +253,17 @@ fn units(factor: f64) -> &'static str {
 }
 
 pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
-    let (course, d) = (&motion.course, motion.course.problem.dimension);
-    let last = course.last();
+    let (course, wanted) = (&motion.course, motion.velocity);
+    let (last, d) = (course.last(), course.problem.dimension);
+    let seen = [course.mean(velocity, last), course.mean(displacement, last)];
+    let [v, u] = seen.map(|mean| shown_vector(mean, d));
+    let wanted = [wanted, times(course.times[last], wanted)];
+    let [exact_v, exact_u] = wanted.map(|wanted| shown_vector(wanted, d));
     SolverFinding::defect(
         "motion-not-kept",
         format!(
-            "at the end, the whole body has the velocity {} m/s and the displacement {} m, \
-             expected {} m/s and {} m",
-            shown_vector(course.mean(velocity, last), d),
-            shown_vector(course.mean(displacement, last), d),
-            shown_vector(motion.velocity, d),
-            shown_vector(times(course.times[last], motion.velocity), d)
+            "at the end, the whole body has the velocity {v} m/s and the displacement {u} m, \
+             expected {exact_v} m/s and {exact_u} m"
         ),
         if motion.off().1 <= motion.patient.rounding() {
             "velocities are correct, but positions do not follow from them"

@@ -12,7 +12,7 @@ pub(super) use apart::CHANGED;
 
 use super::course::shown;
 use super::finding::SolverFinding;
-use super::patient::{Examined, Hindrance, Patient};
+use super::patient::{Examined, Hindrance, Patient, complete};
 use super::scene::BoxScene;
 use crate::subject::Precision;
 use as_one::UniformMotion;
@@ -25,20 +25,16 @@ pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examine
     let course = patient.run(scene)?;
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };
     let (way, speed) = motion.off();
+    let (last, [far, fast]) = (motion.course.last(), [way, speed].map(shown));
     let measured = format!(
-        "in {} steps, displacement errors are up to {} of the distance travelled, and velocity \
-         errors up to {} of the speed",
-        motion.course.last(),
-        shown(way),
-        shown(speed)
+        "in {last} steps, displacement errors are up to {far} of the distance travelled, and \
+         velocity errors up to {fast} of the speed"
     );
-    let mut findings = Vec::new();
-    if !(way <= patient.rounding() && speed <= patient.rounding()) {
-        findings.push(cause(&motion)?);
-    } else if let Some(failure) = &motion.course.failure {
-        return Err(Hindrance::Broke(failure.clone()));
+    if way <= patient.rounding() && speed <= patient.rounding() {
+        complete(motion.course)?;
+        return Ok(Examined::new(measured, None));
     }
-    Ok(Examined::new(measured, findings))
+    Ok(Examined::new(measured, Some(cause(&motion)?)))
 }
 
 fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
@@ -57,13 +53,12 @@ fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindrance> {
 
 /// Returns the finding for errors that single precision can explain, but double precision cannot.
 pub(super) fn single(way: f64, speed: f64) -> SolverFinding {
+    let [way, speed] = [way, speed].map(shown);
     SolverFinding::defect(
         "single-precision",
         format!(
-            "the errors are typical of single precision: {} of the distance travelled and {} of \
-             the speed, where double precision gives about 1e-13",
-            shown(way),
-            shown(speed)
+            "the errors are typical of single precision: {way} of the distance travelled and \
+             {speed} of the speed, where double precision gives about 1e-13"
         ),
         "numbers pass through single precision, but the solver states double precision",
         "`float` or `f32` in arrays or in the adapter; files or messages with seven digits. A \

@@ -54,13 +54,13 @@ fn of_swelling(end: &PathEnd) -> Option<SolverFinding> {
         "the mean stress does not follow the swelling line: another slope, a logarithm to the base \
          10, or an initial pressure that is ignored"
     };
+    let slope = end.compaction / libm::log(end.p);
+    let [expected, slope, kappa] = [expected, slope, SWELLING_SLOPE].map(shown);
     Some(SolverFinding::defect(
         "clay-swelling-slope",
         end.describe(&format!(
-            "p/p0 = {} is expected; the slope of the swelling line is {}, expected kappa = {}",
-            shown(expected),
-            shown(end.compaction / libm::log(end.p)),
-            shown(SWELLING_SLOPE)
+            "p/p0 = {expected} is expected; the slope of the swelling line is {slope}, expected \
+             kappa = {kappa}"
         )),
         cause,
         "the bulk modulus K = p/kappa, with the current mean stress p and the logarithmic volume \
@@ -96,11 +96,8 @@ fn of_critical_state(end: &PathEnd) -> Option<SolverFinding> {
     if (slope / CRITICAL_STATE_SLOPE - 1.0).abs() <= NEAR_AT_CRITICAL_STATE {
         return None;
     }
-    let seen = end.describe(&format!(
-        "q/p is {}, expected M = {} at the critical state",
-        shown(slope),
-        shown(CRITICAL_STATE_SLOPE)
-    ));
+    let [slope, exact] = [slope, CRITICAL_STATE_SLOPE].map(shown);
+    let seen = end.describe(&format!("q/p is {slope}, expected M = {exact} at the critical state"));
     if is_near(end.q, 3.0 * end.ratio / SWELLING_SLOPE * end.shear) {
         return Some(SolverFinding::defect(
             "clay-does-not-yield",
@@ -117,10 +114,9 @@ fn of_hardening(compression: &PathEnd, shear: &PathEnd) -> Option<SolverFinding>
     let expected_slope = COMPRESSION_SLOPE - SWELLING_SLOPE;
     let expected = |end: &PathEnd| hardened(end.plastic_compaction(), expected_slope);
     let seen = |end: &PathEnd| {
+        let [pc, wanted] = [end.consolidation(), expected(end)].map(shown);
         end.describe(&format!(
-            "the yield surface through this stress has pc/p0 = {}, expected {}",
-            shown(end.consolidation()),
-            shown(expected(end))
+            "the yield surface through this stress has pc/p0 = {pc}, expected {wanted}"
         ))
     };
     let is_on_path =
@@ -142,13 +138,11 @@ fn of_hardening(compression: &PathEnd, shear: &PathEnd) -> Option<SolverFinding>
     } else if slope > 0.0
         && is_on_path(shear.consolidation(), hardened(shear.plastic_compaction(), slope))
     {
+        let [slope, wanted, lambda, kappa] =
+            [slope, expected_slope, COMPRESSION_SLOPE, SWELLING_SLOPE].map(shown);
         format!(
-            "the preconsolidation pressure follows the plastic volume strain with the slope {} \
-             instead of lambda - kappa = {} (lambda = {}, kappa = {})",
-            shown(slope),
-            shown(expected_slope),
-            shown(COMPRESSION_SLOPE),
-            shown(SWELLING_SLOPE)
+            "the preconsolidation pressure follows the plastic volume strain with the slope {slope} \
+             instead of lambda - kappa = {wanted} (lambda = {lambda}, kappa = {kappa})"
         )
     } else {
         return Some(yield_surface(seen(compression)));
@@ -178,13 +172,10 @@ fn of_flow(end: &PathEnd) -> Option<SolverFinding> {
     if (measured - expected).abs() <= NEAR_ON_PATH * expected {
         return None;
     }
+    let [measured, expected] = [measured, expected].map(shown);
     Some(SolverFinding::defect(
         "clay-flow-direction",
-        end.describe(&format!(
-            "q/p is {}, expected {} on the K0 line",
-            shown(measured),
-            shown(expected)
-        )),
+        end.describe(&format!("q/p is {measured}, expected {expected} on the K0 line")),
         "the stress is on the yield surface, but at the wrong point: the flow is not associated",
         "the flow direction, the gradient of the yield function: d eps_q/d eps_v = 2 q/(M^2 (2 p - \
          pc))",
@@ -194,15 +185,9 @@ fn of_flow(end: &PathEnd) -> Option<SolverFinding> {
 /// Computes the ratio `q/p` of the K0 line from the ratio of moduli.
 fn k0_ratio(ratio: f64) -> f64 {
     let poisson = (1.5 - ratio) / (3.0 + ratio);
-    let law = CamClayLaw::new(
-        CRITICAL_STATE_SLOPE,
-        SWELLING_SLOPE,
-        COMPRESSION_SLOPE,
-        poisson,
-        1.0,
-        OVERCONSOLIDATION,
-    );
-    law.k0_ratio()
+    let slopes = [CRITICAL_STATE_SLOPE, SWELLING_SLOPE, COMPRESSION_SLOPE];
+    let [critical, swelling, compression] = slopes;
+    CamClayLaw::new(critical, swelling, compression, poisson, 1.0, OVERCONSOLIDATION).k0_ratio()
 }
 
 #[cfg(test)]

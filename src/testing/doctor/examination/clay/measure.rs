@@ -114,12 +114,10 @@ impl PathEnd {
     }
 
     pub(super) fn describe(&self, what: &str) -> String {
+        let (Self { dimension, path, .. }, [p, q]) = (self, [self.p, self.q].map(shown));
         format!(
-            "cam_clay in {}-D, {}: in the middle of the body, p/p0 is {} and q/p0 is {}; {what}",
-            self.dimension,
-            self.path,
-            shown(self.p),
-            shown(self.q)
+            "cam_clay in {dimension}-D, {path}: in the middle of the body, p/p0 is {p} and q/p0 is \
+             {q}; {what}"
         )
     }
 }

@@ -112,11 +112,10 @@ fn examine_scene(
     let mut scene = scene.clone();
     let (mut course, mut measured) = measure(patient, &scene, averages)?;
     if measured.averaging > MOST_AVERAGING {
+        let (d, times) = (scene.dimension, shown(measured.averaging));
         return Err(Hindrance::Masked(format!(
-            "a visible stress: in {}-D, averaging of velocities at nodes transfers {} times the \
-             momentum that the stress transfers; the maximum is {MOST_AVERAGING}",
-            scene.dimension,
-            shown(measured.averaging)
+            "a visible stress: in {d}-D, averaging of velocities at nodes transfers {times} times \
+             the momentum that the stress transfers; the maximum is {MOST_AVERAGING}"
         )));
     }
     let (lambda, mu) = scene.lame();
@@ -210,13 +209,13 @@ fn lost_momentum(
     let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
     let share = size(minus(end, start)) / gain;
     let most = sampling_error(course, scene).max(patient.tolerance(1e-6, 0.02));
+    let change = shown(share);
     (!(share <= most)).then(|| {
         SolverFinding::defect(
             "momentum-lost",
             format!(
-                "the total momentum is not constant: the mean velocity changes by {} of the speed \
-                 that the free faces gain",
-                shown(share)
+                "the total momentum is not constant: the mean velocity changes by {change} of the \
+                 speed that the free faces gain"
             ),
             "internal forces do not sum to zero, or the momentum of nodes is not transferred back \
              completely",

@@ -30,11 +30,10 @@ pub(super) fn cause(
         (0..count).all(|k| (moduli[k] - wanted[k]).abs() <= near * scale)
     };
     let ratios = (0..count).map(|k| shown(moduli[k] / [whole, lambda, mu][k]));
+    let (d, ratios) = (scene.dimension, ratios.collect::<Vec<_>>().join(", "));
     let seen = format!(
-        "in {}-D, the measured moduli divided by those of the law are {} (along the stretch; in \
-         2-D and 3-D also across the stretch and in shear)",
-        scene.dimension,
-        ratios.collect::<Vec<_>>().join(", ")
+        "in {d}-D, the measured moduli divided by those of the law are {ratios} (along the stretch; \
+         in 2-D and 3-D also across the stretch and in shear)"
     );
     let report = |name: &'static str, cause: &str, look_at: &str| {
         Some(SolverFinding::defect(name, seen.clone(), cause, look_at))
@@ -168,8 +167,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
             "the internal force f = -V sigma grad N; a sign convention with positive compression",
         );
     }
-    let cause = factors(scene).into_iter().find(|(wanted, _)| is(*wanted));
-    let cause = cause.map_or("", |(_, cause)| cause);
+    let mistake = factors(scene).into_iter().find(|(wanted, _)| is(*wanted));
     let column = column_factor(course, scene);
     let is_right = column.is_some_and(|column| (column - 1.0).abs() <= 0.25 * (factor - 1.0).abs());
     let is_alike = column.is_some_and(|column| (column / factor - 1.0).abs() <= NEAR_FACTOR);
@@ -178,13 +176,13 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         let is_off = (strain - 1.0).abs() > 0.5 * (factor - 1.0).abs();
         is_off && (strain / factor - 1.0).abs() <= NEAR
     });
+    let [shown_factor, inverse] = [factor, 1.0 / factor].map(shown);
     let (name, what, look_at) = if is_alike && is_strain {
         (
             "velocity-gradient-scaled",
             format!(
-                "F - I and the stress are {} times the expected values: velocity gradients are \
-                 wrong by this factor",
-                shown(factor)
+                "F - I and the stress are {shown_factor} times the expected values: velocity \
+                 gradients are wrong by this factor"
             ),
             "the factor 1/h in the gradients of basis functions; in MLS-MPM, the factor of the \
              affine matrix C, which is 4/h^2 for quadratic and 3/h^2 for cubic B-splines; the time \
@@ -194,11 +192,9 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         (
             "mass-or-volume-scaled",
             format!(
-                "the column `stress` is correct, but accelerations are {} times the expected ones: \
-                 masses are wrong by a factor of {}, or volumes by a factor of {}",
-                shown(factor),
-                shown(1.0 / factor),
-                shown(factor)
+                "the column `stress` is correct, but accelerations are {shown_factor} times the \
+                 expected ones: masses are wrong by a factor of {inverse}, or volumes by a factor \
+                 of {shown_factor}"
             ),
             "the masses and volumes of particles, which must be those of the problem, not computed \
              from h or from the number of particles along an edge; the factor 1/h of gradients in \
@@ -208,8 +204,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         (
             "stress-scaled",
             format!(
-                "the column `stress` and the accelerations are {} times the expected ones",
-                shown(factor)
+                "the column `stress` and the accelerations are {shown_factor} times the expected ones"
             ),
             "Young's modulus and its unit (Pa); the strain; the factor 1/h of velocity gradients; \
              if `transfer` reports `momentum-spreads`, the factor of the affine matrix C",
@@ -218,16 +213,15 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
         (
             "stress-scaled",
             format!(
-                "accelerations due to stress are {} times the expected ones: the modulus or the \
-                 volumes are wrong by this factor, or the masses by its inverse",
-                shown(factor)
+                "accelerations due to stress are {shown_factor} times the expected ones: the \
+                 modulus or the volumes are wrong by this factor, or the masses by its inverse"
             ),
             "the volumes and masses of particles, which must be those of the problem; the factor \
              1/h of gradients; the unit of Young's modulus (Pa)",
         )
     };
-    let cause = if cause.is_empty() { what } else { format!("{what}. Possible mistake: {cause}") };
-    SolverFinding::defect(name, seen, &cause, look_at)
+    let mistake = mistake.map(|(_, mistake)| format!(". Possible mistake: {mistake}"));
+    SolverFinding::defect(name, seen, &(what + &mistake.unwrap_or_default()), look_at)
 }
 
 /// Returns the factors by which known mistakes change accelerations, each with the mistake. No two
