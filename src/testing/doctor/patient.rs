@@ -167,7 +167,8 @@ pub(super) struct Examination {
     pub(super) name: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,
-    /// Examinations that must have no defects before this one runs.
+    /// Examinations that must have no defects before this one runs, except those that one of
+    /// them already requires.
     pub(super) after: &'static [&'static str],
     /// Capabilities that the examination tests, in the notation of
     /// [`Capabilities::entries`](crate::external::Capabilities::entries). Declared capabilities

@@ -11,7 +11,7 @@ use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 pub(super) const EXAMINATION: Examination = Examination {
     name: "bodies",
     expected: "two bodies that do not touch have the stresses of their own law and density",
-    after: &["conversation", "rest", "translation", "transfer", "stress"],
+    after: &["translation", "transfer", "stress"],
     covers: &["several_bodies"],
     examine,
 };

@@ -13,7 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "damping",
     expected: "damping of the rate c reduces a uniform velocity as exp(-c t), and local damping of \
                the share s changes gravity g to g (1 - s) for a falling body",
-    after: &["conversation", "rest", "translation", "fall", "force"],
+    after: &["translation", "fall", "force"],
     covers: &["loads: damping", "loads: local_damping"],
     examine,
 };

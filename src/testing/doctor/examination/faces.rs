@@ -12,7 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
     expected: "a body without stress keeps its velocity, also in steps in which its particles lie \
                exactly on cell faces",
-    after: &["conversation", "rest", "translation"],
+    after: &["translation"],
     covers: &[],
     examine,
 };

@@ -13,7 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
     expected: "a body without stress falls with the velocity v = g t, exact in any scheme, and the \
                displacement u = g t^2/2",
-    after: &["conversation", "rest", "translation"],
+    after: &["translation"],
     covers: &["loads: gravity"],
     examine,
 };
@@ -171,93 +171,85 @@ impl FallTimes {
     }
 }
 
-/// A rule for the times of a fall. The first rule whose condition holds gives the finding.
-struct FallRule {
-    holds: fn(&FallTimes) -> bool,
-    weight: FindingWeight,
-    name: &'static str,
-    cause: &'static str,
-    look_at: &'static str,
-}
+/// Condition on the times of a fall, weight and name of the finding, likely cause, and the code to
+/// check. The first rule whose condition holds gives the finding.
+type FallRule = (fn(&FallTimes) -> bool, FindingWeight, &'static str, &'static str, &'static str);
 
 const RULES: [FallRule; 8] = [
-    FallRule {
-        holds: |fall| fall.has_lag(0.0) && fall.has_share(1.0),
-        weight: FindingWeight::Remark,
-        name: "start-half-a-step-off",
-        cause: "each step updates velocities first and then positions, but the run starts with the \
-                velocity at t = 0 instead of -dt/2. The velocities that move particles are then \
-                too large by a dt/2 (a: acceleration), which lowers the order in time by one",
-        look_at: "the start of the run: subtract dt/2 times the initial acceleration from the \
-                  velocity before the first step. Suites then show the order in time of the scheme",
-    },
-    FallRule {
-        holds: |fall| fall.has_lag(0.5) && fall.has_share(1.0),
-        weight: FindingWeight::Remark,
-        name: "velocity-half-a-step-behind",
-        cause: "the scheme is a leapfrog: the reported velocities belong to a time half a step \
-                before the reported positions",
-        look_at: "the velocities in `state`. Suites that judge velocities will show order 1 in dt. \
-                  The mean of two successive velocities belongs to the time of the positions",
-    },
-    FallRule {
-        holds: FallTimes::is_of_shorter_steps,
-        weight: FindingWeight::Remark,
-        name: "steps-are-divided",
-        cause: "the solver takes several shorter steps for each requested step. A single step that \
-                moves particles by a weighted mean of the old and the new velocity gives the same \
-                values",
-        look_at: "time step control of the solver. The order in time is that of the shorter steps, \
-                  if their number does not change with dt",
-    },
-    FallRule {
-        holds: |fall| fall.has_lag(0.5) && fall.has_share(0.0),
-        weight: FindingWeight::Defect,
-        name: "positions-from-mean-velocity",
-        cause: "each step moves the body by the mean of the reported velocities before and after \
-                the step. Both are half a step early, so positions are half a step behind",
-        look_at: "the velocity that moves particles: the new velocity of the grid, not a mean with \
-                  the old velocity of the particle",
-    },
-    FallRule {
-        holds: |fall| fall.has_lag_of_scheme() && fall.has_share(-1.0),
-        weight: FindingWeight::Defect,
-        name: "positions-before-velocities",
-        cause: "positions are updated with the velocity before the step. This has order 1 in time \
-                (forward Euler, if strains use this velocity too)",
-        look_at: "the order of the updates: first velocities, then positions with the new \
-                  velocities",
-    },
-    FallRule {
-        holds: |fall| fall.has_lag(0.5) && fall.has_share(2.0),
-        weight: FindingWeight::Remark,
-        name: "velocity-half-a-step-behind",
-        cause: "the reported velocities belong to a time half a step before the end of the step, \
-                for example as means of the velocities before and after the step. Positions move \
-                with the later velocity, so the scheme is not a leapfrog",
-        look_at: "the velocities in `state`, and the velocity at the start of the run: the \
-                  positions are those of a run that starts with the velocity at t = 0 instead of \
-                  -dt/2",
-    },
-    FallRule {
-        holds: |fall| {
+    (
+        |fall| fall.has_lag(0.0) && fall.has_share(1.0),
+        FindingWeight::Remark,
+        "start-half-a-step-off",
+        "each step updates velocities first and then positions, but the run starts with the \
+         velocity at t = 0 instead of -dt/2. The velocities that move particles are then too large \
+         by a dt/2 (a: acceleration), which lowers the order in time by one",
+        "the start of the run: subtract dt/2 times the initial acceleration from the velocity \
+         before the first step. Suites then show the order in time of the scheme",
+    ),
+    (
+        |fall| fall.has_lag(0.5) && fall.has_share(1.0),
+        FindingWeight::Remark,
+        "velocity-half-a-step-behind",
+        "the scheme is a leapfrog: the reported velocities belong to a time half a step before the \
+         reported positions",
+        "the velocities in `state`. Suites that judge velocities will show order 1 in dt. The mean \
+         of two successive velocities belongs to the time of the positions",
+    ),
+    (
+        FallTimes::is_of_shorter_steps,
+        FindingWeight::Remark,
+        "steps-are-divided",
+        "the solver takes several shorter steps for each requested step. A single step that moves \
+         particles by a weighted mean of the old and the new velocity gives the same values",
+        "time step control of the solver. The order in time is that of the shorter steps, if their \
+         number does not change with dt",
+    ),
+    (
+        |fall| fall.has_lag(0.5) && fall.has_share(0.0),
+        FindingWeight::Defect,
+        "positions-from-mean-velocity",
+        "each step moves the body by the mean of the reported velocities before and after the \
+         step. Both are half a step early, so positions are half a step behind",
+        "the velocity that moves particles: the new velocity of the grid, not a mean with the old \
+         velocity of the particle",
+    ),
+    (
+        |fall| fall.has_lag_of_scheme() && fall.has_share(-1.0),
+        FindingWeight::Defect,
+        "positions-before-velocities",
+        "positions are updated with the velocity before the step. This has order 1 in time \
+         (forward Euler, if strains use this velocity too)",
+        "the order of the updates: first velocities, then positions with the new velocities",
+    ),
+    (
+        |fall| fall.has_lag(0.5) && fall.has_share(2.0),
+        FindingWeight::Remark,
+        "velocity-half-a-step-behind",
+        "the reported velocities belong to a time half a step before the end of the step, for \
+         example as means of the velocities before and after the step. Positions move with the \
+         later velocity, so the scheme is not a leapfrog",
+        "the velocities in `state`, and the velocity at the start of the run: the positions are \
+         those of a run that starts with the velocity at t = 0 instead of -dt/2",
+    ),
+    (
+        |fall| {
             let is_in_step = fall.lag[0] >= -NEAR && fall.lag[1] <= 0.5 + NEAR;
             !is_in_step || (fall.has_share(1.0) && !fall.has_lag_of_scheme())
         },
-        weight: FindingWeight::Defect,
-        name: "velocity-of-another-time",
-        cause: "the reported velocities belong neither to the time after the step, nor to half a \
-                step before this time as in a leapfrog",
-        look_at: "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the \
-                  number of steps; the variable from which the answer takes velocities",
-    },
-    FallRule {
-        holds: |_| true,
-        weight: FindingWeight::Defect,
-        name: "way-not-of-velocities",
-        cause: "the reported positions do not follow from the reported velocities",
-        look_at: "the velocity that moves particles, which must include gravity exactly once",
-    },
+        FindingWeight::Defect,
+        "velocity-of-another-time",
+        "the reported velocities belong neither to the time after the step, nor to half a step \
+         before this time as in a leapfrog",
+        "the code before the first step: v(-dt/2) = v0 - a dt/2, not v0 + a dt/2; the number of \
+         steps; the variable from which the answer takes velocities",
+    ),
+    (
+        |_| true,
+        FindingWeight::Defect,
+        "way-not-of-velocities",
+        "the reported positions do not follow from the reported velocities",
+        "the velocity that moves particles, which must include gravity exactly once",
+    ),
 ];
 
 /// Returns a finding if the acceleration is g, but velocities or positions belong to other times.
@@ -277,8 +269,8 @@ fn of_times(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     };
     let [low, high] = fall.share.map(shown);
     let range = if low == high { low } else { format!("{low} to {high}") };
-    let rule = RULES.iter().find(|rule| (rule.holds)(&fall))?;
-    let count = fall.count().filter(|_| rule.name == "steps-are-divided");
+    let (_, weight, name, cause, look_at) = *RULES.iter().find(|(holds, ..)| holds(&fall))?;
+    let count = fall.count().filter(|_| name == "steps-are-divided");
     let steps = count
         .map_or(String::new(), |k| format!(". The solver takes {k} steps of dt/{k} for each step"));
     let (late, ahead) = (term(late, " dt"), term(ahead, " g t dt/2"));
@@ -287,8 +279,7 @@ fn of_times(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
          u = g t^2/2{ahead}, expected u = g t^2/2. Each step moves the body by v dt + (1 + q) g \
          dt^2/2 with q = {range}, where v is the velocity before the step{steps}"
     );
-    let finding = SolverFinding::defect(rule.name, seen, rule.cause, rule.look_at);
-    Some(SolverFinding { weight: rule.weight, ..finding })
+    Some(SolverFinding { weight, ..SolverFinding::defect(name, seen, cause, look_at) })
 }
 
 /// Returns the name of the finding on accelerations that are wrong by `factor`, and the cause.

@@ -15,7 +15,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "force",
     expected: "the solver requests the body force at reference positions and at the time of each \
                step, and applies each value to the point for which it was requested",
-    after: &["conversation", "rest", "translation", "fall"],
+    after: &["translation", "fall"],
     covers: &["loads: body_force", "manufactured"],
     examine,
 };

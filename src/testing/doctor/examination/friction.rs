@@ -12,7 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "friction",
     expected: "a body that slides along a wall loses mu times the normal impulse, stops and stays, \
                and leaves the wall without force",
-    after: &["conversation", "rest", "translation", "fall", "transfer", "stress", "vibration"],
+    after: &["translation", "fall", "transfer", "stress", "vibration"],
     covers: &["conditions: friction"],
     examine: examine_wall,
 };
@@ -21,7 +21,7 @@ pub(super) const CONTACT: Examination = Examination {
     name: "contact",
     expected: "two bodies that collide exert the force rho c v/2 per area (v: relative velocity) \
                and mu times this force along their common face, and separate without force",
-    after: &["conversation", "rest", "translation", "transfer", "stress", "vibration"],
+    after: &["translation", "transfer", "stress", "vibration"],
     covers: &["several_bodies", "contact"],
     examine: examine_contact,
 };

@@ -12,7 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",
     expected: "a body that fills a periodic axis moves along this axis at constant velocity, and \
                its displacements are not wrapped",
-    after: &["conversation", "rest", "translation", "stress"],
+    after: &["translation", "stress"],
     covers: &["conditions: periodic"],
     examine,
 };
@@ -20,17 +20,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 pub(super) const ENDS: Examination = Examination {
     name: "periodic-ends",
     expected: "if the two ends of a periodic axis move towards each other, they stop each other",
-    after: &[
-        "conversation",
-        "rest",
-        "translation",
-        "force",
-        "transfer",
-        "periodic",
-        "stress",
-        "walls",
-        "hourglass",
-    ],
+    after: &["translation", "force", "transfer", "periodic", "stress", "walls", "hourglass"],
     covers: &["conditions: periodic"],
     examine: examine_ends,
 };

@@ -21,7 +21,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "start",
     expected: "a body that starts with a displacement, F and stress is at the positions of the \
                problem, and the stress accelerates the body from the first step on",
-    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    after: &["translation", "force", "transfer", "stress", "laws"],
     covers: &[
         "initial_deformation",
         "initial_stress",

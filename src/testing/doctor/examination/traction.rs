@@ -14,7 +14,7 @@ use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
 pub(super) const EXAMINATION: Examination = Examination {
     name: "traction",
     expected: "a free body gains the momentum p A t under a traction p on a face of area A",
-    after: &["conversation", "rest", "translation", "transfer", "stress"],
+    after: &["translation", "transfer", "stress"],
     covers: &["loads: traction"],
     examine,
 };

@@ -23,7 +23,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",
     expected: "a body without stress that rotates or stretches slowly conserves the first moment \
                of its momentum about the centre, or loses as much as PIC",
-    after: &["conversation", "rest", "initial-velocity", "translation", "force"],
+    after: &["initial-velocity", "translation", "force"],
     covers: &[],
     examine,
 };
@@ -32,7 +32,7 @@ pub(super) const INITIAL_VELOCITY: Examination = Examination {
     name: "initial-velocity",
     expected: "a body without stress that stretches slowly starts with the velocities of the \
                problem, which do not grow",
-    after: &["conversation", "rest"],
+    after: &["rest"],
     covers: &[],
     examine: examine_initial_velocity,
 };

@@ -9,7 +9,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",
     expected: "a body without stress moves at constant velocity through four cells, with x = X + v \
                t to rounding",
-    after: &["conversation", "rest", "initial-velocity"],
+    after: &["rest", "initial-velocity"],
     covers: &[],
     examine,
 };

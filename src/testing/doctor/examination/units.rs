@@ -11,7 +11,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "units",
     expected: "multiplying all lengths or all times by a thousandth, or all masses by 1e-12, \
                changes only the units of the answer",
-    after: &["conversation", "rest", "translation", "faces", "force", "transfer", "stress"],
+    after: &["translation", "faces", "force", "transfer", "stress"],
     covers: &[],
     examine,
 };

@@ -33,7 +33,7 @@ pub(super) const EXAMINATION: Examination = Examination {
                when it yields, the stress is on a yield surface that grows with the plastic \
                compaction, and approaches the critical state in shear and the K0 line in \
                compression",
-    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"],
+    after: &["translation", "force", "transfer", "stress", "laws"],
     covers: &["laws: cam_clay"],
     examine,
 };

@@ -22,7 +22,7 @@ pub(in super::super) const FLUIDS: Examination = Examination {
     expected: "in compression and extension, the column `stress` is the pressure of the equation \
                of state; in shear, it contains the viscous stress",
     // The pressure of a gas also depends on the mass, which `start` examines.
-    after: &["conversation", "rest", "translation", "force", "transfer", "stress", "laws", "start"],
+    after: &["translation", "force", "transfer", "stress", "laws", "start"],
     covers: &["laws: newtonian", "laws: linear_fluid", "laws: polytropic"],
     examine: |patient| examine(patient, &FLUID),
 };

@@ -26,8 +26,7 @@ use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
 /// Examinations that must have no defects before a path is examined.
-const AFTER: &[&str] =
-    &["conversation", "rest", "translation", "force", "transfer", "stress", "laws"];
+const AFTER: &[&str] = &["translation", "force", "transfer", "stress", "laws"];
 
 /// Young's modulus (Pa) of all paths.
 const YOUNG: f64 = 15_000.0;

@@ -31,7 +31,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     name: "stress",
     expected: "in a body that stretches and shears, momentum is transferred by the stress of the \
                law, and the total momentum is conserved",
-    after: &["conversation", "rest", "translation", "force", "transfer"],
+    after: &["translation", "force", "transfer"],
     covers: &[
         "dimensions: 1",
         "dimensions: 2",

@@ -31,16 +31,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "on a body that is pushed against a wall or pulled from the wall, also under \
                gravity, every wall exerts the force rho c v per area (rho: density, c: wave \
                speed, v: speed), and a body slides along a roller without force",
-    after: &[
-        "conversation",
-        "rest",
-        "translation",
-        "fall",
-        "force",
-        "transfer",
-        "stress",
-        "vibration",
-    ],
+    after: &["translation", "fall", "force", "transfer", "stress", "vibration"],
     covers: &["conditions: fixed", "conditions: roller"],
     examine,
 };
