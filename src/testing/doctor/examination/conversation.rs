@@ -62,19 +62,18 @@ fn wrong_weights(course: &Course, scene: &BoxScene) -> Option<SolverFinding> {
     let largest = weights.iter().copied().fold(0.0, f64::max);
     let is_near = (sum - volume).abs() <= (0.95 * largest).min(0.5 * volume) + 1e-6 * volume;
     let (n, d, [sum, share]) = (weights.len(), scene.dimension, [sum, sum / volume].map(shown));
-    (!is_near).then(|| {
-        SolverFinding::defect(
-            "weights-of-points",
-            format!(
-                "the weights of {n} points sum to {sum} m^{d}, which is {share} times the volume of \
-                 the body"
-            ),
-            "the weights of the points in `ready` are not the volumes that the points represent",
-            "`weight` of `points`: volumes of the undeformed body (m, m^2 or m^3), not masses or \
-             ones. A node on the boundary of a mesh has only the parts of its cells inside the body, \
-             such as half a cell on a face",
-        )
-    })
+    let finding = SolverFinding::defect(
+        "weights-of-points",
+        format!(
+            "the weights of {n} points sum to {sum} m^{d}, which is {share} times the volume of \
+             the body"
+        ),
+        "the weights of the points in `ready` are not the volumes that the points represent",
+        "`weight` of `points`: volumes of the undeformed body (m, m^2 or m^3), not masses or ones. \
+         A node on the boundary of a mesh has only the parts of its cells inside the body, such as \
+         half a cell on a face",
+    );
+    (!is_near).then_some(finding)
 }
 
 /// Returns the largest difference of a column at the end of two runs, relative to the largest value

@@ -145,18 +145,14 @@ fn other_times(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let last = times.fold(f64::NEG_INFINITY, f64::max);
     let is_inside = first >= -scene.dt && last <= end + scene.dt;
     let [first, last] = [first, last].map(shown);
-    (!(asked.is_empty() || is_inside)).then(|| {
-        SolverFinding::defect(
-            "force-of-another-time",
-            format!(
-                "the requested times are {first} to {last} s, but the run is from 0 to {end} s"
-            ),
-            "the force is requested at wrong times, for example at the step number instead of the \
-             time",
-            "the time `t` of requests (s), which starts at `from` of `advance` and increases by \
-             `dt` in each step",
-        )
-    })
+    let finding = SolverFinding::defect(
+        "force-of-another-time",
+        format!("the requested times are {first} to {last} s, but the run is from 0 to {end} s"),
+        "the force is requested at wrong times, for example at the step number instead of the time",
+        "the time `t` of requests (s), which starts at `from` of `advance` and increases by `dt` \
+         in each step",
+    );
+    (!(asked.is_empty() || is_inside)).then_some(finding)
 }
 
 /// Returns a finding if the solver requests forces at current instead of reference positions.
@@ -176,20 +172,19 @@ fn places(asked: &Questions, scene: &BoxScene) -> Option<SolverFinding> {
     let outside = asked.iter().filter(|(t, x)| *t > late && !(low..=high).contains(&x[0])).count();
     let last = asked.iter().map(|(t, _)| *t).fold(0.0, f64::max);
     let [late, way] = [late, VELOCITY[0] * last].map(shown);
-    (outside > 0).then(|| {
-        SolverFinding::defect(
-            "force-at-present-positions",
-            format!(
-                "{outside} of the positions requested after {late} s are outside the initial body; \
-                 the body has moved by {way} m"
-            ),
-            "the force is requested at the current positions of particles instead of their \
-             reference positions",
-            "`reference_position` in requests: the reference position X of each particle, which \
-             does not change. If a request omits this key, the reference positions of the \
-             particles are used",
-        )
-    })
+    let finding = SolverFinding::defect(
+        "force-at-present-positions",
+        format!(
+            "{outside} of the positions requested after {late} s are outside the initial body; the \
+             body has moved by {way} m"
+        ),
+        "the force is requested at the current positions of particles instead of their reference \
+         positions",
+        "`reference_position` in requests: the reference position X of each particle, which does \
+         not change. If a request omits this key, the reference positions of the particles are \
+         used",
+    );
+    (outside > 0).then_some(finding)
 }
 
 /// Returns a finding if forces have a wrong factor or are evaluated at wrong times.

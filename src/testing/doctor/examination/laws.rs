@@ -170,19 +170,18 @@ fn of_parameters(
         ));
     }
     let is_constant = (earliest.error / early.error - 1.0).abs() <= 0.4;
-    (is_constant && earliest.error > 2.0 * NEAR).then(|| {
-        SolverFinding::defect(
-            "law-differs",
-            format!(
-                "{name}: already at small strains, the stress has an error of {} of its largest \
-                 component",
-                shown(earliest.error)
-            ),
-            "the parameters of this law are wrong, or lambda and mu are used in the wrong places. \
-             Another strain or stress measure would cause no error at small strains",
-            look_at,
-        )
-    })
+    let finding = SolverFinding::defect(
+        "law-differs",
+        format!(
+            "{name}: already at small strains, the stress has an error of {} of its largest \
+             component",
+            shown(earliest.error)
+        ),
+        "the parameters of this law are wrong, or lambda and mu are used in the wrong places. \
+         Another strain or stress measure would cause no error at small strains",
+        look_at,
+    );
+    (is_constant && earliest.error > 2.0 * NEAR).then_some(finding)
 }
 
 /// Whether displacement and F after the first step are close to their initial values.

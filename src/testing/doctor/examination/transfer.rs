@@ -281,17 +281,16 @@ fn cause(
 fn first_step(stretch: Losses, rotation: Losses) -> Option<SolverFinding> {
     let first = stretch.first.max(rotation.first);
     let loss = shown(first);
-    (first > 10.0 * KEPT).then(|| {
-        SolverFinding::remark(
-            "first-step-spreads",
-            format!(
-                "the first step reduces the moment of momentum by {loss} h^2, and later steps do \
-                 not change it"
-            ),
-            "particles start without the gradient of their velocity: the first step is a PIC step, \
-             which averages velocities over cells",
-            "the affine matrices at the start (APIC, MLS-MPM): use the gradient of the initial \
-             velocity, from a fit to neighbouring particles or from one transfer without motion",
-        )
-    })
+    let finding = SolverFinding::remark(
+        "first-step-spreads",
+        format!(
+            "the first step reduces the moment of momentum by {loss} h^2, and later steps do not \
+             change it"
+        ),
+        "particles start without the gradient of their velocity: the first step is a PIC step, \
+         which averages velocities over cells",
+        "the affine matrices at the start (APIC, MLS-MPM): use the gradient of the initial \
+         velocity, from a fit to neighbouring particles or from one transfer without motion",
+    );
+    (first > 10.0 * KEPT).then_some(finding)
 }

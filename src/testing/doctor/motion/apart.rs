@@ -149,7 +149,7 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 }
 
 /// Name of the finding on solvers that change the positions of particles on cell faces.
-pub(in crate::testing::doctor) const CHANGED: &str = "positions-changed";
+pub(crate) const CHANGED: &str = "positions-changed";
 
 /// Maximum change (v dt) of a position that weights do not explain. If a weight of a particle on a
 /// face is missing or counted twice, the error is larger.
@@ -182,20 +182,19 @@ fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
             }
         }
     }
-    (step > 0).then(|| {
-        SolverFinding::defect(
-            CHANGED,
-            format!(
-                "velocities are correct. From step {step} on, particles that lie on a cell face \
-                 move by up to {} v dt more or less than v dt, and all other particles by v dt",
-                shown(most)
-            ),
-            "the solver changes the positions of particles on cell faces, for example to move them \
-             into one of the cells. Wrong weights would cause a larger error",
-            "the update of positions, x <- x + dt v; code that finds the cell of a particle, which \
-             must not change the position",
-        )
-    })
+    let finding = SolverFinding::defect(
+        CHANGED,
+        format!(
+            "velocities are correct. From step {step} on, particles that lie on a cell face move \
+             by up to {} v dt more or less than v dt, and all other particles by v dt",
+            shown(most)
+        ),
+        "the solver changes the positions of particles on cell faces, for example to move them \
+         into one of the cells. Wrong weights would cause a larger error",
+        "the update of positions, x <- x + dt v; code that finds the cell of a particle, which \
+         must not change the position",
+    );
+    (step > 0).then_some(finding)
 }
 
 /// Returns a finding if the error begins when a particle first changes its cell.

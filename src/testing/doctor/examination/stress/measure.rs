@@ -17,16 +17,16 @@ const TUBE: f64 = 2.0;
 
 /// Distance that waves travel during the run (cells), so short that waves from free faces do not
 /// reach the tube.
-pub(in crate::testing::doctor) const TRAVEL: f64 = 1.5;
+pub(crate) const TRAVEL: f64 = 1.5;
 
 /// Number of steps. The number is small, because averaging (PIC) spreads momentum in each step.
-pub(in crate::testing::doctor) const STEPS: u64 = 6;
+pub(crate) const STEPS: u64 = 6;
 
 /// Moduli (Pa) from the growth of stresses: sigma_xx and sigma_yy relative to the stretch, sigma_xy
 /// (force along y) and sigma_yx relative to the shear. In 1-D, only `along` is measured.
 #[derive(Debug, Clone, Copy, Default)]
-pub(in crate::testing::doctor) struct MeasuredModuli {
-    pub(in crate::testing::doctor) along: f64,
+pub(crate) struct MeasuredModuli {
+    pub(crate) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
     /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate; negative if
@@ -45,7 +45,7 @@ pub(in crate::testing::doctor) struct MeasuredModuli {
     pub(super) sampling_error: f64,
 }
 
-pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
+pub(crate) fn spreading(kind: Kind) -> BoxScene {
     // With a cell of 0.15 m and these particle numbers, each kind of defect changes the moduli by a
     // different factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
@@ -58,7 +58,7 @@ pub(in crate::testing::doctor) fn spreading(kind: Kind) -> BoxScene {
 
 /// Computes moduli from the momentum of the two halves of tubes along the axes. The momentum in a
 /// run without stiffness (`soft`) is subtracted, so that averaging does not count as stress.
-pub(in crate::testing::doctor) fn moduli_by_momentum(
+pub(crate) fn moduli_by_momentum(
     course: &Course,
     soft: Option<&Course>,
     scene: &BoxScene,
@@ -97,7 +97,7 @@ pub(in crate::testing::doctor) fn moduli_by_momentum(
 /// Computes the constant part (Pa) and the rate (Pa/s) of a stress from its impulses (Pa s) at the
 /// times `t` (s). Fits `constant t + rate t^2/2` by least squares, starting at the end of the first
 /// step.
-pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
+pub(crate) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
         let terms = [t[k] - t[1], 0.5 * (t[k] * t[k] - t[1] * t[1])];
@@ -116,12 +116,7 @@ pub(in crate::testing::doctor) fn constant_and_rate(t: &[f64], impulse: &[f64]) 
 /// Computes the impulse (Pa s) of the stress component with normal i and force direction j, at each
 /// time. The impulse is the momentum transferred from the upper to the lower half of a tube along
 /// axis i, divided by the area of the tube.
-pub(in crate::testing::doctor) fn impulses(
-    course: &Course,
-    scene: &BoxScene,
-    i: usize,
-    j: usize,
-) -> Vec<f64> {
+pub(crate) fn impulses(course: &Course, scene: &BoxScene, i: usize, j: usize) -> Vec<f64> {
     let (d, middle) = (scene.dimension, scene.centre());
     let weight = &course.states[0].weight;
     let start: Vec<[f64; 3]> = course.points(velocity, 0).map(|(_, v)| v).collect();
@@ -197,11 +192,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
 
 /// Returns the mean of a tensor column over the points within one cell of the body's centre; `None`
 /// without the column.
-pub(in crate::testing::doctor) fn inside(
-    course: &Course,
-    scene: &BoxScene,
-    column: &[f64],
-) -> Option<Vec<f64>> {
+pub(crate) fn inside(course: &Course, scene: &BoxScene, column: &[f64]) -> Option<Vec<f64>> {
     mean_tensor(course, column, |label| {
         let ends = scene.body.0.iter().zip(&scene.body.1);
         label.iter().zip(ends).all(|(x, (low, high))| (x - 0.5 * (low + high)).abs() <= scene.h)
@@ -210,7 +201,7 @@ pub(in crate::testing::doctor) fn inside(
 
 /// Returns the mean of a tensor column (`d * d` numbers per point) over the points for whose label
 /// `is_near` returns true. `None` without this column, NaN without such points.
-pub(in crate::testing::doctor) fn mean_tensor(
+pub(crate) fn mean_tensor(
     course: &Course,
     column: &[f64],
     is_near: impl Fn(&[f64]) -> bool,
@@ -229,7 +220,7 @@ pub(in crate::testing::doctor) fn mean_tensor(
 }
 
 /// Returns the entry with the largest magnitude of several tensors; infinite if an entry is NaN.
-pub(in crate::testing::doctor) fn largest_entry(tensors: &[f64]) -> f64 {
+pub(crate) fn largest_entry(tensors: &[f64]) -> f64 {
     tensors.iter().fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { x.abs().max(most) })
 }
 

@@ -210,19 +210,18 @@ fn lost_momentum(
     let share = size(minus(end, start)) / gain;
     let most = sampling_error(course, scene).max(patient.tolerance(1e-6, 0.02));
     let change = shown(share);
-    (!(share <= most)).then(|| {
-        SolverFinding::defect(
-            "momentum-lost",
-            format!(
-                "the total momentum is not constant: the mean velocity changes by {change} of the \
-                 speed that the free faces gain"
-            ),
-            "internal forces do not sum to zero, or the momentum of nodes is not transferred back \
-             completely",
-            "the gradients at a particle, whose sum must be zero; nodes that are skipped because \
-             of their small mass; walls and velocity limits that are not in the problem",
-        )
-    })
+    let finding = SolverFinding::defect(
+        "momentum-lost",
+        format!(
+            "the total momentum is not constant: the mean velocity changes by {change} of the \
+             speed that the free faces gain"
+        ),
+        "internal forces do not sum to zero, or the momentum of nodes is not transferred back \
+         completely",
+        "the gradients at a particle, whose sum must be zero; nodes that are skipped because of \
+         their small mass; walls and velocity limits that are not in the problem",
+    );
+    (!(share <= most)).then_some(finding)
 }
 
 /// Returns the error of the mean velocity if the points are a sample of the body, relative to the

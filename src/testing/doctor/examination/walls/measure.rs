@@ -81,11 +81,7 @@ impl Wall {
 }
 
 /// Creates the bar along `axis`, fixed at both ends.
-pub(in crate::testing::doctor) fn bar(
-    kind: Kind,
-    axis: usize,
-    condition: &'static str,
-) -> BoxScene {
+pub(crate) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], if kind.0 == 3 { 3.0 } else { 4.0 }, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + CELLS * H;
     scene.grid.0[axis] = scene.body.0[axis];
