@@ -28,7 +28,7 @@ pub(super) struct CheckArgs {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct CheckPrintArgs {
+struct CheckPrintArgs {
     /// Omit valid suites and notes
     #[arg(long, short)]
     quiet: bool,
@@ -50,8 +50,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
         if let Some(solver) = &solver {
             match study::under(&suite, solver, false) {
                 Some(under_solver) if under_solver.case_names().is_empty() => {
-                    lacks
-                        .push("a case: each solution applies to a built-in method only".to_owned());
+                    lacks.push("a case: each solution applies to a built-in method only".to_owned())
                 }
                 Some(under_solver) => suite = under_solver,
                 None => lacks.push("features that this kind of study needs".to_owned()),
@@ -100,7 +99,7 @@ fn named_twice(suite: &Suite, source: &Source, earlier: &str) -> Diagnostic {
 }
 
 /// Collected findings. Text is printed immediately, JSON at the end.
-pub(super) struct CheckFindings {
+struct CheckFindings {
     is_json: bool,
     is_quiet: bool,
     /// Whether notes are printed instead of only counted.
@@ -144,7 +143,7 @@ const MOST_LACKING: usize = 8;
 impl CheckFindings {
     /// Creates empty findings for `count` suites. Notes are printed in full if every target is a
     /// single suite.
-    pub(super) fn new(args: &CheckArgs, count: usize) -> Self {
+    fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
         let is_named = count <= args.targets.targets.len();
         Self {
@@ -158,12 +157,12 @@ impl CheckFindings {
 
     /// Whether the output ends with a summary of the suites that a solver can run. Warnings and
     /// notes are then omitted.
-    pub(super) fn has_summary(&self) -> bool {
+    fn has_summary(&self) -> bool {
         self.applicable.is_some()
     }
 
     /// Adds a file that cannot be loaded.
-    pub(super) fn refused(&mut self, diagnostic: &Diagnostic) {
+    fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
             return output::diagnose(diagnostic);
         }
@@ -171,7 +170,7 @@ impl CheckFindings {
         self.suites.push(json!({"file": file, "diagnostics": [of_diagnostic(diagnostic)]}));
     }
 
-    pub(super) fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
+    fn lacking(&mut self, suite: &Suite, source: &Source, lacks: &[String]) {
         let name = &suite.name;
         if let Some(applicable) = &mut self.applicable {
             applicable.others += 1;
@@ -179,25 +178,18 @@ impl CheckFindings {
                 *applicable.lacking.entry(lacking.clone()).or_default() += 1;
             }
         }
-        if !self.is_json {
-            if !(self.is_quiet && self.has_summary()) {
-                let lacks = lacks.join(", ");
-                output::print(&format!("{name}: not applicable, the solver lacks {lacks}\n"));
-            }
-            return;
+        if self.is_json {
+            let file = source.name();
+            let suite = json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []});
+            self.suites.push(suite);
+        } else if !(self.is_quiet && self.has_summary()) {
+            let lacks = lacks.join(", ");
+            output::print(&format!("{name}: not applicable, the solver lacks {lacks}\n"));
         }
-        let file = source.name();
-        self.suites.push(json!({"file": file, "suite": name, "lacks": lacks, "diagnostics": []}));
     }
 
     /// Adds a suite that can run, with its findings.
-    pub(super) fn sound(
-        &mut self,
-        suite: &Suite,
-        source: &Source,
-        found: &[Diagnostic],
-        has_solver: bool,
-    ) {
+    fn sound(&mut self, suite: &Suite, source: &Source, found: &[Diagnostic], has_solver: bool) {
         if let Some(applicable) = &mut self.applicable {
             applicable.names.push(suite.name.clone());
         }
@@ -226,7 +218,7 @@ impl CheckFindings {
         }));
     }
 
-    pub(super) fn end(self, counts: Counts) {
+    fn end(self, counts: Counts) {
         if !self.is_json {
             if let Some(applicable) = self.applicable {
                 output::print(&applicable.text());
@@ -260,14 +252,14 @@ fn of_diagnostic(diagnostic: &Diagnostic) -> Value {
 }
 
 #[derive(Debug, Default, Clone, Copy)]
-pub(super) struct Counts {
-    pub(super) errors: usize,
-    pub(super) warnings: usize,
-    pub(super) notes: usize,
+struct Counts {
+    errors: usize,
+    warnings: usize,
+    notes: usize,
 }
 
 impl Counts {
-    pub(super) fn add(&mut self, severity: Severity) {
+    fn add(&mut self, severity: Severity) {
         *match severity {
             Severity::Error => &mut self.errors,
             Severity::Warning => &mut self.warnings,

@@ -42,11 +42,6 @@ enum ComparedResults {
 
 /// Prints the changes between two runs. If both runs have errors, reports the errors of both.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
-    let tolerance = args.tolerance;
-    if !(tolerance.is_finite() && tolerance >= 0.0) {
-        let message = "expected a relative difference of at least 0, such as 0.001";
-        return Err(CommandError::option("--tolerance", tolerance, message));
-    }
     let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
         (Ok(ComparedResults::Run(old)), Ok(ComparedResults::Run(new)))
         | (Ok(ComparedResults::Snapshots(old)), Ok(ComparedResults::Snapshots(new))) => (old, new),
@@ -65,7 +60,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
             return Ok(Status::BadInput);
         }
     };
-    let changes = compare::compare(&old, &new, tolerance);
+    let changes = compare::compare(&old, &new, args.tolerance);
     output::print(&compare::text(&changes));
     Ok(if changes.is_worse() { Status::Failed } else { Status::Passed })
 }

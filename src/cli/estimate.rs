@@ -57,9 +57,8 @@ fn read(file: Option<&Path>) -> Result<(String, String), Diagnostic> {
     let mut bytes = Vec::new();
     reader.by_ref().take(LONGEST + 1).read_to_end(&mut bytes).map_err(|error| failed(&error))?;
     if bytes.len() as u64 > LONGEST {
-        return Err(
-            Diagnostic::about(&name, "the series is larger than 1 MB").with_help(FORMAT_HELP)
-        );
+        let diagnostic = Diagnostic::about(&name, "the series is larger than 1 MB");
+        return Err(diagnostic.with_help(FORMAT_HELP));
     }
     let text = String::from_utf8(bytes).map_err(|error| failed(&error))?;
     Ok((name, text))
@@ -103,13 +102,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
         let number = |range: &Range<usize>, what: &str| {
             let known = text[range.clone()].parse().ok().filter(|x: &f64| x.is_finite());
             known.ok_or_else(|| {
-                at(
-                    range,
-                    &format!(
-                        "expected a finite number as {what}, found `{}`",
-                        &text[range.clone()]
-                    ),
-                )
+                let found = &text[range.clone()];
+                at(range, &format!("expected a finite number as {what}, found `{found}`"))
             })
         };
         let h = number(spacing, "spacing")?;
@@ -195,41 +189,29 @@ fn limit_shown(limit: &Interval) -> String {
     let half_width = limit.half_width();
     let size = limit.value.abs().max(half_width);
     let exponent = libm::floor(libm::log10(size));
-    if !(-4.0..6.0).contains(&exponent) {
-        let digits = (exponent - libm::floor(libm::log10(half_width)) + 1.0).clamp(1.0, 16.0);
-        let digits = digits as usize;
-        return format!(
-            "{:.digits$e} +- {half_width:.1e}, 95 %: [{:.digits$e}, {:.digits$e}]",
-            limit.value, limit.low, limit.high
-        );
-    }
-    let decimals = (1.0 - libm::floor(libm::log10(half_width))).clamp(0.0, 17.0) as usize;
-    format!(
-        "{:.decimals$} +- {half_width:.1e}, 95 %: [{:.decimals$}, {:.decimals$}]",
-        limit.value, limit.low, limit.high
-    )
+    let digits = 1.0 - libm::floor(libm::log10(half_width));
+    let [value, low, high] = [limit.value, limit.low, limit.high].map(|x| {
+        if (-4.0..6.0).contains(&exponent) {
+            format!("{x:.*}", digits.clamp(0.0, 17.0) as usize)
+        } else {
+            format!("{x:.*e}", (exponent + digits).clamp(1.0, 16.0) as usize)
+        }
+    });
+    format!("{value} +- {half_width:.1e}, 95 %: [{low}, {high}]")
 }
 
 fn as_json(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusal>) -> Value {
     let levels: Vec<Value> =
         series.iter().map(|point| json!({"h": point.h, "value": point.value})).collect();
-    match result {
-        Ok(estimate) => json!({
-            "levels": levels,
-            "estimate": {
-                "order": estimate.order,
-                "limit": estimate.limit,
-                "finest": estimate.finest,
-                "confidence": 0.95,
-            },
-            "refusal": null,
-        }),
-        Err(refusal) => json!({
-            "levels": levels,
-            "estimate": null,
-            "refusal": {"reason": refusal.name(), "message": refusal.to_string()},
-        }),
-    }
+    let estimate = result.as_ref().ok().map(|estimate| {
+        let LimitEstimate { order, limit, finest, .. } = estimate;
+        json!({"order": order, "limit": limit, "finest": finest, "confidence": 0.95})
+    });
+    let refusal = result
+        .as_ref()
+        .err()
+        .map(|refusal| json!({"reason": refusal.name(), "message": refusal.to_string()}));
+    json!({"levels": levels, "estimate": estimate, "refusal": refusal})
 }
 
 #[cfg(test)]
