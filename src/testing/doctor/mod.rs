@@ -106,10 +106,7 @@ const BROKE: &str = "does-not-get-through";
 
 fn examined(outcome: Result<Examined, Hindrance>) -> ExaminationResult {
     match outcome {
-        Ok(examined) => {
-            let (measured, findings) = (examined.measured, examined.findings);
-            ExaminationResult::Examined { measured, findings }
-        }
+        Ok(Examined { measured, findings }) => ExaminationResult::Examined { measured, findings },
         Err(Hindrance::Lacks(lacks) | Hindrance::Masked(lacks)) => {
             ExaminationResult::NotApplicable { lacks }
         }

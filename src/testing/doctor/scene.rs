@@ -287,17 +287,14 @@ impl BoxScene {
     /// Formats box, material and initial velocity of the body as keys of a suite.
     fn body_keys(&self) -> String {
         let Self { body: (from, to), dimension, extras, .. } = self;
+        let material = self.material();
+        let keys = format!("body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {material}");
+        if extras.load_steps {
+            return keys;
+        }
         let affine = || self.velocity.formulas(*dimension);
         let velocity = extras.velocity.clone().unwrap_or_else(affine);
-        let velocity = if extras.load_steps {
-            String::new()
-        } else {
-            format!(", initial_velocity: {velocity:?}")
-        };
-        format!(
-            "body: {{box: {{from: {from:?}, to: {to:?}}}}}, material: {}{velocity}",
-            self.material()
-        )
+        format!("{keys}, initial_velocity: {velocity:?}")
     }
 
     /// Formats the scene as the text of a suite with this method.
@@ -335,15 +332,11 @@ impl BoxScene {
             keys.push_str(&format!(", contact: {{friction: {friction}}}"));
         }
         extras.keys.iter().for_each(|key| keys.push_str(&format!(", {key}")));
+        let (steps, finer, ppc) = (self.steps, 4.0 * cells, self.ppc.pow(*d as u32));
         let (run, expectation) = if extras.load_steps {
-            (
-                format!(
-                    "{{load_steps: {}}}\nreference: {{same_method: {{cells: {}}}}}",
-                    self.steps,
-                    4.0 * cells
-                ),
-                "error_below: 1",
-            )
+            let run =
+                format!("{{load_steps: {steps}}}\nreference: {{same_method: {{cells: {finer}}}}}");
+            (run, "error_below: 1")
         } else {
             (format!("{{until: {:e}, dt: {:e}}}", self.end(), self.dt), "drift: {mass: 1e-13}")
         };
@@ -352,19 +345,16 @@ impl BoxScene {
              scene: {{dimension: {d}, grid: {{from: {low:?}, to: {high:?}}}, {keys}}}\n\
              run: {run}\nrefine: {{cells: {cells}, ppc: {ppc}}}\n\
              methods:\n  - mpm: {{{method}}}\n\
-             expect:\n  - {expectation}\n    because: no step is made\n",
-            ppc = self.ppc.pow(*d as u32),
+             expect:\n  - {expectation}\n    because: no step is made\n"
         )
     }
 
     /// Converts the scene to a problem, and to the capabilities that the problem requires of a
     /// solver. The state is sampled after every step.
     pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
-        let suite = self.suite(if self.extras.load_steps {
-            "basis: linear, scheme: quasi_static"
-        } else {
-            "basis: linear, transfer: flip, scheme: musl"
-        })?;
+        let in_time = "basis: linear, transfer: flip, scheme: musl";
+        let quasi_static = "basis: linear, scheme: quasi_static";
+        let suite = self.suite(if self.extras.load_steps { quasi_static } else { in_time })?;
         let plan = suite.convergence().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;

@@ -202,16 +202,14 @@ impl Forces {
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
         // With P = J sigma F^-T, the first column of P is sigma times the first column of the
         // cofactors of F.
-        let cofactor: Vec<f64> = (0..d)
-            .map(|k| {
-                let mut replaced = f.to_vec();
-                (0..d).for_each(|row| replaced[row * d] = f64::from(u8::from(row == k)));
-                det_of_rows(d, &replaced)
-            })
-            .collect();
+        let cofactor = |k: usize| {
+            let mut replaced = f.to_vec();
+            (0..d).for_each(|row| replaced[row * d] = f64::from(u8::from(row == k)));
+            det_of_rows(d, &replaced)
+        };
         let mut expected = [0.0; 3];
         for j in 0..d {
-            expected[j] = (0..d).map(|k| sigma[j * d + k] * cofactor[k]).sum();
+            expected[j] = (0..d).map(|k| sigma[j * d + k] * cofactor(k)).sum();
         }
         let whole = size(expected);
         let unit = times(1.0 / whole, expected);
@@ -237,13 +235,10 @@ impl Forces {
     }
 
     fn describe(&self) -> String {
-        let late = libm::round(10.0 * self.late) / 10.0 + 0.0;
+        let (force, late) = (shown(self.ratio), libm::round(10.0 * self.late) / 10.0 + 0.0);
         let delay = format!(" and begins {} steps after the start", shown(late));
-        format!(
-            "the force due to the initial stress is {} of the expected force{}",
-            shown(self.ratio),
-            if self.ratio.abs() <= NEAR { String::new() } else { delay }
-        )
+        let delay = if self.ratio.abs() <= NEAR { "" } else { &delay };
+        format!("the force due to the initial stress is {force} of the expected force{delay}")
     }
 
     /// Describes the components of the initial stress that are wrong, if the force in the first
@@ -285,16 +280,11 @@ fn wrong_entries_of_column(course: &Course, scene: &BoxScene) -> Option<(Vec<usi
     Some(((0..d * d).filter(is_wrong).collect(), has_stress))
 }
 
-/// Describes the components of the column `stress` that differ from the initial stress after one
-/// step. Laws in rate form keep a wrong initial stress.
-fn wrong_components_of_column(course: &Course, scene: &BoxScene) -> Option<String> {
-    let (wrong, has_stress) = wrong_entries_of_column(course, scene)?;
-    let (d, axis) = (scene.dimension, ["x", "y", "z"]);
-    let names: Vec<String> =
-        wrong.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d])).collect();
-    (has_stress && !names.is_empty()).then(|| {
-        format!("after one step, the column `stress` has other components {}", names.join(", "))
-    })
+/// Lists components of a tensor by their axes.
+fn component_names(components: &[usize], d: usize) -> String {
+    let axis = ["x", "y", "z"];
+    let names = components.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d]));
+    names.collect::<Vec<_>>().join(", ")
 }
 
 fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
@@ -322,12 +312,12 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     let off = course.first_motion() / reach;
     let law = scene.law;
     if !(off <= 0.2) {
+        let share = shown(off);
         return Some(SolverFinding::defect(
             "initial-displacement-ignored",
             format!(
-                "{law}: after one step, displacements differ from the initial displacements by {} \
-                 of the largest one",
-                shown(off)
+                "{law}: after one step, displacements differ from the initial displacements by \
+                 {share} of the largest one"
             ),
             "particles do not start at `position`, or displacements are not measured from \
              `reference_position`",
@@ -360,11 +350,16 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     }
     let is_wrong = !(forces.error <= NEAR);
     let entries = wrong_entries_of_column(course, scene);
-    if is_wrong && entries.is_some_and(|(wrong, _)| wrong.is_empty()) {
+    if is_wrong && entries.as_ref().is_some_and(|(wrong, _)| wrong.is_empty()) {
         return Some(force_of_deformed_body(&force, forces));
     }
-    let wrong = wrong_components_of_column(course, scene);
-    if let Some(wrong) = wrong.or_else(|| forces.wrong_components(scene)) {
+    // Laws in rate form keep a wrong initial stress in the column.
+    let of_column = entries.filter(|(wrong, has_stress)| *has_stress && !wrong.is_empty());
+    let of_column = of_column.map(|(wrong, _)| {
+        let names = component_names(&wrong, d);
+        format!("after one step, the column `stress` has other components {names}")
+    });
+    if let Some(wrong) = of_column.or_else(|| forces.wrong_components(scene)) {
         return Some(SolverFinding::defect(
             COMPONENTS,
             format!("{law}: {wrong}"),
@@ -384,12 +379,10 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
         ));
     }
     if is_wrong {
+        let error = shown(forces.error);
         return Some(SolverFinding::defect(
             "initial-stress-differs",
-            format!(
-                "{force}; the force vector has an error of {} of the expected force",
-                shown(forces.error)
-            ),
+            format!("{force}; the force vector has an error of {error} of the expected force"),
             "the stress of a body that starts deformed is wrong: the law differs at finite strain, \
              the stress does not rotate with the body (F^T F instead of F F^T), or volumes are not \
              those of the problem",
@@ -397,21 +390,22 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
              `reference_volume`",
         ));
     }
-    // A delay of half a step depends on the scheme and is not a defect.
-    (!(-0.75..=0.75).contains(&forces.late)).then(|| {
-        let is_dropped = (forces.late - 1.0).abs() <= 0.15;
-        SolverFinding::defect(
-            if is_dropped { DROPPED } else { "initial-stress-differs" },
-            force,
-            if is_dropped {
-                "the solver ignores the initial stress: the law computes the stress only at the end \
-                 of the first step"
-            } else {
-                "the initial stress has another magnitude until the law computes the stress at the \
-                 end of the first step"
-            },
-            "`particles.stress` of the problem, which acts in the first step of a scheme that \
-             updates the stress last",
+    let (name, cause) = if (forces.late - 1.0).abs() <= 0.15 {
+        (
+            DROPPED,
+            "the solver ignores the initial stress: the law computes the stress only at the end of \
+             the first step",
         )
-    })
+    } else {
+        (
+            "initial-stress-differs",
+            "the initial stress has another magnitude until the law computes the stress at the end \
+             of the first step",
+        )
+    };
+    let look_at = "`particles.stress` of the problem, which acts in the first step of a scheme that \
+                   updates the stress last";
+    // A delay of half a step depends on the scheme and is not a defect.
+    (!(-0.75..=0.75).contains(&forces.late))
+        .then(|| SolverFinding::defect(name, force, cause, look_at))
 }
