@@ -175,9 +175,7 @@ impl Capabilities {
             ("gradients", &self.gradients),
         ]
     }
-}
 
-impl Capabilities {
     /// Returns warnings, one line for each unknown name in the lists and each unknown key in
     /// `keys`.
     #[cfg(feature = "external-programs")]

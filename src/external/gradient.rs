@@ -69,16 +69,12 @@ impl LevelProblem {
     pub fn with_parameter(mut self, parameter: GradientParameter, value: f64) -> Self {
         match parameter {
             GradientParameter::Density => {
-                for material in &mut self.materials {
-                    material.density = value;
-                }
+                self.materials.iter_mut().for_each(|material| material.density = value);
                 let volumes = &self.particles.reference_volume;
                 self.particles.mass = volumes.iter().map(|volume| value * volume).collect();
             }
             GradientParameter::InitialVelocity => {
-                for velocity in &mut self.particles.velocity {
-                    *velocity *= value;
-                }
+                self.particles.velocity.iter_mut().for_each(|velocity| *velocity *= value);
                 let scaled = |source| ProblemFields(Arc::new(ScaledVelocity { source, by: value }));
                 self.fields = self.fields.map(|ProblemFields(source)| scaled(source));
             }
@@ -89,11 +85,9 @@ impl LevelProblem {
                 }
             }
             other => {
-                for (key, known) in self.materials.iter_mut().flat_map(|m| &mut m.parameters) {
-                    if *key == other.name() {
-                        *known = value;
-                    }
-                }
+                let all = self.materials.iter_mut().flat_map(|material| &mut material.parameters);
+                let known = all.filter(|(key, _)| *key == other.name());
+                known.for_each(|(_, known)| *known = value);
             }
         }
         self
@@ -163,9 +157,7 @@ impl FieldSource for ScaledVelocity {
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let mut values = self.source.values(of, t, at)?;
         if of == FieldName::Velocity {
-            for value in &mut values {
-                *value *= self.by;
-            }
+            values.iter_mut().for_each(|value| *value *= self.by);
         }
         Ok(values)
     }

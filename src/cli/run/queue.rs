@@ -147,15 +147,10 @@ mod tests {
             job.say(format!("n{number} "));
             format!("r{number} ")
         };
-        in_order(
-            count,
-            threads,
-            |_| false,
-            run,
-            |output| match output {
-                JobOutput::Message(output) | JobOutput::Result(output) => text += &output,
-            },
-        );
+        let take = |output| match output {
+            JobOutput::Message(output) | JobOutput::Result(output) => text += &output,
+        };
+        in_order(count, threads, |_| false, run, take);
         text
     }
 
@@ -184,17 +179,12 @@ mod tests {
             job.say(String::new());
             barrier.wait();
         };
-        in_order(
-            1,
-            1,
-            |_| false,
-            run,
-            |output| {
-                if let JobOutput::Message(_) = output {
-                    barrier.wait();
-                }
-            },
-        );
+        let take = |output| {
+            if let JobOutput::Message(_) = output {
+                barrier.wait();
+            }
+        };
+        in_order(1, 1, |_| false, run, take);
     }
 
     #[test]

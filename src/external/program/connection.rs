@@ -160,15 +160,8 @@ impl Connection {
         let kept = self.last_bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let text = String::from_utf8_lossy(&kept);
         // The last lines of a Python traceback are the position, the source line and the error.
-        let says = |line: &&str| line.contains(char::is_alphanumeric);
-        let mut last: Vec<String> = text
-            .lines()
-            .rev()
-            .map(str::trim)
-            .filter(says)
-            .take(LAST_LINES)
-            .map(printable)
-            .collect();
+        let lines = text.lines().map(str::trim).filter(|line| line.contains(char::is_alphanumeric));
+        let mut last: Vec<String> = lines.rev().take(LAST_LINES).map(printable).collect();
         last.reverse();
         if last.is_empty() {
             error

@@ -170,18 +170,15 @@ impl Inquiry {
             FieldName::Face(face) => (&self.faces[face].numbers, Some(&self.faces[face])),
             _ => return Ok(self.labels.clone()),
         };
-        if numbers.asked.iter().any(|(_, keys)| keys.contains(&"displacement")) {
+        let depends_on = |key| numbers.asked.iter().any(|(_, keys)| keys.contains(&key));
+        let by_place = depends_on("reference_position");
+        if depends_on("displacement") || (by_place && face.is_none()) {
             return Ok(self.labels.clone());
         }
-        if numbers.asked.iter().any(|(_, keys)| keys.contains(&"reference_position")) {
-            return match face {
-                Some(_) => {
-                    let reason = "the value depends on the position, but the request has no \
-                                  `reference_position`";
-                    Err(FieldError::Request(reason.to_owned()))
-                }
-                None => Ok(self.labels.clone()),
-            };
+        if by_place {
+            let reason =
+                "the value depends on the position, but the request has no `reference_position`";
+            return Err(FieldError::Request(reason.to_owned()));
         }
         let mut place = vec![0.0; self.dimension];
         if let Some(face) = face {

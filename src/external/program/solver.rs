@@ -77,7 +77,7 @@ impl SolverProgram {
     }
 
     /// Starts a process and waits until it accepts `problem`.
-    pub(super) fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
+    fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
             let reason = "sent a different `hello` than in the first process";
@@ -107,16 +107,55 @@ impl SolverProgram {
             (other, _) => Err(ProgramError::unexpected("problem", other.name())),
         }
     }
+
+    /// Starts a new process and requests the value of a functional after all steps of `problem`,
+    /// with its gradient.
+    ///
+    /// # Errors
+    /// [`ProgramError::Refused`] if the solver answers `cannot`; another error if it fails.
+    fn differentiate(
+        &self,
+        problem: &LevelProblem,
+        request: &GradientRequest,
+    ) -> Result<Gradient, ProgramError> {
+        let Started { mut connection, mut inquiry, .. } = self.ready(problem)?;
+        let content = json!({
+            "of": request.of,
+            "with_respect_to": request.with_respect_to,
+            "steps": problem.steps,
+            "dt": problem.dt,
+            "from": 0.0,
+        });
+        connection.send(Outgoing::new("differentiate", content, false));
+        inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
+        let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
+            // The answer is invalid JSON, because it contains a word such as NaN. The index of the
+            // number is unknown.
+            ProgramError::NoNumber(word) => ProgramError::Protocol(format!(
+                "answered `differentiate` with {word}, which is not a finite number; requested: {}",
+                names(request).join(", ")
+            )),
+            error => error,
+        });
+        let gradient = match answer?.0 {
+            Answer::Gradient { value, gradient } => checked(request, value, gradient)?,
+            Answer::Cannot { reason } => return Err(ProgramError::Refused(printable(&reason))),
+            Answer::Failed { reason } => return Err(ProgramError::Failed(printable(&reason))),
+            other => return Err(ProgramError::unexpected("differentiate", other.name())),
+        };
+        connection.end();
+        Ok(gradient)
+    }
 }
 
-pub(super) struct Started {
-    pub(super) connection: Connection,
-    pub(super) inquiry: Inquiry,
-    pub(super) hello: Hello,
+struct Started {
+    connection: Connection,
+    inquiry: Inquiry,
+    hello: Hello,
     /// Sample points of the solver; `None` if it reports states at the particles.
-    pub(super) points: Option<Points>,
+    points: Option<Points>,
     /// Block of bytes after the `ready` answer, with the columns of `points`.
-    pub(super) bytes: Vec<u8>,
+    bytes: Vec<u8>,
 }
 
 /// Returns the hash of the command, of the files among its arguments, and of the hello message. If
@@ -244,47 +283,6 @@ impl Subject for Broken {
 
     fn counters(&self) -> RunCounters {
         RunCounters::new(0)
-    }
-}
-
-impl SolverProgram {
-    /// Starts a new process and requests the value of a functional after all steps of `problem`,
-    /// with its gradient.
-    ///
-    /// # Errors
-    /// [`ProgramError::Refused`] if the solver answers `cannot`; another error if it fails.
-    pub(super) fn differentiate(
-        &self,
-        problem: &LevelProblem,
-        request: &GradientRequest,
-    ) -> Result<Gradient, ProgramError> {
-        let Started { mut connection, mut inquiry, .. } = self.ready(problem)?;
-        let content = json!({
-            "of": request.of,
-            "with_respect_to": request.with_respect_to,
-            "steps": problem.steps,
-            "dt": problem.dt,
-            "from": 0.0,
-        });
-        connection.send(Outgoing::new("differentiate", content, false));
-        inquiry.allow(problem.steps.saturating_mul(QUESTIONS_PER_STEP));
-        let answer = conclude(&mut connection, &mut inquiry).map_err(|error| match error {
-            // The answer is invalid JSON, because it contains a word such as NaN. The index of the
-            // number is unknown.
-            ProgramError::NoNumber(word) => ProgramError::Protocol(format!(
-                "answered `differentiate` with {word}, which is not a finite number; requested: {}",
-                names(request).join(", ")
-            )),
-            error => error,
-        });
-        let gradient = match answer?.0 {
-            Answer::Gradient { value, gradient } => checked(request, value, gradient)?,
-            Answer::Cannot { reason } => return Err(ProgramError::Refused(printable(&reason))),
-            Answer::Failed { reason } => return Err(ProgramError::Failed(printable(&reason))),
-            other => return Err(ProgramError::unexpected("differentiate", other.name())),
-        };
-        connection.end();
-        Ok(gradient)
     }
 }
 
