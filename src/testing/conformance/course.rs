@@ -42,7 +42,7 @@ pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
 
 /// Returns breaches due to wrong labels, weights and motion in the initial state.
 pub(super) fn start(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
-    let mut breaches = weights(problem, samples);
+    let mut breaches = Vec::from_iter(weights(problem, samples));
     breaches.extend(labels(problem, samples));
     if is_of_particles(problem, samples) {
         breaches.extend(motion(problem, samples));
@@ -71,26 +71,22 @@ fn labels(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     Some(Breach::new("labels", wanted, format!("label[{at}] = {:e}", samples.label[at])))
 }
 
-fn weights(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
+fn weights(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     let given = &problem.particles.reference_volume;
     if let Some(at) = samples.weight.iter().position(|weight| !(*weight > 0.0)) {
         let seen = format!("weight[{at}] = {:e}", samples.weight[at]);
-        return vec![Breach::new("weights", "positive weights (reference volumes)", seen)];
+        return Some(Breach::new("weights", "positive weights (reference volumes)", seen));
     }
     if is_of_particles(problem, samples) {
-        let pairs = given.iter().zip(&samples.weight);
-        let at = pairs.clone().position(|(a, b)| !((a - b).abs() <= ROUNDING * a));
-        return Vec::from_iter(at.map(|at| {
-            let wanted = format!("weight[{at}] = {:e}, the reference volume", given[at]);
-            Breach::new("weights", wanted, format!("{:e}", samples.weight[at]))
-        }));
+        let mut pairs = given.iter().zip(&samples.weight);
+        let at = pairs.position(|(a, b)| !((a - b).abs() <= ROUNDING * a))?;
+        let wanted = format!("weight[{at}] = {:e}, the reference volume", given[at]);
+        return Some(Breach::new("weights", wanted, format!("{:e}", samples.weight[at])));
     }
     let (volume, sum): (f64, f64) = (given.iter().sum(), samples.weight.iter().sum());
-    if (sum - volume).abs() <= RIM * volume {
-        return Vec::new();
-    }
     let wanted = format!("weights that sum to the volume of the body, {volume:e} m^D");
-    vec![Breach::new("weights", wanted, format!("{sum:e} m^D"))]
+    let is_near = (sum - volume).abs() <= RIM * volume;
+    (!is_near).then(|| Breach::new("weights", wanted, format!("{sum:e} m^D")))
 }
 
 /// Returns breaches due to initial displacements and velocities that differ from those of the
@@ -204,11 +200,8 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     let is_off = |seen: f64| !((seen - mass).abs() <= ROUNDING * mass);
     let seen = states.iter().find_map(|state| state.totals.map(|totals| totals.mass));
     let seen = seen.filter(|seen| is_off(*seen))?;
-    Some(Breach::new(
-        "totals",
-        format!("`mass` = {mass:e} kg, or no totals"),
-        format!("{seen:e} kg"),
-    ))
+    let wanted = format!("`mass` = {mass:e} kg, or no totals");
+    Some(Breach::new("totals", wanted, format!("{seen:e} kg")))
 }
 
 /// Returns the smallest det F of all points; infinite if the solver does not report F.

@@ -89,11 +89,8 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     let mut subject = match make() {
         Ok(subject) => subject,
         Err(why) => {
-            return vec![Breach::new(
-                "problem",
-                "the solver to accept the same problem a second time",
-                why.to_string(),
-            )];
+            let wanted = "the solver to accept the same problem a second time";
+            return vec![Breach::new("problem", wanted, why.to_string())];
         }
     };
     let mut states = vec![RunState::from_subject(subject.as_ref())];

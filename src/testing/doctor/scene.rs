@@ -201,6 +201,11 @@ impl BoxScene {
         self.linear(|a, b| if (a, b) == (i, j) { slope } else { 0.0 })
     }
 
+    /// Returns the linear field of displacements with the deformation gradient `f`, row by row.
+    pub(super) fn motion_to(&self, f: &[f64]) -> AffineField {
+        self.linear(|i, j| f[i * self.dimension + j] - f64::from(u8::from(i == j)))
+    }
+
     /// Whether a reference position is less than `reach` cells from the centre along each axis.
     pub(super) fn is_central(&self, label: &[f64; 3], reach: f64) -> bool {
         let centre = self.centre();

@@ -62,8 +62,7 @@ const RULES: Rules<4> = Rules {
 
 fn scene(kind: Kind, speed: f64, load: String) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 4.0, 8.0).soft();
-    let velocity = std::array::from_fn(|i| if i + 1 == kind.0 { speed } else { 0.0 });
-    scene.velocity = AffineField::uniform(velocity);
+    scene.velocity = AffineField::along(kind.0 - 1, speed);
     scene.extras.loads.push(load);
     BoxScene { steps: 50, dt: 0.02, ..scene }
 }

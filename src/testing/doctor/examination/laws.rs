@@ -318,8 +318,11 @@ fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f
 /// stress (Pa) and F of the problem, row by row.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Hindrance> {
     let d = scene.dimension;
-    let displacement = scene.linear(|i, j| f[i * d + j] - f64::from(u8::from(i == j)));
-    let deformed = BoxScene { displacement, velocity: AffineField::default(), ..scene.clone() };
+    let deformed = BoxScene {
+        displacement: scene.motion_to(f),
+        velocity: AffineField::default(),
+        ..scene.clone()
+    };
     let (problem, _) = deformed.problem()?;
     let particles = problem.particles;
     Ok((particles.stress[..d * d].to_vec(), particles.deformation_gradient[..d * d].to_vec()))

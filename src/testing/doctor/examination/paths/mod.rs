@@ -237,7 +237,8 @@ fn legs(
     let leg = |((path, scene), course): ((&StrainPath, &BoxScene), &Course)| {
         let stress = in_middle(course, scene)?;
         let unevenness = unevenness(course, scene);
-        let scene = with_gradient(scene, &deformation_gradient(course, scene));
+        let velocity = scene.motion_to(&deformation_gradient(course, scene));
+        let scene = BoxScene { velocity, ..scene.clone() };
         let expected = expected(&scene)?;
         let bound = || bound(patient, &scene, &expected, unevenness, laws.measures);
         let bound = path.bound.unwrap_or_else(bound);
@@ -305,7 +306,7 @@ fn bound(
 /// of the points has too few near the middle to show the deviation, which grows towards the faces.
 fn unevenness(course: &Course, scene: &BoxScene) -> f64 {
     let reach = if require_whole_body(course, scene).is_ok() { 1.0 } else { 1.5 };
-    let field = with_gradient(scene, &deformation_gradient(course, scene)).velocity;
+    let field = scene.motion_to(&deformation_gradient(course, scene));
     let end = course.times[course.last()];
     let (mut most, mut whole) = (0.0, 0.0_f64);
     for k in 1..=course.last() {
@@ -325,17 +326,6 @@ pub(super) fn path(kind: Kind, gradient: &StrainGradient, steps: u64) -> BoxScen
     scene.velocity = scene.linear(|i, j| gradient[i][j]);
     (scene.young, scene.poisson, scene.density) = (YOUNG, POISSON, DENSITY);
     BoxScene { steps, dt: 1.0 / steps as f64, ..scene }
-}
-
-/// Returns `scene` with a motion that ends in the deformation gradient `f`, row after row.
-fn with_gradient(scene: &BoxScene, f: &[f64]) -> BoxScene {
-    let d = scene.dimension;
-    let mut scene = scene.clone();
-    for (k, slope) in f.iter().enumerate() {
-        let (i, j) = (k / d, k % d);
-        scene.velocity.gradient[i][j] = slope - f64::from(u8::from(i == j));
-    }
-    scene
 }
 
 /// Returns the mean stress (Pa) in the middle of the body at the end of the run, row after row.

@@ -101,9 +101,9 @@ pub(super) fn walls_across(
 ) -> Result<[Wall; 2], Hindrance> {
     let plain = bar(kind, axis, condition);
     let (c, d) = (plain.wave_speed(), kind.0);
-    let thrown = |way: f64| {
-        let velocity = std::array::from_fn(|i| if i == axis { way * SPEED * c } else { 0.0 });
-        BoxScene { velocity: AffineField::uniform(velocity), ..plain.clone() }
+    let thrown = |way: f64| BoxScene {
+        velocity: AffineField::along(axis, way * SPEED * c),
+        ..plain.clone()
     };
     let mut scenes = vec![thrown(1.0)];
     if axis == 0 {
@@ -237,9 +237,7 @@ fn broad(kind: Kind, axis: usize, c: f64) -> BoxScene {
     scene.grid.1[axis] = scene.body.1[axis];
     scene.body.1[other] = scene.body.0[other] + CELLS * H;
     scene.grid.1[other] = scene.body.1[other] + 4.0 * H;
-    let mut velocity = [0.0; 3];
-    velocity[other] = SPEED * c;
-    scene.velocity = AffineField::uniform(velocity);
+    scene.velocity = AffineField::along(other, SPEED * c);
     scene.with_waves(0.5 * TRAVEL, STEPS / 2)
 }
 

@@ -87,18 +87,13 @@ fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hin
     scene.grid.0[axis] = scene.body.0[axis];
     scene.grid.1[axis] = scene.body.1[axis];
     scene.faces = FACES[axis].map(|face| (face, "roller")).to_vec();
-    let mut velocity = [0.0; 3];
-    velocity[other] = VELOCITY[0];
-    scene.velocity = AffineField::uniform(velocity);
+    scene.velocity = AffineField::along(other, VELOCITY[0]);
     let scene = BoxScene { steps: 40, dt: 0.025, ..scene };
-    let examined = uniform(patient, &scene)?;
+    let (examined, [low, high]) = (uniform(patient, &scene)?, FACES[axis]);
     let findings = examined.findings.into_iter().map(|finding| {
         SolverFinding::defect(
             "roller-holds-tangent",
-            format!(
-                "between the faces {} and {}: {}",
-                FACES[axis][0], FACES[axis][1], finding.seen
-            ),
+            format!("between the faces {low} and {high}: {}", finding.seen),
             "a roller slows a body that slides along the roller",
             "the condition at nodes: a roller sets only the velocity along `axis` of the face to \
              zero",
