@@ -1,8 +1,7 @@
 //! `mpm-verify compare`.
 
 use super::arguments::share;
-use super::output;
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use clap::Args;
 use mpm_verify::report::compare::{self, ReportDocument, Unreadable};
 use mpm_verify::suite::yaml::Diagnostic;

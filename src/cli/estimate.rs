@@ -1,8 +1,7 @@
 //! `mpm-verify estimate`: estimates the order and the limit of a series of values.
 
 use super::arguments::FormatArgs;
-use super::output;
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use clap::Args;
 use mpm_verify::suite::yaml::Diagnostic;
 use mpm_verify::verify::{

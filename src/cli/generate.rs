@@ -1,8 +1,7 @@
 //! Generates texts from definitions of the program: JSON Schemas, shell completions and manual
 //! pages.
 
-use super::output;
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use clap::{Args, Command, ValueEnum};
 use clap_complete::Shell;
 use clap_mangen::Man;

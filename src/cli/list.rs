@@ -8,8 +8,7 @@ use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
-use mpm_verify::verify::STEP_TOLERANCE;
-use mpm_verify::verify::StepKind;
+use mpm_verify::verify::{STEP_TOLERANCE, StepKind};
 use serde_json::{Value, json};
 use std::cell::Cell;
 

@@ -159,11 +159,8 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
     let at = first(&words);
     let word = words.get(at).map(|word| word.to_string_lossy());
     let word = word.as_deref().unwrap_or_default();
-    if ["help", "-h", "--help", "-V", "--version"].contains(&word) {
-        return Ok(words);
-    }
     let commands: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
-    if commands.contains(&word) {
+    if commands.contains(&word) || ["help", "-h", "--help", "-V", "--version"].contains(&word) {
         return Ok(words);
     }
     if !word.is_empty() && !word.starts_with('-') && !select::is_known(word) {

@@ -5,8 +5,7 @@
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;
 use std::fmt::Display;
-use std::io;
-use std::io::{ErrorKind, Write};
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 use std::sync::OnceLock;
 use thiserror::Error;

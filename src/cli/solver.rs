@@ -1,8 +1,7 @@
 //! Starts external solvers, and replaces the methods of suites by external solvers.
 
 use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
-use super::output;
-use super::output::CommandError;
+use super::output::{self, CommandError};
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
 use mpm_verify::study::under_on;
 use mpm_verify::suite::{GateTerms, Suite};

@@ -87,10 +87,14 @@ impl SuiteRuns {
 
     /// Returns a name that two cases share, if any.
     fn twice(&self) -> Option<String> {
-        let mut names = BTreeSet::new();
-        let all = self.parts.iter().flat_map(|part| part.suite.case_names());
-        all.into_iter().find(|name| !names.insert(*name)).map(str::to_owned)
+        repeated(self.parts.iter().flat_map(|part| part.suite.case_names())).map(str::to_owned)
     }
+}
+
+/// Returns the first name that occurs a second time.
+pub(super) fn repeated<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let mut known = BTreeSet::new();
+    names.into_iter().find(|name| !known.insert(*name))
 }
 
 /// Checks that case names are unique within each suite. The case of an external solver has the name

@@ -1,15 +1,13 @@
 //! `mpm-verify new`: creates a suite to start from.
 
 use super::arguments::FormatArgs;
-use super::output;
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use clap::Args;
 use mpm_verify::mpm::{BasisName, SchemeName, TransferName};
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use std::fs::File;
-use std::io;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Suites with a comment for each key, for 1, 2 and 3 dimensions.

@@ -54,12 +54,10 @@ impl SolverGate {
     /// Prints the skipped suites. Prints an error and returns false if no case is tested, or if a
     /// required suite is not tested. Failed cases are not checked here.
     pub(super) fn passes(&self, outcomes: &[SuiteOutcome]) -> bool {
-        for (suite, case) in cases(outcomes) {
-            if case.exemption == Some(Exemption::Excepted) {
-                output::complain(&format!("note: {suite} is skipped: {}", case.reason));
-            }
-        }
         let is_excepted = |case: &CaseOutcome| case.exemption == Some(Exemption::Excepted);
+        for (suite, case) in cases(outcomes).filter(|(_, case)| is_excepted(case)) {
+            output::complain(&format!("note: {suite} is skipped: {}", case.reason));
+        }
         if !cases(outcomes).any(|(_, case)| case.is_tested() || is_excepted(case)) {
             output::complain("error: --gate: no case has a requirement for the solver");
             return false;
@@ -68,16 +66,15 @@ impl SolverGate {
             !case.lacks.is_empty() || case.exemption == Some(Exemption::NotGated)
         });
         let untested = untested.map(|(suite, _)| suite);
+        let untested = untested.chain(self.left_out.iter().map(String::as_str));
         let untested: BTreeSet<&str> =
-            untested.chain(self.left_out.iter().map(String::as_str)).collect();
-        let untested: Vec<&str> =
-            untested.into_iter().filter(|suite| self.named.contains(*suite)).collect();
+            untested.filter(|suite| self.named.contains(*suite)).collect();
         if untested.is_empty() || self.allows_not_applicable {
             return true;
         }
         output::complain(&format!(
             "error: --gate: not applicable or not gated: {}; `--allow-not-applicable` accepts this",
-            untested.join(", ")
+            Vec::from_iter(untested).join(", ")
         ));
         false
     }

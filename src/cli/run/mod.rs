@@ -111,7 +111,7 @@ fn report(
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
-    let twice = twice(&suites);
+    let twice = suite_runs::repeated(suites.iter().map(|suite| suite.name.as_str()));
     for (option, given, clash) in [
         ("--out", args.out.is_some(), "would write the same files"),
         ("--html", args.html.is_some(), "would share one section"),
@@ -334,10 +334,4 @@ fn one<T>(
 fn open(folder: &Path) -> Result<ResultCache, CommandError> {
     ResultCache::open(folder)
         .map_err(|error| CommandError::option("--resume", folder.display(), error))
-}
-
-/// Returns a name that two suites share, if any.
-fn twice(suites: &[Suite]) -> Option<&str> {
-    let names: Vec<&str> = suites.iter().map(|suite| suite.name.as_str()).collect();
-    names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)).map(|(_, name)| *name)
 }

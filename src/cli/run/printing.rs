@@ -1,8 +1,7 @@
 //! Prints the text of a run.
 
 use super::args::{CaseLabel, ReportArgs, RunFormat};
-use crate::cli::output;
-use crate::cli::output::CommandError;
+use crate::cli::output::{self, CommandError};
 use crate::cli::suite_runs::SuiteRuns;
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::SuiteOutcome;
