@@ -12,7 +12,16 @@ use std::sync::Arc;
 
 impl Study for ForcePlan {
     fn statement(&self) -> Rows {
-        rows(self)
+        let mut rows = Rows::new();
+        push(
+            &mut rows,
+            "cells",
+            &format!("2 of size {} m, with {} particles in each", self.cell, self.ppc),
+        );
+        push(&mut rows, "particle volume", &format!("{} m", self.volume));
+        push(&mut rows, "stress", &format!("{} Pa, uniform", self.stress));
+        push(&mut rows, "prediction", &with_unit(self.prediction.source(), "N"));
+        rows
     }
 
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a> {
@@ -30,19 +39,6 @@ impl CaseRunner for PlanRunner<'_, ForcePlan> {
         progress();
         outcome
     }
-}
-
-fn rows(plan: &ForcePlan) -> Rows {
-    let mut rows = Rows::new();
-    push(
-        &mut rows,
-        "cells",
-        &format!("2 of size {} m, with {} particles in each", plan.cell, plan.ppc),
-    );
-    push(&mut rows, "particle volume", &format!("{} m", plan.volume));
-    push(&mut rows, "stress", &format!("{} Pa, uniform", plan.stress));
-    push(&mut rows, "prediction", &with_unit(plan.prediction.source(), "N"));
-    rows
 }
 
 /// Computes and judges the force for every position.

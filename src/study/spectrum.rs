@@ -153,7 +153,30 @@ fn lacking(plan: &SpectrumPlan, solver: &dyn SolverFactory) -> Vec<String> {
 
 impl Study for SpectrumPlan {
     fn statement(&self) -> Rows {
-        rows(self)
+        let mut rows = Rows::new();
+        scene(&self.scene, &mut rows);
+        let list =
+            |of: fn(&Wave) -> f64| distinct(self.waves.iter().map(|w| shown(of(w)))).join(", ");
+        let shift = match self.shift {
+            0.0 => String::new(),
+            shift => format!(", shifted by {} m", shown(shift)),
+        };
+        push(&mut rows, "cells", &format!("{} of size {} m", self.cells, shown(self.h)));
+        push(&mut rows, "particles", &format!("{} per cell{shift}", self.ppc));
+        let lengths = list(|wave| wave.cells);
+        push(&mut rows, "wavelengths", &format!("{lengths} cells"));
+        let courants = list(|wave| wave.courant);
+        push(&mut rows, "dt", &format!("C h/c with C = {courants}"));
+        push(&mut rows, "start", &format!("standing wave with a velocity of {AMPLITUDE:e} c"));
+        push(
+            &mut rows,
+            "run",
+            &format!("{PERIODS} exact periods, or until a millionth of the amplitude remains"),
+        );
+        for (solver, case) in &self.solvers {
+            push(&mut rows, "solver", &format!("`{solver}` is compared with `{case}`"));
+        }
+        rows
     }
 
     fn needs(&self) -> Option<ProblemNeeds> {
@@ -232,30 +255,4 @@ fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) 
         study: Some(StudyResults::Spectrum(Arc::new(study))),
         ..described
     }
-}
-
-fn rows(plan: &SpectrumPlan) -> Rows {
-    let mut rows = Rows::new();
-    scene(&plan.scene, &mut rows);
-    let list = |of: fn(&Wave) -> f64| distinct(plan.waves.iter().map(|w| shown(of(w)))).join(", ");
-    let shift = match plan.shift {
-        0.0 => String::new(),
-        shift => format!(", shifted by {} m", shown(shift)),
-    };
-    push(&mut rows, "cells", &format!("{} of size {} m", plan.cells, shown(plan.h)));
-    push(&mut rows, "particles", &format!("{} per cell{shift}", plan.ppc));
-    let lengths = list(|wave| wave.cells);
-    push(&mut rows, "wavelengths", &format!("{lengths} cells"));
-    let courants = list(|wave| wave.courant);
-    push(&mut rows, "dt", &format!("C h/c with C = {courants}"));
-    push(&mut rows, "start", &format!("standing wave with a velocity of {AMPLITUDE:e} c"));
-    push(
-        &mut rows,
-        "run",
-        &format!("{PERIODS} exact periods, or until a millionth of the amplitude remains"),
-    );
-    for (solver, case) in &plan.solvers {
-        push(&mut rows, "solver", &format!("`{solver}` is compared with `{case}`"));
-    }
-    rows
 }

@@ -16,7 +16,33 @@ use std::sync::Arc;
 
 impl Study for GradientPlan {
     fn statement(&self) -> Rows {
-        rows(self)
+        let mut rows = statement::rows(&self.problem);
+        rows.retain(|(key, _)| {
+            !["instants", "judged", "errors", "crossing levels"].contains(&key.as_str())
+        });
+        push(&mut rows, "functional", &self.of.name().replace('_', " "));
+        for one in &self.parameters {
+            let follows = match one.velocity_factor {
+                _ if one.parameter == GradientParameter::InitialVelocity => "",
+                factor if factor != 0.0 => ", on which the initial velocity depends",
+                _ => "",
+            };
+            let (name, value) = (&one.name, shown(one.motion.value));
+            let text = format!("{} ({name} = {value}){follows}", one.parameter.name());
+            push(&mut rows, "with respect to", &text);
+        }
+        let cells = self.problem.refine.levels.get(self.level).map_or(0, |level| level.cells);
+        push(
+            &mut rows,
+            "perturbed",
+            &format!("on {cells} cells, by 2^-4 to 2^-16 of the parameter"),
+        );
+        if let Some(sweep) = self.sweep {
+            let (name, within) = (sweep.parameter.name(), shown(sweep.within));
+            let text = format!("{name} within {within} of its value, {} points", sweep.points);
+            push(&mut rows, "sweep", &text);
+        }
+        rows
     }
 
     fn needs(&self) -> Option<ProblemNeeds> {
@@ -120,30 +146,4 @@ fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let is_expected = described.expected.is_some();
     let unmet = if is_expected { vec![reason.clone()] } else { Vec::new() };
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
-}
-
-fn rows(plan: &GradientPlan) -> Rows {
-    let mut rows = statement::rows(&plan.problem);
-    rows.retain(|(key, _)| {
-        !["instants", "judged", "errors", "crossing levels"].contains(&key.as_str())
-    });
-    push(&mut rows, "functional", &plan.of.name().replace('_', " "));
-    for one in &plan.parameters {
-        let follows = match one.velocity_factor {
-            _ if one.parameter == GradientParameter::InitialVelocity => "",
-            factor if factor != 0.0 => ", on which the initial velocity depends",
-            _ => "",
-        };
-        let (name, value) = (&one.name, shown(one.motion.value));
-        let text = format!("{} ({name} = {value}){follows}", one.parameter.name());
-        push(&mut rows, "with respect to", &text);
-    }
-    let cells = plan.problem.refine.levels.get(plan.level).map_or(0, |level| level.cells);
-    push(&mut rows, "perturbed", &format!("on {cells} cells, by 2^-4 to 2^-16 of the parameter"));
-    if let Some(sweep) = plan.sweep {
-        let (name, within) = (sweep.parameter.name(), shown(sweep.within));
-        let text = format!("{name} within {within} of its value, {} points", sweep.points);
-        push(&mut rows, "sweep", &text);
-    }
-    rows
 }

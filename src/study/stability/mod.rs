@@ -16,7 +16,13 @@ use std::sync::Arc;
 
 impl Study for StabilityPlan {
     fn statement(&self) -> Rows {
-        rows(self)
+        let mut rows = Rows::new();
+        let first = |value: &f64| self.setup.with(&[(&self.swept, *value)]).ok();
+        if let Some(first) = self.values.first().and_then(first) {
+            scene(&first.scene, &mut rows);
+            of_setup(self, &first, &mut rows);
+        }
+        rows
     }
 
     fn needs(&self) -> Option<ProblemNeeds> {
@@ -115,17 +121,6 @@ fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -
         study: Some(StudyResults::Stability(Arc::new(study))),
         ..described
     }
-}
-
-/// Returns the rows that describe the study, with the set-up of the first row.
-pub(crate) fn rows(plan: &StabilityPlan) -> Rows {
-    let mut rows = Rows::new();
-    let first = |value: &f64| plan.setup.with(&[(&plan.swept, *value)]).ok();
-    if let Some(first) = plan.values.first().and_then(first) {
-        scene(&first.scene, &mut rows);
-        of_setup(plan, &first, &mut rows);
-    }
-    rows
 }
 
 /// Returns the time step (s), if it is constant and equal in all runs.
