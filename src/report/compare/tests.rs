@@ -169,19 +169,14 @@ fn rounding(#[case] old: f64, #[case] new: f64, #[case] expected: Option<Rank>) 
     assert_eq!(rank(&after(&before, set("/levels/0/judged", json!(new)))), expected);
 }
 
-#[test]
-fn a_small_error_with_an_order_counts() {
-    let small = case("a", 1e-12, 1.0);
-    let found = after(&small, set("/levels/3/judged", json!(3e-16)));
-    assert_eq!(rank(&found), Some(Rank::LessAccurate));
-}
-
 /// Rounding errors may have an order by chance. The verdict of `run --gate` is then `at rounding`.
-#[test]
-fn rounding_errors_have_no_order() {
+#[rstest]
+#[case("converging", Some(Rank::LessAccurate))]
+#[case("at rounding", None)]
+fn small_errors_with_an_order(#[case] verdict: &str, #[case] expected: Option<Rank>) {
     let mut before = case("a", 1e-12, 1.0);
-    set("/verdict", json!("at rounding"))(&mut before);
-    assert_eq!(rank(&after(&before, set("/levels/3/judged", json!(3e-16)))), None);
+    set("/verdict", json!(verdict))(&mut before);
+    assert_eq!(rank(&after(&before, set("/levels/3/judged", json!(3e-16)))), expected);
 }
 
 #[rstest]

@@ -192,24 +192,6 @@ mod tests {
         assert_eq!(History::start(&Samples::default(), &[0.5]), None);
     }
 
-    #[test]
-    fn the_first_component_at_the_watched_label_is_recorded() {
-        struct Still;
-        impl Truth for Still {
-            fn displacement(&self, _: &[f64], _: f64, into: &mut [f64]) {
-                into.fill(0.0);
-            }
-            fn velocity(&self, _: &[f64], _: f64, into: &mut [f64]) {
-                into.fill(0.5);
-            }
-        }
-        let mut samples = plate();
-        samples.velocity = (0..20).map(f64::from).collect();
-        let (at, mut history) = History::start(&samples, &[0.75, 0.0]).unwrap();
-        history.record(at, &samples, &Still, 2.0);
-        assert_eq!(history.velocity, [[2.0, 6.0, 0.5]]);
-    }
-
     /// Both sides contribute equally many points, except at the ends of the lattice.
     #[rstest]
     #[case::inside(3.5, 2)]

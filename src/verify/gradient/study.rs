@@ -92,16 +92,10 @@ impl GradientStudy {
             );
             return (GradientState::Wrong, reason);
         }
-        match &self.sweep {
-            Some(sweep) if matches!(state, GradientState::Wrong | GradientState::AtRounding) => {
-                (state, format!("{reason}; {}", sweep.summary()))
-            }
-            Some(sweep) if !sweep.is_smooth() => {
-                (GradientState::Jumps, format!("{reason}; {}", sweep.summary()))
-            }
-            Some(sweep) => (state, format!("{reason}; {}", sweep.summary())),
-            None => (state, reason),
-        }
+        let Some(sweep) = &self.sweep else { return (state, reason) };
+        let is_open = matches!(state, GradientState::Wrong | GradientState::AtRounding);
+        let state = if is_open || sweep.is_smooth() { state } else { GradientState::Jumps };
+        (state, format!("{reason}; {}", sweep.summary()))
     }
 
     /// Returns the orders of the derivative error between neighbouring levels; NaN if undefined.
