@@ -252,7 +252,6 @@ impl StudyReport for SpectrumReport {
     }
 }
 
-/// Name of a case, and the result for one of its waves.
 type NamedWave = (String, SpectrumRow);
 
 /// Adds a column with the names of the cases in front of `columns`.

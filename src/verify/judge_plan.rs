@@ -71,7 +71,6 @@ pub struct LevelRun {
 }
 
 impl JudgePlan<'_> {
-    /// Creates the outcome of a level from its run.
     pub(super) fn level(&self, level: LevelRun) -> LevelOutcome {
         let LevelRun { sizes, run, spread, stable_time_step } = level;
         let LevelSizes { cells, h, dt, ppc, particle_spacing } = sizes;

@@ -133,7 +133,6 @@ fn reach_text(reach: Reach) -> String {
     }
 }
 
-/// Formats a ratio with two decimals.
 fn ratio(times: f64) -> String {
     if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

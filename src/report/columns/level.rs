@@ -15,7 +15,6 @@ pub(crate) struct LevelRow<'a> {
 
 pub(crate) type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
 
-/// Name of a case and its study.
 pub(crate) type NamedStudy<'a> = (&'a str, &'a Convergence);
 
 /// Returns the levels of a study, coarse to fine.

@@ -83,7 +83,6 @@ fn run(verdict: &str) -> Value {
     json!({ "verdict": verdict })
 }
 
-/// Compares the only case with itself after `change`.
 fn after(before: &Value, change: impl Fn(&mut Value)) -> ReportComparison {
     let mut case = before.clone();
     change(&mut case);

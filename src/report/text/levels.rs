@@ -135,7 +135,6 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Adds the table of the differences between repeated runs.
 fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let is_repeated =
         |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
@@ -208,7 +207,6 @@ fn pair_heading(names: &[String], index: usize) -> String {
 /// Maximum length (characters) of two level names in one heading.
 const LONGEST_PAIR: usize = 9;
 
-/// Name of a case and a level of its study.
 type NamedLevel<'a> = (&'a str, LevelRow<'a>);
 
 /// Adds a table of the finest levels below a heading, with one row for each case. Columns that

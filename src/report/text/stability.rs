@@ -29,7 +29,6 @@ pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     Some(swept_map(outcome.title.clone(), format!("limit of {sought}"), &studies, field))
 }
 
-/// Name of a case and its study.
 type NamedSweep<'a> = (&'a str, &'a StabilityStudy);
 
 /// Adds tables of limits (a row for each case, a column for each value of the swept parameter) and
@@ -52,7 +51,6 @@ pub(crate) fn remarks(study: &StabilityStudy) -> Vec<String> {
     study.rows.iter().filter_map(remark).collect()
 }
 
-/// Name of a case and a row of its study.
 type NamedRow<'a> = (&'a str, &'a StabilityRow);
 
 fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {

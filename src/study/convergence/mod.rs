@@ -231,7 +231,6 @@ struct CaseRuns<'r, 'a> {
 }
 
 impl CaseRuns<'_, '_> {
-    /// Runs one level.
     fn level(&self, level: LevelPlan) -> Result<LevelRun, SubjectError> {
         let (plan, case) = (&self.runner.plan, self.case);
         let RunContext { suite, fingerprint, solver, .. } = self.runner.context;
@@ -285,7 +284,6 @@ impl CaseRuns<'_, '_> {
         Comparison { of, sum, within, observe, at_rest, steps }
     }
 
-    /// Returns the `run` of a level with time steps of `dt` (s).
     fn level_run(&self, level: LevelPlan, dt: f64, run: RunResult) -> LevelRun {
         let particle_spacing = level.particle_spacing(self.runner.plan.scene.dimension());
         let LevelPlan { cells, h, ppc, .. } = level;

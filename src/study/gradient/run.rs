@@ -351,7 +351,6 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
 }
 
-/// A value and its derivative.
 type Dual = (f64, f64);
 
 /// Computes the exact derivative of the functional at the end of the run with respect to a

@@ -72,7 +72,6 @@ impl Initial {
         Ok(Box::new(Prestressed::new(law, &stress, particles)?))
     }
 
-    /// Sets `particles` to this state.
     pub(crate) fn put<const D: usize>(&self, particles: &mut Particles<D>) {
         let states: Vec<Derivatives> =
             particles.x0.iter().map(|x0| self.at(x0.as_slice())).collect();
