@@ -103,15 +103,7 @@ impl WaveRun<'_> {
         steps: u64,
     ) -> Result<Box<dyn Subject>, SubjectError> {
         let level = self.plan.level(wave);
-        let body = |own| Body {
-            scene,
-            own,
-            initial: Initial::stated(own),
-            manufactured: None,
-            heat: None,
-            judged: None,
-            lattice: self.plan.lattice(),
-        };
+        let body = |own| Body::stated(scene, own, self.plan.lattice());
         let Some(solver) = self.context.solver else {
             return Ok(perturbable(&[body(scene)], self.case.method, level)?);
         };

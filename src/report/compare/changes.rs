@@ -136,11 +136,6 @@ impl ReportComparison {
         self.of(rank).count()
     }
 
-    /// Returns the number of cases that are equal in both runs.
-    pub fn unchanged(&self) -> usize {
-        self.unchanged
-    }
-
     /// Whether any result has become worse.
     pub fn is_worse(&self) -> bool {
         let is_worse = self.cheapest.iter().any(|target| !(target.ratio() < 1.0));

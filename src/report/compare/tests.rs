@@ -119,7 +119,7 @@ fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
 fn one_change(#[case] path: &str, #[case] value: Value, #[case] expected: Option<Rank>) {
     let found = after(&case("a", 1.0, 1.0), set(path, value));
     assert_eq!(rank(&found), expected, "{}", text(&found));
-    assert_eq!(found.unchanged(), usize::from(expected.is_none()));
+    assert_eq!(found.unchanged, usize::from(expected.is_none()));
     assert_eq!(found.is_worse(), expected.is_some_and(Rank::is_worse));
 }
 
@@ -358,7 +358,7 @@ proptest! {
         prop_assert_eq!(there.count(Rank::New), back.count(Rank::Gone));
         prop_assert!(there.count(Rank::Broken) <= back.count(Rank::BetterVerdict));
         prop_assert!(there.count(Rank::WorseVerdict) <= back.count(Rank::BetterVerdict) + 1);
-        prop_assert_eq!(there.unchanged(), back.unchanged());
+        prop_assert_eq!(there.unchanged, back.unchanged);
         prop_assert!(!text(&there).is_empty() && !text(&back).is_empty());
     }
 }

@@ -48,6 +48,12 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// Creates a body in the initial state that the scene `own` describes, without exact solution.
+    pub(crate) fn stated(scene: &'a Scene, own: &'a Scene, lattice: LatticeEdits) -> Self {
+        let initial = Initial::stated(own);
+        Self { scene, own, initial, manufactured: None, heat: None, judged: None, lattice }
+    }
+
     /// Creates the material law of the body, with its initial stress.
     fn material<const D: usize>(
         &self,

@@ -77,16 +77,7 @@ const SEED: u64 = 8;
 
 /// Returns the bodies at the start of a run, each with its own scene.
 pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
-    let body = |own| Body {
-        scene: &setup.scene,
-        own,
-        initial: Initial::stated(own),
-        manufactured: None,
-        heat: None,
-        judged: None,
-        lattice: setup.lattice.clone(),
-    };
-    each.iter().map(body).collect()
+    each.iter().map(|own| Body::stated(&setup.scene, own, setup.lattice.clone())).collect()
 }
 
 /// If the run requests it, adds a random number to each component of the state, so that every mode
