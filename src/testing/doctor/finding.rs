@@ -141,27 +141,24 @@ pub fn page(report: &DoctorReport) -> String {
     paragraph_lines(&mut lines, &settings.collect::<Vec<_>>().join("; "));
     for made in &report.examinations {
         lines.push(String::new());
-        let words = match &made.result {
-            ExaminationResult::Examined { findings, .. } => heading(findings),
-            ExaminationResult::NotApplicable { .. } => "not applicable",
-            ExaminationResult::LeftOut { .. } => "skipped",
+        let (words, label, text) = match &made.result {
+            ExaminationResult::Examined { measured, findings } => {
+                (heading(findings), "measured", measured)
+            }
+            ExaminationResult::NotApplicable { lacks } => {
+                ("not applicable", "not supported", lacks)
+            }
+            ExaminationResult::LeftOut { after } => (
+                "skipped",
+                "reason",
+                &format!("`{after}` has a defect that would invalidate this result"),
+            ),
         };
         lines.push(format!("{}: {words}", made.examination));
         row(&mut lines, "expected", made.expected);
-        match &made.result {
-            ExaminationResult::Examined { measured, findings } => {
-                row(&mut lines, "measured", measured);
-                for finding in findings {
-                    finding_lines(&mut lines, finding);
-                }
-            }
-            ExaminationResult::NotApplicable { lacks } => {
-                row(&mut lines, "not supported", lacks);
-            }
-            ExaminationResult::LeftOut { after } => {
-                let why = format!("`{after}` has a defect that would invalidate this result");
-                row(&mut lines, "reason", &why);
-            }
+        row(&mut lines, label, text);
+        for finding in made.result.findings() {
+            finding_lines(&mut lines, finding);
         }
     }
     not_examined_lines(&mut lines, &report.not_examined);
