@@ -116,46 +116,26 @@ pub enum FieldError {
     Undefined(String),
 }
 
-pub(crate) trait FieldSource: Send + Sync {
-    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
-
-    fn nearest_body(&self, label: &[f64]) -> usize;
-
-    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
-
-    /// Implements [`ProblemFields::values`] for all fields except the body force.
-    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
-}
-
 /// Initial state, loads and face conditions of a problem, at points and times that a solver
 /// chooses.
-#[derive(Clone)]
-pub struct ProblemFields(pub(crate) Arc<dyn FieldSource>);
-
-impl ProblemFields {
+pub trait ProblemFields: Send + Sync {
     /// Returns the index of the body that contains each of the reference positions (m, D numbers
     /// each).
     ///
     /// # Errors
     /// [`FieldError::Request`] for a point outside all bodies or on the common boundary of two
     /// bodies.
-    pub fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
-        self.0.bodies(labels)
-    }
+    fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError>;
 
     /// Returns the index of the body that contains the reference position `label` (m); 0, the index
     /// of the first body, if no body contains it.
-    pub fn nearest_body(&self, label: &[f64]) -> usize {
-        self.0.nearest_body(label)
-    }
+    fn nearest_body(&self, label: &[f64]) -> usize;
 
     /// Checks that each point is in its stated body, within rounding.
     ///
     /// # Errors
     /// [`FieldError::Request`] for the first point outside its body.
-    pub fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError> {
-        self.0.check_places(places)
-    }
+    fn check_places(&self, places: &FieldPlaces<'_>) -> Result<(), FieldError>;
 
     /// Returns the values of a field at points, point by point. Vectors have D numbers, tensors
     /// D^2, row by row. The body force is available only from
@@ -164,37 +144,12 @@ impl ProblemFields {
     /// # Errors
     /// [`FieldError::Request`] for a point that is not on its face, [`FieldError::Undefined`] if
     /// the problem does not define the value.
-    pub fn values(
-        &self,
-        of: FieldName,
-        t: f64,
-        at: &FieldPlaces<'_>,
-    ) -> Result<Vec<f64>, FieldError> {
-        self.0.values(of, t, at)
-    }
+    fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError>;
 }
 
-impl fmt::Debug for ProblemFields {
+impl fmt::Debug for dyn ProblemFields {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("ProblemFields")
-    }
-}
-
-pub(crate) trait ForceSource: Send + Sync {
-    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
-
-    /// Whether the force depends on the displacement.
-    fn depends_on_displacement(&self) -> bool {
-        false
-    }
-
-    fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
-        self.at(body, label, t)
-    }
-
-    /// Implements [`BodyForceField::at_places`]; `None` if evaluation point by point is as cheap.
-    fn at_places(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
-        None
     }
 }
 
@@ -202,31 +157,34 @@ pub(crate) trait ForceSource: Send + Sync {
 pub type PlacedBodyForce = Box<dyn FnMut(f64, &mut [[f64; 3]]) + Send>;
 
 /// A body force per unit of mass, as a function of the reference position and time.
-#[derive(Clone)]
-pub struct BodyForceField(pub(crate) Arc<dyn ForceSource>);
-
-impl BodyForceField {
+pub trait BodyForceField: Send + Sync {
     /// Returns the force (m/s2) at the reference position `label` (m, D numbers) of body number
     /// `body` at time `t` (s). Components above the dimension are zero.
-    pub fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
-        self.0.at(body, label, t)
-    }
+    fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3];
 
     /// Whether the force depends on the displacement.
-    pub fn depends_on_displacement(&self) -> bool {
-        self.0.depends_on_displacement()
+    fn depends_on_displacement(&self) -> bool {
+        false
     }
 
     /// Returns the force (m/s2) like [`at`](Self::at), for a point with the displacement `u` (m).
-    pub fn at_displaced(&self, body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
-        self.0.at_displaced(body, label, t, u)
+    fn at_displaced(&self, body: usize, label: &[f64], t: f64, _u: &[f64; 3]) -> [f64; 3] {
+        self.at(body, label, t)
     }
 
+    /// Returns the force at fixed points as a function of time; `None` if evaluation point by point
+    /// is as cheap.
+    fn placed(&self, _bodies: &[usize], _labels: &[&[f64]]) -> Option<PlacedBodyForce> {
+        None
+    }
+}
+
+impl dyn BodyForceField {
     /// Returns the force at fixed points as a function of time. For many times, this is much
-    /// cheaper than [`at`](Self::at).
-    pub fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
-        self.0.at_places(bodies, labels).unwrap_or_else(|| {
-            let (force, places) = (self.clone(), owned(bodies, labels));
+    /// cheaper than [`at`](BodyForceField::at).
+    pub fn at_places(self: &Arc<Self>, bodies: &[usize], labels: &[&[f64]]) -> PlacedBodyForce {
+        self.placed(bodies, labels).unwrap_or_else(|| {
+            let (force, places) = (Arc::clone(self), owned(bodies, labels));
             Box::new(move |t, into| {
                 for (into, (body, label)) in into.iter_mut().zip(&places) {
                     *into = force.at(*body, label, t);
@@ -240,7 +198,7 @@ pub(crate) fn owned(bodies: &[usize], labels: &[&[f64]]) -> Vec<(usize, Vec<f64>
     bodies.iter().copied().zip(labels.iter().map(|label| label.to_vec())).collect()
 }
 
-impl fmt::Debug for BodyForceField {
+impl fmt::Debug for dyn BodyForceField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("BodyForceField")
     }

@@ -1,6 +1,6 @@
 //! Values and gradients of functionals, and problems with a changed parameter.
 
-use super::fields::{FieldError, FieldName, FieldPlaces, FieldSource, HandedNumber, ProblemFields};
+use super::fields::{FieldError, FieldName, FieldPlaces, HandedNumber, ProblemFields};
 use super::problem::LevelProblem;
 use crate::subject::{Functional, FunctionalValue, GradientParameter, Samples, SubjectError};
 use std::sync::Arc;
@@ -75,8 +75,8 @@ impl LevelProblem {
             }
             GradientParameter::InitialVelocity => {
                 self.particles.velocity.iter_mut().for_each(|velocity| *velocity *= value);
-                let scaled = |source| ProblemFields(Arc::new(ScaledVelocity { source, by: value }));
-                self.fields = self.fields.map(|ProblemFields(source)| scaled(source));
+                let scaled = |source| Arc::new(ScaledVelocity { source, by: value });
+                self.fields = self.fields.map(|source| scaled(source) as Arc<dyn ProblemFields>);
             }
             GradientParameter::Friction => {
                 let numbers = self.faces.iter_mut().flat_map(|face| &mut face.numbers.values);
@@ -137,11 +137,11 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 
 /// Fields of a problem whose initial velocity is multiplied by a factor.
 struct ScaledVelocity {
-    source: Arc<dyn FieldSource>,
+    source: Arc<dyn ProblemFields>,
     by: f64,
 }
 
-impl FieldSource for ScaledVelocity {
+impl ProblemFields for ScaledVelocity {
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         self.source.bodies(labels)
     }

@@ -23,11 +23,11 @@ pub(crate) use capabilities::SMALL_STRAIN;
 #[cfg(test)]
 pub(crate) use capabilities::everything;
 pub use capabilities::{Capabilities, ProblemNeeds};
+pub(crate) use fields::owned;
 pub use fields::{
     BodyForceField, FieldError, FieldName, FieldPlaces, HandedNumber, HandedValues,
     PlacedBodyForce, ProblemFields,
 };
-pub(crate) use fields::{FieldSource, ForceSource, owned};
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
 pub use gradient::{Gradient, GradientError, GradientRequest};

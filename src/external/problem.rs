@@ -6,6 +6,7 @@ use crate::subject::PlaneState;
 use serde::Serialize;
 #[cfg(feature = "schemas")]
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// All inputs of a solver for one level of a study: initial state, grid, materials, loads and
 /// steps.
@@ -51,10 +52,10 @@ pub struct LevelProblem {
     pub particles: ProblemParticles,
     /// Sum of stated and manufactured body forces; `None` without body force.
     #[serde(skip)]
-    pub body_force: Option<BodyForceField>,
+    pub body_force: Option<Arc<dyn BodyForceField>>,
     /// Initial state, loads and conditions on faces at any point of the bodies.
     #[serde(skip)]
-    pub fields: Option<ProblemFields>,
+    pub fields: Option<Arc<dyn ProblemFields>>,
     /// Body force (m/s2), D numbers, if it is constant in space and time.
     #[serde(rename = "body_force_value", skip_serializing_if = "Option::is_none")]
     pub constant_body_force: Option<Vec<f64>>,

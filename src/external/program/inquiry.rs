@@ -10,11 +10,12 @@ use crate::external::fields::{
 use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
 use crate::nearest::nearest;
 use serde_json::json;
+use std::sync::Arc;
 
 pub(super) struct Inquiry {
     dimension: usize,
-    body_force: Option<BodyForceField>,
-    fields: Option<ProblemFields>,
+    body_force: Option<Arc<dyn BodyForceField>>,
+    fields: Option<Arc<dyn ProblemFields>>,
     faces: Vec<ProblemFace>,
     loads: Vec<ProblemLoad>,
     /// Default points of requests: reference positions (m) of the particles, or of the solver's own

@@ -2,7 +2,7 @@
 
 use crate::dimension::with_dimension;
 use crate::exact::Circle;
-use crate::external::{FieldError, FieldName, FieldPlaces, FieldSource};
+use crate::external::{FieldError, FieldName, FieldPlaces, ProblemFields};
 use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
 use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
@@ -192,7 +192,7 @@ impl SceneFields {
     }
 }
 
-impl FieldSource for SceneFields {
+impl ProblemFields for SceneFields {
     fn bodies(&self, labels: &[f64]) -> Result<Vec<usize>, FieldError> {
         let body_of = |(place, label): (usize, &[f64])| {
             let mut holding =

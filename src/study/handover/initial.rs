@@ -4,9 +4,9 @@ use super::fields::SceneFields;
 use super::particles::particles;
 use crate::exact::{Forcing, Problem, Term};
 use crate::external::{
-    BodyForceField, ForceSource, HandedNumber, HandedValues, LevelProblem, PlacedBodyForce,
-    ProblemBody, ProblemContact, ProblemFace, ProblemFields, ProblemGrid, ProblemLoad,
-    ProblemMaterial, ProblemParticles, ProblemRegion, owned,
+    BodyForceField, HandedNumber, HandedValues, LevelProblem, PlacedBodyForce, ProblemBody,
+    ProblemContact, ProblemFace, ProblemGrid, ProblemLoad, ProblemMaterial, ProblemParticles,
+    ProblemRegion, owned,
 };
 use crate::study::setup::body::periodic;
 use crate::study::setup::initial_state::Initial;
@@ -94,9 +94,9 @@ pub(crate) fn problem(
         until,
         instants,
         particles,
-        fields: Some(ProblemFields(Arc::new(SceneFields::new(scene, initial, is_perturbed)))),
+        fields: Some(Arc::new(SceneFields::new(scene, initial, is_perturbed))),
         constant_body_force: force.constant(scene.dimension()),
-        body_force: (!force.is_none()).then(|| BodyForceField(Arc::new(force))),
+        body_force: (!force.is_none()).then(|| Arc::new(force) as Arc<dyn BodyForceField>),
     }
 }
 
@@ -233,7 +233,7 @@ impl SceneForce {
     }
 }
 
-impl ForceSource for SceneForce {
+impl BodyForceField for SceneForce {
     fn at(&self, body: usize, label: &[f64], t: f64) -> [f64; 3] {
         self.at_displaced(body, label, t, &[0.0; 3])
     }
@@ -247,7 +247,7 @@ impl ForceSource for SceneForce {
         self.whole(made, body, label, t, u)
     }
 
-    fn at_places(&self, bodies: &[usize], labels: &[&[f64]]) -> Option<PlacedBodyForce> {
+    fn placed(&self, bodies: &[usize], labels: &[&[f64]]) -> Option<PlacedBodyForce> {
         let mut forcing = Forcing::new(self.made.as_ref()?, labels.iter().copied());
         let (force, places) = (self.clone(), owned(bodies, labels));
         Some(Box::new(move |t, into| {

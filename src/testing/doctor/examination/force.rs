@@ -2,7 +2,7 @@
 
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
-use crate::external::{BodyForceField, ForceSource, LevelProblem};
+use crate::external::{BodyForceField, LevelProblem};
 use crate::testing::doctor::course::{
     AffineField, Course, line, minus, shown, size, times, velocity,
 };
@@ -52,7 +52,7 @@ struct AskedForce {
     force: ForceAlong,
 }
 
-impl ForceSource for AskedForce {
+impl BodyForceField for AskedForce {
     fn at(&self, _: usize, label: &[f64], t: f64) -> [f64; 3] {
         let place = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
         self.asked.lock().push((t, place));
@@ -115,7 +115,7 @@ fn integral(t: f64) -> f64 {
 
 pub(super) fn ramp(problem: &mut LevelProblem) {
     let force = AskedForce { asked: Questions::default(), force: |_, t| FORCE + RATE * t };
-    problem.body_force = Some(BodyForceField(Arc::new(force)));
+    problem.body_force = Some(Arc::new(force));
     problem.constant_body_force = None;
 }
 
@@ -130,7 +130,7 @@ fn run(
 ) -> Result<Course, Hindrance> {
     let (mut problem, _) = scene.problem()?;
     let force = AskedForce { asked: asked.clone(), force };
-    problem.body_force = Some(BodyForceField(Arc::new(force)));
+    problem.body_force = Some(Arc::new(force));
     if !checks_places {
         problem.fields = None;
     }
