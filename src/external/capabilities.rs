@@ -273,7 +273,7 @@ fn misspelt<'a>(capability: &str, name: &str, stated: &'a [String]) -> Option<&'
 
 /// Suggests the known name that is most similar to a mistyped name, or lists all known names.
 #[cfg(feature = "external-programs")]
-fn hint(name: &str, known: &[&'static str]) -> String {
+pub(super) fn hint(name: &str, known: &[&str]) -> String {
     match nearest(name, known.iter().copied()) {
         Some(known) => format!("did you mean `{known}`?"),
         None => format!("known: {}", known.join(", ")),

@@ -71,15 +71,3 @@ pub struct FunctionalValue {
     /// Rounding error of the value, in units of the machine epsilon.
     pub scale: f64,
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn functionals_are_written_as_the_protocol_states() {
-        let written = serde_json::to_value(Functional::PositionOf { particle: 63, axis: 0 });
-        let expected = serde_json::json!({"functional": "position_of", "particle": 63, "axis": 0});
-        assert_eq!(written.ok(), Some(expected));
-    }
-}

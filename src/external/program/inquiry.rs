@@ -4,11 +4,11 @@
 use super::answer::{ColumnText, ValueRequest};
 use super::error::{ProgramError, printable};
 use super::frame::Outgoing;
+use crate::external::capabilities::hint;
 use crate::external::fields::{
     BODY_FIELDS, BodyForceField, FieldError, FieldName, FieldPlaces, PlacedBodyForce, ProblemFields,
 };
 use crate::external::problem::{LevelProblem, ProblemFace, ProblemLoad};
-use crate::nearest::nearest;
 use serde_json::json;
 use std::sync::Arc;
 
@@ -277,10 +277,7 @@ fn field_named(
     }
     let names = BODY_FIELDS.iter().map(|(known, _)| *known);
     let names: Vec<&str> = names.chain(known.iter().map(|(known, _)| known.as_str())).collect();
-    Err(FieldError::Request(match nearest(name, names.iter().copied()) {
-        Some(known) => format!("unknown field; did you mean `{known}`?"),
-        None => format!("unknown field; known: {}", names.join(", ")),
-    }))
+    Err(FieldError::Request(format!("unknown field; {}", hint(name, &names))))
 }
 
 /// Returns the time (s) of a request; 0 by default for fields of the initial state.

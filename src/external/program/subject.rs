@@ -72,9 +72,8 @@ impl ProgramSubject {
         let (d, particles) = (problem.dimension, &problem.particles);
         let mut samples = Samples { dimension: d, ..Samples::default() };
         let has_stress = hello.capabilities.known.columns.iter().any(|column| column == "stress");
-        let mass;
         let has_own_points = points.is_some();
-        if let Some(points) = points {
+        let mass = if let Some(points) = points {
             let count = points.weight.count();
             samples.weight = points.weight.numbers("weight", count, bytes)?;
             let places = points.reference_position;
@@ -89,12 +88,13 @@ impl ProgramSubject {
             if has_stress {
                 samples.stress = inquiry.start(FieldName::Stress).unwrap_or_default();
             }
-            mass = match problem.materials.as_slice() {
+            match problem.materials.as_slice() {
                 [material] if material.varying_density.is_none() => {
-                    Some(samples.weight.iter().map(|volume| volume * material.density).collect())
+                    let mass = samples.weight.iter().map(|volume| volume * material.density);
+                    Some(mass.collect::<Vec<f64>>())
                 }
                 _ => None,
-            };
+            }
         } else {
             let displaced = particles.position.iter().zip(&particles.reference_position);
             samples.displacement = displaced.map(|(x, label)| x - label).collect();
@@ -104,8 +104,8 @@ impl ProgramSubject {
             if has_stress {
                 samples.stress.clone_from(&particles.stress);
             }
-            mass = Some(particles.mass.clone());
-        }
+            Some(particles.mass.clone())
+        };
         samples.mass = mass.clone().unwrap_or_default();
         let counters = RunCounters {
             particles: (!has_own_points).then_some(particles.len() as u64),

@@ -93,9 +93,7 @@ fn measure(
     averages: bool,
 ) -> Result<(Course, MeasuredModuli), Hindrance> {
     let mut scenes = vec![scene.clone()];
-    if averages {
-        scenes.push(scene.soft());
-    }
+    scenes.extend(averages.then(|| scene.soft()));
     let mut courses = patient.run_all(&scenes)?.into_iter();
     let course = courses.next().ok_or_else(|| Hindrance::Broke(String::new()))?;
     let mut measured = moduli_by_momentum(&course, courses.next().as_ref(), scene);
@@ -126,22 +124,18 @@ fn examine_scene(
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;
     }
-    let mut examined = Examined::new(describe(&scene, &measured), Vec::new());
     let finding = lost_momentum(patient, &course, &scene);
     let finding = finding.or_else(|| moduli::cause(&course, &scene, &measured));
-    let is_scaled = finding.as_ref().is_some_and(|found| UNNAMED.contains(&found.name));
-    if is_scaled && measured.viscous_share > 0.1 {
-        examined.findings.push(viscosity(&measured, &scene));
-        return Ok((examined, measured.averaged_share));
+    let is_viscous = |share: f64| measured.viscous_share > share;
+    let mut findings = match finding {
+        Some(found) if UNNAMED.contains(&found.name) && is_viscous(0.1) => Vec::new(),
+        Some(found) => vec![found],
+        None => measure::findings(&course, &scene),
+    };
+    if findings.is_empty() && is_viscous(0.05) {
+        findings.push(viscosity(&measured, &scene));
     }
-    examined.findings.extend(finding);
-    if examined.findings.is_empty() {
-        examined.findings = measure::findings(&course, &scene);
-    }
-    if examined.findings.is_empty() && measured.viscous_share > 0.05 {
-        examined.findings.push(viscosity(&measured, &scene));
-    }
-    Ok((examined, measured.averaged_share))
+    Ok((Examined::new(describe(&scene, &measured), findings), measured.averaged_share))
 }
 
 /// Maximum of [`MeasuredModuli::averaging`]. PIC has 1 to 2.2 with one step for each step that is

@@ -73,10 +73,8 @@ impl Wall {
             ("first step of a fall", self.offset),
             ("stretch", Some(self.stretch)),
         ];
-        let texts = forces
-            .into_iter()
-            .filter_map(|(name, force)| force.map(|force| format!("{name} {}", shown(force))));
-        texts.collect::<Vec<_>>().join(", ")
+        let text = |(name, force): (&str, Option<f64>)| Some(format!("{name} {}", shown(force?)));
+        forces.into_iter().filter_map(text).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -106,20 +104,14 @@ pub(super) fn walls_across(
         ..plain.clone()
     };
     let mut scenes = vec![thrown(1.0)];
-    if axis == 0 {
-        scenes.push(thrown(-1.0));
-    }
+    scenes.extend((axis == 0).then(|| thrown(-1.0)));
     let moves_along = condition == "fixed" && d > 1;
-    if moves_along {
-        scenes.push(broad(kind, axis, c));
-    }
+    scenes.extend(moves_along.then(|| broad(kind, axis, c)));
     let gravity = std::array::from_fn::<f64, 3, _>(|i| if i == axis { GRAVITY } else { 0.0 });
     let falling = BoxScene { gravity: Some(gravity[..d].to_vec()), ..plain.clone() };
     let (_, needs) = falling.problem()?;
     let falls = patient.solver.lacks(&needs).is_empty();
-    if falls {
-        scenes.push(falling.clone());
-    }
+    scenes.extend(falls.then(|| falling.clone()));
     let courses = patient.run_all(&scenes)?;
     require_whole_body(&courses[0], &plain)?;
     let stretch = stretch_errors(patient, kind, axis, condition)?;
