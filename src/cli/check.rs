@@ -50,7 +50,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
         if let Some(solver) = &solver {
             match study::under(&suite, solver, false) {
                 Some(under_solver) if under_solver.case_names().is_empty() => {
-                    lacks.push("a case: each solution applies to a built-in method only".to_owned())
+                    lacks
+                        .push("a case: each solution applies to a built-in method only".to_owned());
                 }
                 Some(under_solver) => suite = under_solver,
                 None => lacks.push("features that this kind of study needs".to_owned()),

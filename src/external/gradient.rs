@@ -157,7 +157,9 @@ impl ProblemFields for ScaledVelocity {
     fn values(&self, of: FieldName, t: f64, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let mut values = self.source.values(of, t, at)?;
         if of == FieldName::Velocity {
-            values.iter_mut().for_each(|value| *value *= self.by);
+            for value in &mut values {
+                *value *= self.by;
+            }
         }
         Ok(values)
     }

@@ -77,9 +77,15 @@ fn round_state<const D: usize>(solver: &mut Solver<D>) {
 /// Rounds all columns except the reference positions, which only identify particles.
 fn round_particles<const D: usize>(particles: &mut Particles<D>) {
     let ([_, vectors @ ..], scalars, matrices) = particles.columns_mut();
-    vectors.into_iter().for_each(|column| round_vectors(column));
-    scalars.into_iter().for_each(|column| round(column));
-    matrices.into_iter().for_each(|column| round_matrices(column));
+    for column in vectors {
+        round_vectors(column);
+    }
+    for column in scalars {
+        round(column);
+    }
+    for column in matrices {
+        round_matrices(column);
+    }
 }
 
 fn round_vectors<const D: usize>(column: &mut [Vector<D>]) {

@@ -92,7 +92,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
         (!scene.initial_stress.is_none(), "scene.initial_stress", "a body without stress"),
         (!starts_at_rest, "scene", "a body at rest, whose wave the study starts"),
     ];
-    evaluator.refuse_first(&refused, needs)
+    evaluator.refuse_first(&refused, |path, property| needs(&path, property))
 }
 
 /// Compiles the translation of the particles (m). The translation must keep every particle in its

@@ -409,10 +409,10 @@ impl Evaluator<'_> {
     pub(crate) fn refuse_first(
         &self,
         entries: &[(bool, &str, &str)],
-        diagnostic: impl FnOnce(&SuitePath<'_>, &str) -> Diagnostic,
+        diagnostic: impl FnOnce(SuitePath<'_>, &str) -> Diagnostic,
     ) -> Result<(), Diagnostic> {
         match entries.iter().find(|(applies, ..)| *applies) {
-            Some((_, path, text)) => Err(diagnostic(&self.top(path), text)),
+            Some((_, path, text)) => Err(diagnostic(self.top(path), text)),
             None => Ok(()),
         }
     }

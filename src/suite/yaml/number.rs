@@ -107,8 +107,8 @@ impl<'de> Deserialize<'de> for NoMap {
 
 struct EitherOf<T>(PhantomData<T>);
 
-fn number<T, E>(value: f64) -> Result<NumberOr<T>, E> {
-    Ok(NumberOr::Number(NumberText::Number(value)))
+fn number<T>(value: f64) -> NumberOr<T> {
+    NumberOr::Number(NumberText::Number(value))
 }
 
 impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Visitor<'de> for EitherOf<T> {
@@ -127,23 +127,23 @@ impl<'de, T: Deserialize<'de> + InPlaceOfNumber> Visitor<'de> for EitherOf<T> {
     }
 
     fn visit_i64<E: Error>(self, value: i64) -> Result<NumberOr<T>, E> {
-        number(value as f64)
+        Ok(number(value as f64))
     }
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<NumberOr<T>, E> {
-        number(value as f64)
+        Ok(number(value as f64))
     }
 
     fn visit_i128<E: Error>(self, value: i128) -> Result<NumberOr<T>, E> {
-        number(value as f64)
+        Ok(number(value as f64))
     }
 
     fn visit_u128<E: Error>(self, value: u128) -> Result<NumberOr<T>, E> {
-        number(value as f64)
+        Ok(number(value as f64))
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<NumberOr<T>, E> {
-        number(value)
+        Ok(number(value))
     }
 }
 
