@@ -1,6 +1,6 @@
 //! Compiles one body: faces, plane state, axis of revolution, and bodies at rest.
 
-use super::material::{self, Substance};
+use super::material;
 use super::outline::{self, Shape};
 use super::sets;
 use crate::subject::PlaneState;
@@ -29,13 +29,20 @@ pub(crate) fn body(
     let at = top.then("grid");
     let grid = grid.map(|grid| outline::corners(&at, grid, dimension)).transpose()?;
     let sets = sets::declared(&top, spec, &shape)?;
-    let substance = material::substance(path, own, &shape, &spec.loads)?;
+    let at = path.then("material");
+    let material = material::material(&at, &own.material)?;
+    material::refuse_plane(&at, &material, plane)?;
+    let at = at.then(own.material.name()).then("density");
+    let density = material::density(&at, own.material.density(), &material, &shape, &spec.loads)?;
+    let at = path.then("initial_stress");
+    let initial_stress = material::stress(&at, own.initial_stress.as_ref(), dimension, &material)?;
+    material::refuse_outside_yield_surface(&at, &initial_stress, &material, &shape)?;
+    let initial_displacement = material::displacement(path, own, dimension, &material)?;
+    let initial_velocity = material::velocity(path, own, dimension)?;
     let is_free = shape.outline.is_some() && shape.mapped.is_none();
     let has_faces = !is_free || spec.bodies.is_some();
     let faces = if has_faces { faces(&top, spec, dimension)? } else { Vec::new() };
     let Shape { from, to, outline, mapped, plane } = shape;
-    let Substance { material, density, initial_stress, initial_displacement, initial_velocity } =
-        substance;
     let mut scene = Scene {
         from,
         to,

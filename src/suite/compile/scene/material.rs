@@ -11,44 +11,8 @@ use crate::suite::scene::holds;
 use crate::suite::scene::load::{EffectName, LoadSpec};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// Material, density and initial state of a body.
-pub(crate) struct Substance {
-    pub(crate) material: MaterialPlan,
-    /// Reference density.
-    pub(crate) density: Density,
-    pub(crate) initial_stress: InitialStress,
-    /// Initial displacement (m); empty if not stated.
-    pub(crate) initial_displacement: Vec<Formula>,
-    /// Initial velocity (m/s); empty if not stated.
-    pub(crate) initial_velocity: Vec<Formula>,
-}
-
-/// Compiles the material of the body `own`, whose keys are in the map at `path`, and its initial
-/// state. Refuses what the law does not support in a body of this shape under these loads.
-pub(crate) fn substance(
-    path: &SuitePath<'_>,
-    own: &OneBodySpec,
-    shape: &Shape,
-    loads: &[LoadSpec],
-) -> Result<Substance, Diagnostic> {
-    let (at, d) = (path.then("material"), shape.from.len());
-    let material = material(&at, &own.material)?;
-    refuse_plane(&at, &material, shape.plane)?;
-    let at = at.then(own.material.name()).then("density");
-    let density = density(&at, own.material.density(), &material, shape, loads)?;
-    let at = path.then("initial_stress");
-    let initial_stress = stress(&at, own.initial_stress.as_ref(), d, &material)?;
-    refuse_outside_yield_surface(&at, &initial_stress, &material, shape)?;
-    Ok(Substance {
-        initial_displacement: displacement(path, own, d, &material)?,
-        initial_velocity: velocity(path, own, d)?,
-        material,
-        density,
-        initial_stress,
-    })
-}
-
-fn material(
+/// Compiles the material at `path`.
+pub(super) fn material(
     path: &SuitePath<'_>,
     spec: &MaterialSpec<NumberText>,
 ) -> Result<MaterialPlan, Diagnostic> {
@@ -101,7 +65,7 @@ fn number_in_range(
 }
 
 /// Refuses the material at `path` if its law is not implemented for the plane state.
-fn refuse_plane(
+pub(super) fn refuse_plane(
     path: &SuitePath<'_>,
     material: &MaterialPlan,
     plane: PlaneState,
@@ -116,7 +80,7 @@ fn refuse_plane(
 }
 
 /// Compiles the density at `path`: a number, or a formula of the coordinates.
-fn density(
+pub(super) fn density(
     path: &SuitePath<'_>,
     text: &NumberText,
     material: &MaterialPlan,
@@ -179,7 +143,7 @@ const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
 /// Compiles the initial displacement (m); empty if not stated.
-fn displacement(
+pub(super) fn displacement(
     path: &SuitePath<'_>,
     own: &OneBodySpec,
     dimension: usize,
@@ -193,7 +157,7 @@ fn displacement(
 }
 
 /// Compiles the initial velocity (m/s); empty if not stated.
-fn velocity(
+pub(super) fn velocity(
     path: &SuitePath<'_>,
     own: &OneBodySpec,
     dimension: usize,
@@ -203,7 +167,7 @@ fn velocity(
     path.then("initial_velocity").vector(texts, dimension, &variables)
 }
 
-fn stress(
+pub(super) fn stress(
     path: &SuitePath<'_>,
     spec: Option<&StressSpec>,
     dimension: usize,
@@ -255,7 +219,7 @@ const YIELD_POSITIONS: [usize; 3] = [1025, 65, 17];
 
 /// Refuses an initial stress outside the yield surface. The positions are a regular grid that
 /// contains the corners of the bounding box. The solver checks each particle.
-fn refuse_outside_yield_surface(
+pub(super) fn refuse_outside_yield_surface(
     path: &SuitePath<'_>,
     initial_stress: &InitialStress,
     material: &MaterialPlan,
