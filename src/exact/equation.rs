@@ -45,18 +45,12 @@ impl Equation {
         grad: &Tensor<f64>,
         second: &[Tensor<f64>; 3],
     ) -> [f64; 3] {
-        with_dimension!(dimension, D => in_space(self.divergence_in::<D>(grad, second)))
-    }
-
-    fn divergence_in<const D: usize>(
-        &self,
-        grad: &Tensor<f64>,
-        second: &[Tensor<f64>; 3],
-    ) -> [f64; D] {
-        let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
-        let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
-        let stress = self.piola(&varying);
-        vector(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
+        with_dimension!(dimension, D => {
+            let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
+            let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
+            let stress = self.piola(&varying);
+            in_space::<D>(vector(|i| sum::<f64, D>(|j| stress[i][j].d(j))))
+        })
     }
 }
 

@@ -95,21 +95,12 @@ pub(super) fn swollen_divergence(
     swelling: &Swelling,
 ) -> [f64; 3] {
     with_dimension!(dimension, D => {
-        in_space(divergence_in::<D>(equation, grad, second, swelling))
+        let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
+        let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
+        let theta = Slope::new(swelling.theta, vector(|axis| swelling.grad[axis]));
+        let stress = piola(equation, &varying, theta);
+        in_space::<D>(vector(|i| sum::<f64, D>(|j| stress[i][j].d(j))))
     })
-}
-
-fn divergence_in<const D: usize>(
-    equation: &Equation,
-    grad: &Tensor<f64>,
-    second: &[Tensor<f64>; 3],
-    swelling: &Swelling,
-) -> [f64; D] {
-    let slopes = |i: usize, j: usize| vector(|axis| second[i][j][axis]);
-    let varying: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(grad[i][j], slopes(i, j)));
-    let theta = Slope::new(swelling.theta, vector(|axis| swelling.grad[axis]));
-    let stress = piola(equation, &varying, theta);
-    vector(|i| sum::<f64, D>(|j| stress[i][j].d(j)))
 }
 
 #[cfg(test)]

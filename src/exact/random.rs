@@ -29,11 +29,4 @@ impl Random {
     pub fn point(&mut self, from: &[f64], to: &[f64]) -> Vec<f64> {
         from.iter().zip(to).map(|(a, b)| self.between(*a, *b)).collect()
     }
-
-    /// Returns a random point on the face of a box at the low or `high` end of `axis`.
-    pub fn on_face(&mut self, from: &[f64], to: &[f64], axis: usize, high: bool) -> Vec<f64> {
-        let mut point = self.point(from, to);
-        point[axis] = if high { to[axis] } else { from[axis] };
-        point
-    }
 }

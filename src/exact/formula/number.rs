@@ -142,25 +142,22 @@ fn whole_power(mut base: f64, mut exponent: u32) -> f64 {
     }
 }
 
-/// Number of values per batch. In a batch of this size, decoding an instruction costs little
-/// compared with the operations.
-const MANY: usize = 8;
-
 /// The values of one formula at several positions and times. An evaluation decodes each instruction
 /// once per batch, and the compiler vectorises sums and products. Each number is bit-identical to
 /// an evaluation in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NumberBatch([f64; MANY]);
+pub struct NumberBatch([f64; NumberBatch::LEN]);
 
 impl NumberBatch {
-    /// Number of values per batch.
-    pub const LEN: usize = MANY;
+    /// Number of values per batch. In a batch of this size, decoding an instruction costs little
+    /// compared with the operations.
+    pub const LEN: usize = 8;
 
     /// Creates a batch; `number` returns the value of each lane.
     #[inline]
     pub fn new(mut number: impl FnMut(usize) -> f64) -> Self {
-        let mut batch = [0.0; MANY];
-        for lane in 0..MANY {
+        let mut batch = [0.0; Self::LEN];
+        for lane in 0..Self::LEN {
             batch[lane] = number(lane);
         }
         Self(batch)
@@ -184,7 +181,7 @@ impl NumberBatch {
 impl From<f64> for NumberBatch {
     #[inline]
     fn from(value: f64) -> Self {
-        Self([value; MANY])
+        Self([value; Self::LEN])
     }
 }
 

@@ -140,14 +140,12 @@ pub(super) fn divergence(
     motion: &Derivatives,
     now: &TemperatureDerivatives,
 ) -> f64 {
-    with_dimension!(dimension, D => divergence_in::<D>(motion, now))
-}
-
-fn divergence_in<const D: usize>(motion: &Derivatives, now: &TemperatureDerivatives) -> f64 {
-    let bent = |i: usize, j: usize| vector(|axis| motion.second[i][j][axis]);
-    let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));
-    let curved = |a: usize| vector(|axis| now.second[a][axis]);
-    let grad: [Slope<D>; D] = std::array::from_fn(|a| Slope::new(now.grad[a], curved(a)));
-    let flow = pulled_back(&grad_u, &grad);
-    sum::<f64, D>(|a| flow[a].d(a))
+    with_dimension!(dimension, D => {
+        let bent = |i: usize, j: usize| vector(|axis| motion.second[i][j][axis]);
+        let grad_u: Tensor<Slope<D>, D> = tensor(|i, j| Slope::new(motion.grad[i][j], bent(i, j)));
+        let curved = |a: usize| vector(|axis| now.second[a][axis]);
+        let grad: [Slope<D>; D] = std::array::from_fn(|a| Slope::new(now.grad[a], curved(a)));
+        let flow = pulled_back(&grad_u, &grad);
+        sum::<f64, D>(|a| flow[a].d(a))
+    })
 }

@@ -156,17 +156,6 @@ pub(super) fn displacement(
     path.vector(texts, dimension, &coordinates_and_time(dimension))
 }
 
-/// Compiles the initial velocity (m/s); empty if not stated.
-pub(super) fn velocity(
-    path: &SuitePath<'_>,
-    own: &OneBodySpec,
-    dimension: usize,
-) -> Result<Vec<Formula>, Diagnostic> {
-    let Some(texts) = &own.initial_velocity else { return Ok(Vec::new()) };
-    let variables = coordinates_and_time(dimension);
-    path.then("initial_velocity").vector(texts, dimension, &variables)
-}
-
 pub(super) fn stress(
     path: &SuitePath<'_>,
     spec: Option<&StressSpec>,

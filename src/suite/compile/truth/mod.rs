@@ -67,7 +67,15 @@ fn exact(
     until: f64,
 ) -> Result<Option<Problem>, Diagnostic> {
     if scene.each().iter().any(|body| body.mapped.is_some()) {
-        refuse_truth_of_mapped(evaluator, spec)?;
+        // The check of solutions is implemented only for boxes and bodies with a free surface.
+        let stated = [
+            (spec.exact.is_some(), "exact", ""),
+            (spec.equilibrium.is_some(), "equilibrium", ""),
+            (spec.manufactured.is_some(), "manufactured", ""),
+        ];
+        let message = "a solution can be checked in a box or a body with a free rim, but not in a \
+                       quadrilateral";
+        evaluator.refuse_first(&stated, |path, _| path.diagnostic_at_key(message))?;
     }
     if !scene.bodies.is_empty() {
         interface::refuse(evaluator, spec)?;
@@ -295,22 +303,6 @@ fn face(scene: &Scene, number: usize) -> Face {
         scene.loads_on(LoadTarget::Face(number)).find_map(|load| load.load.clone().condition());
     let condition = loaded.unwrap_or_else(|| hold.clone());
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
-}
-
-/// Refuses a solution for a quadrilateral. The check of solutions is implemented only for boxes and
-/// bodies with a free surface.
-fn refuse_truth_of_mapped(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-) -> Result<(), Diagnostic> {
-    let message = "a solution can be checked in a box or a body with a free rim, but not in a \
-                   quadrilateral";
-    let stated = [
-        (spec.exact.is_some(), "exact", ""),
-        (spec.equilibrium.is_some(), "equilibrium", ""),
-        (spec.manufactured.is_some(), "manufactured", ""),
-    ];
-    evaluator.refuse_first(&stated, |path, _| path.diagnostic_at_key(message))
 }
 
 /// Returns the equation of motion for a material. Some equations restrict the motion: J2 needs

@@ -134,7 +134,12 @@ impl LoadEntry<'_> {
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let scene = self.scene;
         let path = self.path.then("on");
-        refuse_surface_load(&path, self.effect.name(), name, &scene.sets)?;
+        if scene.sets.iter().any(|set| set.name == name) {
+            // Tractions and pressures are forces per area, and a set has no area.
+            let message = format!("`{name}` is a set, but a {} acts on a face", self.effect.name());
+            let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
+            return Err(path.diagnostic(&message).with_help(&help));
+        }
         let number = face(&path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;
         if !hold.is_free() {
@@ -229,22 +234,6 @@ impl LoadedSet {
         }
         Ok(members)
     }
-}
-
-/// Refuses tractions and pressures on a set of particles. They are forces per area, and a set has
-/// no area.
-fn refuse_surface_load(
-    path: &SuitePath<'_>,
-    load: &str,
-    name: &str,
-    sets: &[Region],
-) -> Result<(), Diagnostic> {
-    if sets.iter().all(|set| set.name != name) {
-        return Ok(());
-    }
-    let message = format!("`{name}` is a set, but a {load} acts on a face");
-    let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-    Err(path.diagnostic(&message).with_help(&help))
 }
 
 fn set_number(path: &SuitePath<'_>, name: &str, sets: &[Region]) -> Result<usize, Diagnostic> {
