@@ -61,7 +61,11 @@ impl Motion {
 
     /// Computes the motion and its derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> Derivatives {
-        with_dimension!(self.dimension(), D => self.over_jets::<{ D + 1 }>(label, t))
+        with_dimension!(self.dimension(), D => {
+            let (seeds, mut all) = (seeds::<{ D + 1 }>(label, t), Derivatives::default());
+            gather(self.components.iter().map(|formula| formula.eval(&seeds)), &mut all);
+            all
+        })
     }
 
     /// Prepares the evaluation of the motion at the reference positions `labels` (m). This call
@@ -78,13 +82,6 @@ impl Motion {
         with_dimension!(self.dimension(), D => {
             Box::new(self.hoisted::<Slope<{ D + 1 }>>(labels, Slope::variable))
         })
-    }
-
-    /// Computes the derivatives with jets of N variables: N - 1 coordinates, then time.
-    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> Derivatives {
-        let (seeds, mut all) = (seeds::<N>(label, t), Derivatives::default());
-        gather(self.components.iter().map(|formula| formula.eval(&seeds)), &mut all);
-        all
     }
 
     fn hoisted<'a, T: Number>(

@@ -54,7 +54,9 @@ impl Temperature {
 
     /// Computes the temperature and its derivatives, by automatic differentiation.
     pub fn derivatives(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
-        with_dimension!(self.dimension, D => self.over_jets::<{ D + 1 }>(label, t))
+        with_dimension!(self.dimension, D => {
+            gather(&self.formula.eval(&seeds::<{ D + 1 }>(label, t)))
+        })
     }
 
     /// Prepares the evaluation of the field at the reference positions `labels` (m). This call
@@ -63,22 +65,13 @@ impl Temperature {
         &self,
         labels: impl Iterator<Item = &'a [f64]>,
     ) -> Box<dyn TemperaturePlaces> {
-        with_dimension!(self.dimension, D => Box::new(self.hoisted::<{ D + 1 }>(labels)))
-    }
-
-    fn over_jets<const N: usize>(&self, label: &[f64], t: f64) -> TemperatureDerivatives {
-        gather(&self.formula.eval(&seeds::<N>(label, t)))
-    }
-
-    fn hoisted<'a, const N: usize>(
-        &self,
-        labels: impl Iterator<Item = &'a [f64]>,
-    ) -> Hoisted<Jet<N>> {
-        let mut places = Hoisted::new(std::slice::from_ref(&self.formula), N);
-        for label in labels {
-            places.add(&Jet::<N>::place(label)[..N - 1]);
-        }
-        places
+        with_dimension!(self.dimension, D => {
+            let mut places = Hoisted::new(std::slice::from_ref(&self.formula), D + 1);
+            for label in labels {
+                places.add(&Jet::<{ D + 1 }>::place(label)[..D]);
+            }
+            Box::new(places)
+        })
     }
 }
 

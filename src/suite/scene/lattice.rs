@@ -65,14 +65,8 @@ pub(crate) fn any_particle(
     per_axis: usize,
     mut holds: impl FnMut(&[f64], f64) -> bool,
 ) -> bool {
-    fn any<const D: usize>(
-        body: &Scene,
-        scene: &Scene,
-        h: f64,
-        per_axis: usize,
-        holds: &mut dyn FnMut(&[f64], f64) -> bool,
-    ) -> bool {
-        let Some(outline) = &body.outline else { return false };
+    let Some(outline) = &body.outline else { return false };
+    with_dimension!(body.dimension(), D => {
         let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
         let block = block(body, &origin, h);
         let half = block.spacing(h, per_axis) * 0.5;
@@ -84,6 +78,5 @@ pub(crate) fn any_particle(
                 Cut::Pieces(all) => all.iter().any(|one| holds(&one.place, one.volume / share)),
             }
         })
-    }
-    with_dimension!(body.dimension(), D => any::<D>(body, scene, h, per_axis, &mut holds))
+    })
 }
