@@ -128,27 +128,16 @@ fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     for (i, load) in spec.scene.loads.iter().enumerate() {
         let entry = LoadEntry { effect: load.effect(), path: load.path(evaluator, i), scene };
         load.keys().check(&entry, &facts)?;
-        if let Some(lacked) = load.keys().lacked_by_fem() {
-            refuse_fem_without(evaluator, spec, lacked)?;
+        let Some(lacked) = load.keys().lacked_by_fem() else { continue };
+        let message = format!("the built-in FEM does not support {lacked}");
+        if spec.has_fem_reference() {
+            return Err(evaluator.top("reference").diagnostic_at_key(&message));
+        }
+        if let Some(i) = spec.fem_method() {
+            return Err(evaluator.top("methods").then(i).diagnostic(&message));
         }
     }
     Ok(())
-}
-
-/// Refuses the FEM bar as a method or reference, because it does not implement `effect`.
-fn refuse_fem_without(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    effect: &str,
-) -> Result<(), Diagnostic> {
-    let message = format!("the built-in FEM does not support {effect}");
-    if spec.has_fem_reference() {
-        return Err(evaluator.top("reference").diagnostic_at_key(&message));
-    }
-    match spec.fem_method() {
-        Some(i) => Err(evaluator.top("methods").then(i).diagnostic(&message)),
-        None => Ok(()),
-    }
 }
 
 fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {

@@ -51,7 +51,16 @@ pub(crate) fn methods(
     material: &MaterialPlan,
     limit: &CaseLimit,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
-    few(evaluator, specs, limit)?;
+    // Too many combinations are refused before they are computed.
+    let (mut all, CaseLimit { most, of_each_method }) = (0_usize, limit);
+    for (entry, spec) in specs.iter().enumerate() {
+        all = all.saturating_add(count(spec).saturating_mul(*of_each_method));
+        if all > *most {
+            let message = format!("these lists give {all} cases");
+            let diagnostic = evaluator.top("methods").then(entry).diagnostic(&message);
+            return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
+        }
+    }
     // Materials without an FEM law are refused later.
     let own_law = law_of_bar(material).unwrap_or_default();
     let mut drafts = Vec::new();
@@ -65,24 +74,6 @@ pub(crate) fn methods(
 pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     let name = Equation::of_material(material.name(), |key| material.parameter(key))?.name();
     BarLaw::find(name).and(EquationName::find(name))
-}
-
-/// Refuses too many combinations of list values, before they are computed.
-fn few(
-    evaluator: &Evaluator<'_>,
-    specs: &[MethodSpec],
-    CaseLimit { most, of_each_method }: &CaseLimit,
-) -> Result<(), Diagnostic> {
-    let mut all = 0_usize;
-    for (entry, spec) in specs.iter().enumerate() {
-        all = all.saturating_add(count(spec).saturating_mul(*of_each_method));
-        if all > *most {
-            let message = format!("these lists give {all} cases");
-            let diagnostic = evaluator.top("methods").then(entry).diagnostic(&message);
-            return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
-        }
-    }
-    Ok(())
 }
 
 impl MethodDraft {

@@ -31,7 +31,12 @@ pub(crate) fn plan<'a>(
     scene: &Scene,
 ) -> Result<(RefinePlan, Vec<LevelPaths<'a>>), Diagnostic> {
     let axis = axis(evaluator, &spec.refine)?;
-    no_idle_expectation(evaluator, spec)?;
+    let idle = spec.expect.iter().position(|entry| entry.full.is_some());
+    if let (Some(i), None) = (idle, &spec.refine.full) {
+        let message = "this expectation needs a full run, but `refine` has no `full`";
+        let diagnostic = evaluator.top("expect").then(i).then("full").diagnostic_at_key(message);
+        return Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"));
+    }
     let d = scene.dimension();
     let cells = counts(&listed(evaluator, spec, Axis::Space, axis), "cells")?;
     let ppc = counts(&listed(evaluator, spec, Axis::Particles, axis), "particles per cell")?;
@@ -64,19 +69,6 @@ pub(crate) fn plan<'a>(
         rule,
     };
     Ok((plan, (0..count).filter_map(place).collect()))
-}
-
-/// Refuses an expectation for a full run if the suite has no levels for full runs.
-fn no_idle_expectation(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-) -> Result<(), Diagnostic> {
-    let idle = spec.expect.iter().position(|entry| entry.full.is_some());
-    let (Some(i), None) = (idle, &spec.refine.full) else { return Ok(()) };
-    let path = evaluator.top("expect").then(i).then("full");
-    let diagnostic =
-        path.diagnostic_at_key("this expectation needs a full run, but `refine` has no `full`");
-    Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"))
 }
 
 /// Returns the entry for level `k`, which is the only entry if all levels share one.
