@@ -1,8 +1,7 @@
 //! Reports as LaTeX tables, for papers.
 
-use crate::report::columns::grouped;
 use crate::report::columns::level::{self, LevelRow, NamedStudy};
-use crate::verify::{Axis, CaseOutcome, Interval, SuiteOutcome, Verdict};
+use crate::verify::{Axis, CaseOutcome, Interval, SuiteOutcome, Verdict, grouped};
 use std::fmt::Write;
 
 /// Maximum number of cases per table, limited by the width of a page.

@@ -1,7 +1,8 @@
 //! The matrix of problems and methods: the result of each basis in each suite.
 
-use crate::report::columns::{distinct, grouped};
-use crate::verify::{Acceptance, CaseOutcome, Convergence, Exemption, SuiteOutcome, Verdict};
+use crate::verify::{
+    Acceptance, CaseOutcome, Convergence, Exemption, SuiteOutcome, Verdict, distinct, grouped,
+};
 
 /// Column headings: the bases of MPM, finite elements (FEM), and all other methods.
 pub(crate) const COLUMNS: [&str; 8] =

@@ -1,7 +1,6 @@
 //! The spectrum study: runs every wave of each case.
 
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::report::columns::distinct;
 use crate::study::describe::{Rows, push, scene};
 use crate::study::handover::{HandedRun, of_scene, problem, start, unloaded};
 use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, ShowRun, Study};
@@ -15,7 +14,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::verify::{
     AMPLITUDE, CaseOutcome, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumRow,
-    SpectrumStudy, StudyResults, WaveFigures, run_wave, steps_of_run,
+    SpectrumStudy, StudyResults, WaveFigures, distinct, run_wave, steps_of_run,
 };
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -190,13 +189,9 @@ impl CaseRunner for PlanRunner<'_, SpectrumPlan> {
         let lacks = context.solver.map_or(Vec::new(), |solver| lacking(plan, solver));
         described(case, context.solver).after(case.gating.as_ref(), lacks, |described| {
             let run = WaveRun { plan, case, context };
-            let row = |(wave, cells)| {
-                let row = run.row(wave, cells);
-                progress();
-                row
-            };
-            let cells = run.cells_for_one_percent();
-            outcome(described, case, plan.waves.par_iter().zip(cells).map(row).collect())
+            let waves = plan.waves.par_iter().zip(run.cells_for_one_percent());
+            let rows = waves.map(|(wave, cells)| run.row(wave, cells));
+            outcome(described, case, rows.inspect(|_| progress()).collect())
         })
     }
 

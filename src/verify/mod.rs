@@ -35,6 +35,7 @@ mod exclusion;
 mod expectation;
 mod figure;
 mod gradient;
+mod grouping;
 mod judge_plan;
 pub(crate) mod order;
 mod outcome;
@@ -74,6 +75,7 @@ pub use gradient::{
     FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientState, GradientStudy,
     GradientTerms, LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
 };
+pub(crate) use grouping::{distinct, grouped};
 pub use judge_plan::{JudgePlan, LevelRun, LevelSizes};
 pub use order::fit::Interval;
 pub(crate) use order::format_number::{format_number, rounded, tuple};

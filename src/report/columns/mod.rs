@@ -190,25 +190,3 @@ pub(crate) fn interval(estimate: Interval) -> Value {
     let Interval { value, low, high } = estimate;
     json!({"value": number(value), "low": number(low), "high": number(high)})
 }
-
-/// Groups values by key, in order of first occurrence.
-pub(crate) fn grouped<K: PartialEq, V>(
-    pairs: impl IntoIterator<Item = (K, V)>,
-) -> Vec<(K, Vec<V>)> {
-    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
-    for (key, value) in pairs {
-        match groups.iter_mut().find(|(known, _)| *known == key) {
-            Some((_, values)) => values.push(value),
-            None => groups.push((key, vec![value])),
-        }
-    }
-    groups
-}
-
-/// Returns the distinct values in order of first occurrence.
-pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
-    grouped(values.into_iter().map(|value| (value, ())))
-        .into_iter()
-        .map(|(value, _)| value)
-        .collect()
-}

@@ -1,8 +1,7 @@
 //! Checks that `docs/columns.md` lists all declared columns and no others.
 
 use super::{
-    TableColumn, cost, distinct, force, grouped, level, number, scientific, spectrum, stability,
-    timed_level,
+    TableColumn, cost, force, level, number, scientific, spectrum, stability, timed_level,
 };
 use crate::verify::{Axis, Quantity, Ranking, StabilityStudy};
 use rstest::rstest;
@@ -83,11 +82,4 @@ fn numbers(#[case] value: f64, #[case] text: &str) {
 #[case(0.1, "0.1")]
 fn non_finite_numbers_are_strings_in_json(#[case] value: f64, #[case] text: &str) {
     assert_eq!(number(value).to_string(), text);
-}
-
-#[test]
-fn equal_keys_are_grouped_at_the_first() {
-    let pairs = [("b", 1), ("a", 2), ("b", 3)];
-    assert_eq!(grouped(pairs), [("b", vec![1, 3]), ("a", vec![2])]);
-    assert_eq!(distinct(pairs.map(|(key, _)| key)), ["b", "a"]);
 }

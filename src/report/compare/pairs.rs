@@ -6,8 +6,7 @@ use super::document::{
 };
 use super::stability::StabilityMove;
 use super::{accuracy, stability};
-use crate::report::columns::distinct;
-use crate::verify::JudgedBox;
+use crate::verify::{JudgedBox, distinct};
 use std::collections::BTreeMap;
 
 pub(super) fn compare(

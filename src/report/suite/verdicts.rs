@@ -1,11 +1,11 @@
 //! First part of a report: results and expectations of each case.
 
-use crate::report::columns::{TableColumn, decimals, distinct, grouped, scientific};
+use crate::report::columns::{TableColumn, decimals, scientific};
 use crate::report::study::KINDS;
 use crate::report::text::cost::cheapest;
 use crate::report::text::prose::{hanging, row};
 use crate::report::text::table::{Table, together};
-use crate::verify::{CaseOutcome, Ranking};
+use crate::verify::{CaseOutcome, Ranking, distinct, grouped};
 
 /// Relative error for which the cost of each case is compared.
 const TARGET: f64 = 1e-3;
@@ -53,15 +53,12 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
         1 => "1 expected failure".to_owned(),
         count => format!("{count} expected failures"),
     };
-    let mut parts = Vec::new();
-    match (expected, failing) {
-        (0, _) => {}
-        (_, 0) => parts.push(format!("{} as expected", cases(expected))),
-        (_, _) if failing == expected => {
-            parts.push(failures(expected));
-        }
-        _ => parts.push(format!("{} as expected ({})", cases(expected), failures(failing))),
-    }
+    let first = match (expected, failing) {
+        (0, _) => None,
+        (_, 0) => Some(format!("{} as expected", cases(expected))),
+        (_, _) if failing == expected => Some(failures(expected)),
+        _ => Some(format!("{} as expected ({})", cases(expected), failures(failing))),
+    };
     let others = [
         ("FAIL", "NOT AS EXPECTED"),
         ("explored", "without an expectation"),
@@ -69,13 +66,10 @@ pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
         ("not gated", "not gated"),
         ("excepted", "excepted"),
     ];
-    for (word, words) in others {
-        let count = count(word);
-        if count > 0 {
-            parts.push(format!("{} {words}", cases(count)));
-        }
-    }
-    parts.join("; ")
+    let others = others.map(|(word, words)| (count(word), words)).into_iter();
+    let others = others.filter(|(count, _)| *count > 0);
+    let others = others.map(|(count, words)| format!("{} {words}", cases(count)));
+    first.into_iter().chain(others).collect::<Vec<_>>().join("; ")
 }
 
 pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {

@@ -3,10 +3,10 @@
 use super::prose::row;
 use super::table::{Table, shared};
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
-use crate::report::columns::{TableColumn, decimals, distinct, grouped, level, short};
+use crate::report::columns::{TableColumn, decimals, level, short};
 use crate::verify::{
-    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, Quantity, StepKind,
-    format_number,
+    Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, Quantity, StepKind, distinct,
+    format_number, grouped,
 };
 
 /// Adds tables of errors with their orders, measured values of the finest levels, drifts, rates and

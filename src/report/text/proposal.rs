@@ -1,7 +1,7 @@
 //! Proposed expectations, in the notation of suites.
 
 use super::prose::wrap;
-use crate::verify::{CaseOutcome, Proposal, ProposedKey, SuiteOutcome, propose};
+use crate::verify::{CaseOutcome, Proposal, ProposedKey, SuiteOutcome, grouped, propose};
 
 /// Maximum line width of a suite file.
 const WIDTH: usize = 96;
@@ -9,31 +9,16 @@ const WIDTH: usize = 96;
 /// Indentation of continuation lines in a list of cases.
 const LIST: &str = "           ";
 
-/// Cases that have the same proposed expectation.
-struct Group<'a> {
-    proposal: Proposal,
-    /// Name and observed result of each case.
-    cases: Vec<(&'a str, String)>,
-}
-
 /// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals.
 /// Comments explain the origin of each key and how to reach a stronger expectation. The text begins
 /// with `remarks` about the suite.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
-    let mut groups: Vec<Group<'_>> = Vec::new();
-    for (case, study) in outcome.results(CaseOutcome::convergence) {
-        let proposal = propose(study);
-        let seen = (case, proposal.seen.clone());
-        let same = |group: &&mut Group<'_>| {
-            let known = &group.proposal;
-            (&known.keys, &known.because, &known.stronger)
-                == (&proposal.keys, &proposal.because, &proposal.stronger)
-        };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.cases.push(seen),
-            None => groups.push(Group { proposal, cases: vec![seen] }),
-        }
-    }
+    let proposed = outcome.results(CaseOutcome::convergence).map(|(case, study)| {
+        let mut proposal = propose(study);
+        let seen = std::mem::take(&mut proposal.seen);
+        (proposal, (case, seen))
+    });
+    let groups = grouped(proposed);
     let mut lines = Vec::new();
     remarks.for_each(|remark| folded(&mut lines, "# ", &remark));
     lines.push("expect:".to_owned());
@@ -41,14 +26,14 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     // methods, so the entry names the cases of the solver.
     let is_external = outcome.cases.iter().any(|case| case.subject == "external");
     let alone = groups.len() == 1 && !is_external;
-    for group in &groups {
-        entry(&mut lines, group, alone);
+    for (proposal, cases) in &groups {
+        entry(&mut lines, proposal, cases, alone);
     }
     lines.join("\n") + "\n"
 }
 
-fn entry(lines: &mut Vec<String>, group: &Group<'_>, alone: bool) {
-    let Group { proposal, cases } = group;
+/// Adds the entry of `cases`, which have the same proposal, each with its observed result.
+fn entry(lines: &mut Vec<String>, proposal: &Proposal, cases: &[(&str, String)], alone: bool) {
     let width = cases.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     lines.extend(cases.iter().map(|(name, seen)| format!("  # {name:width$}  {seen}")));
     for advice in &proposal.stronger {

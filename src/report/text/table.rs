@@ -1,6 +1,7 @@
 //! Plain aligned tables.
 
-use crate::report::columns::{TableColumn, distinct, grouped};
+use crate::report::columns::TableColumn;
+use crate::verify::{distinct, grouped};
 use std::borrow::Borrow;
 
 /// A line of headings, and rows of cells. Cells are aligned to the right by default.

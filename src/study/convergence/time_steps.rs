@@ -13,7 +13,7 @@ use crate::subject::{Precision, Start, SubjectError};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan, Suite};
-use crate::verify::{Clock, STEP_TOLERANCE, StepKind};
+use crate::verify::{Clock, STEP_TOLERANCE, StepKind, grouped};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -82,8 +82,7 @@ pub struct PlannedLevel {
 pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
     let Some(plan) = suite.convergence() else { return Vec::new() };
     let waves = plan.scene.fastest_wave();
-    let mut all: Vec<(String, Vec<PlannedLevel>)> = Vec::new();
-    for TimeStep { case, level, clock, .. } in time_steps(suite, Extent::Usual) {
+    let planned = |TimeStep { case, level, clock, .. }: TimeStep| {
         let planned = PlannedLevel {
             cells: level.cells,
             h: level.h,
@@ -92,12 +91,9 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
             steps: clock.steps,
             courant: (plan.steps == StepKind::Time).then(|| waves * clock.dt() / level.h),
         };
-        match all.last_mut().filter(|(known, _)| *known == case) {
-            Some((_, levels)) => levels.push(planned),
-            None => all.push((case, vec![planned])),
-        }
-    }
-    all
+        (case, planned)
+    };
+    grouped(time_steps(suite, Extent::Usual).into_iter().map(planned))
 }
 
 /// Number of power iterations in the prediction of an automatic time step.

@@ -2,7 +2,7 @@
 
 use crate::verify::{
     CaseOutcome, Convergence, ConvergingPart, End, Exponent, LevelOutcome, Reach, Sample, TARGETS,
-    pareto_front,
+    grouped, pareto_front,
 };
 use std::cmp::Ordering;
 
@@ -126,27 +126,16 @@ pub fn rankings<'a>(
     cases: impl IntoIterator<Item = &'a CaseOutcome>,
     work: impl Fn(&CaseOutcome, usize, &LevelOutcome) -> f64,
 ) -> Vec<Ranking> {
-    let mut problems: Vec<(&str, f64, Vec<MethodCost>)> = Vec::new();
-    for case in cases {
-        let Some(study) = case.convergence().filter(|study| study.compared) else { continue };
-        let size = study.error_scale.size;
-        if !(size > 0.0) || study.levels.len() < 3 {
-            continue;
-        }
-        let one = method(case, study, &work);
-        let problem = study.error_scale.problem.as_str();
-        match problems
-            .iter_mut()
-            .find(|(known, known_size, _)| *known == problem && *known_size == size)
-        {
-            Some((_, _, known)) => known.push(one),
-            None => problems.push((problem, size, vec![one])),
-        }
-    }
-    let rank = |(problem, size, methods): (&str, f64, Vec<MethodCost>)| {
+    let methods = cases.into_iter().filter_map(|case| {
+        let study = case.convergence().filter(|study| study.compared)?;
+        let problem = (study.error_scale.problem.as_str(), study.error_scale.size);
+        let is_comparable = problem.1 > 0.0 && study.levels.len() >= 3;
+        is_comparable.then(|| (problem, method(case, study, &work)))
+    });
+    let rank = |((problem, size), methods): ((&str, f64), Vec<MethodCost>)| {
         Ranking::new(problem.to_owned(), size, &TARGETS, methods)
     };
-    problems.into_iter().map(rank).collect()
+    grouped(methods).into_iter().map(rank).collect()
 }
 
 /// Ranks the cases of a suite by the number of particle-node transfers. External solvers are

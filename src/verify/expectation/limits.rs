@@ -1,6 +1,8 @@
 //! Bounds on measured values. Without an expected order, one level is sufficient.
 
-use crate::verify::{BoundKind, CaseFigure, ConservationError, Conserved, format_number, rounded};
+use crate::verify::{
+    BoundKind, CaseFigure, ConservationError, Conserved, format_number, grouped, rounded,
+};
 
 /// Bounds on measured values, drifts and rates. A value may equal its bound. All bounds must hold.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -126,14 +128,8 @@ impl Limits {
 
     pub(crate) fn summary(&self) -> Vec<String> {
         let mut parts: Vec<String> = self.checks(None).iter().map(Check::bound).collect();
-        let mut grouped: Vec<(f64, Vec<String>)> = Vec::new();
-        for (sum, limit) in &self.drift {
-            match grouped.iter_mut().find(|(known, _)| known == limit) {
-                Some((_, sums)) => sums.push(sum.words()),
-                None => grouped.push((*limit, vec![sum.words()])),
-            }
-        }
-        parts.extend(grouped.into_iter().map(|(limit, sums)| {
+        let drifts = grouped(self.drift.iter().map(|(sum, limit)| (*limit, sum.words())));
+        parts.extend(drifts.into_iter().map(|(limit, sums)| {
             format!("drift of {} at most {:e}", sums.join(", "), rounded(limit, DIGITS))
         }));
         parts.extend(self.energy_rate.map(rate_within));
