@@ -178,17 +178,12 @@ impl<'a> ConvergenceRunner<'a> {
         let judging = judge_plan(plan, case, expectation, truth);
         let runs = CaseRuns { runner: self, case, truth };
         let all = plan.refine.levels(self.context.extent);
-        let levels: Result<Vec<LevelRun>, SubjectError> = all
-            .par_iter()
-            .map(|level| {
-                let level = self.steps.of(plan, case, *level).and_then(|(level, limit)| {
-                    let run = runs.repeated(level)?;
-                    Ok(LevelRun { stable_time_step: limit, ..run })
-                });
-                progress();
-                level
-            })
-            .collect();
+        let run = |level: &LevelPlan| {
+            let (level, limit) = self.steps.of(plan, case, *level)?;
+            Ok(LevelRun { stable_time_step: limit, ..runs.repeated(level)? })
+        };
+        let levels: Result<Vec<LevelRun>, SubjectError> =
+            all.par_iter().map(run).inspect(|_| progress()).collect();
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 

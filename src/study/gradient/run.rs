@@ -65,13 +65,9 @@ impl CachedAnswer {
 impl GradientRun<'_> {
     pub(super) fn study(&self, progress: Progress<'_>) -> Result<GradientStudy, GradientError> {
         let levels = self.plan.problem.refine.levels(self.context.extent);
-        let on_level = |level: &LevelPlan| {
-            let done = self.level(*level);
-            progress();
-            done
-        };
         // With several failed levels, the coarsest one is reported, in any order of the runs.
-        let on_levels = levels.par_iter().map(on_level).collect::<Vec<_>>();
+        let on_levels = levels.par_iter().map(|level| self.level(*level));
+        let on_levels = on_levels.inspect(|_| progress()).collect::<Vec<_>>();
         let on_levels = on_levels.into_iter().collect::<Result<Vec<_>, GradientError>>()?;
         let examined = self.plan.level;
         let problem = self.problem(levels[examined])?;

@@ -47,12 +47,8 @@ impl CaseRunner for PlanRunner<'_, StabilityPlan> {
             plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
         });
         described(&run).after(case.gating.as_ref(), lacks, |described| {
-            let row = |value: &f64| {
-                let row = run.row(*value);
-                progress();
-                row
-            };
-            let rows: Vec<StabilityRow> = plan.values.par_iter().map(row).collect();
+            let rows = plan.values.par_iter().map(|value| run.row(*value));
+            let rows: Vec<StabilityRow> = rows.inspect(|_| progress()).collect();
             let refused = rows.iter().find_map(|row| row.refused.as_ref());
             match refused.filter(|_| context.solver.is_some()) {
                 Some(reason) => described.not_run(reason),

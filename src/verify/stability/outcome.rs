@@ -72,13 +72,10 @@ impl StabilityStudy {
         if let Some(sought) = &self.sought {
             return format!("limit of {sought}");
         }
-        let mut words: Vec<&str> = Vec::new();
-        for row in &self.rows {
-            let word = row.trial.as_ref().map_or("failed", |trial| trial.verdict.words());
-            if words.last() != Some(&word) {
-                words.push(word);
-            }
-        }
+        let trials = self.rows.iter().map(|row| row.trial.as_ref());
+        let words = trials.map(|trial| trial.map_or("failed", |trial| trial.verdict.words()));
+        let mut words: Vec<&str> = words.collect();
+        words.dedup();
         words.join(", ")
     }
 
