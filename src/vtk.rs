@@ -33,8 +33,7 @@ impl TensorRank {
 pub(crate) fn points(d: usize, positions: &[f64], fields: &[(TensorRank, StateField)]) -> Vec<u8> {
     let n = positions.len() / d.max(1);
     let mut file = VtkFile::default();
-    let line = format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n<Points>\n");
-    file.xml += &line;
+    file.xml += &format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n<Points>\n");
     file.numbers("position", TensorRank::Vector, d, positions);
     file.xml += "</Points>\n<Cells>\n";
     let count = |first: usize| (first..first + n).flat_map(|k| (k as u64).to_le_bytes());

@@ -53,9 +53,7 @@ impl LevelProblem {
             columns.iter().map(|(name, all)| ((*name).to_owned(), json!(all))).collect();
         format!("{document:#}\n")
     }
-}
 
-impl LevelProblem {
     /// Returns the number of components per particle of a column.
     fn width(&self, column: &[f64]) -> usize {
         column.len() / self.particles.len().max(1)
@@ -68,10 +66,6 @@ fn is_scalar(column: &str) -> bool {
 
 fn is_tensor(column: &str) -> bool {
     ["deformation_gradient", "stress", "initial_stress"].contains(&column)
-}
-
-fn is_across(column: &str) -> bool {
-    column == "initial_stress_across"
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -87,7 +81,8 @@ fn csv_table(problem: &LevelProblem) -> String {
             if is_tensor(name) {
                 format!("{name}_{}{}", AXES[k / d], AXES[k % d])
             } else {
-                format!("{name}_{}", AXES[if is_across(name) { d + k } else { k }])
+                let is_across = *name == "initial_stress_across";
+                format!("{name}_{}", AXES[if is_across { d + k } else { k }])
             }
         };
         if is_scalar(name) {

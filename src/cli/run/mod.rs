@@ -65,10 +65,8 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
     }
     if let Some(shard) = args.shard {
         if args.judged.programs.with_methods || solvers.len() > 1 {
-            return Err(CommandError::about(
-                "--shard",
-                "shards are supported for one solver, or for the built-in methods",
-            ));
+            let reason = "shards are supported for one solver, or for the built-in methods";
+            return Err(CommandError::about("--shard", reason));
         }
         runs = SuiteRuns::shard(runs, shard, extent(&args.report));
         if runs.is_empty() {

@@ -105,11 +105,8 @@ pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), Command
         if !cases.contains(case.as_str()) {
             let near = nearest(case, cases.iter().copied());
             let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            return Err(CommandError::option(
-                "--label",
-                case,
-                format!("no case has this name{hint}"),
-            ));
+            let reason = format!("no case has this name{hint}");
+            return Err(CommandError::option("--label", case, reason));
         }
         if !texts.insert(text) || cases.contains(text.as_str()) {
             return Err(CommandError::option("--label", text, "another case has this label"));

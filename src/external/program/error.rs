@@ -41,12 +41,6 @@ pub enum ProgramError {
     /// The output of the process cannot be read.
     #[error("output cannot be read: {0}")]
     Unreadable(io::Error),
-    /// The output ended within an answer or a block of bytes.
-    #[error("ended in the middle of {0}")]
-    Truncated(&'static str),
-    /// An answer is longer than this maximum number of bytes.
-    #[error("answered with more than {0} bytes")]
-    TooLong(usize),
     /// An answer contains a number that JSON does not support, such as NaN.
     #[error("answered with {0}, which is not a finite number")]
     NoNumber(&'static str),

@@ -115,8 +115,10 @@ pub(super) fn read_one(
     // The limit is loaded for each check, because it can change while a line is read.
     let check_size = |size: usize| {
         let most = longest.load(Ordering::Relaxed);
-        if size > most { Err(ProgramError::TooLong(most)) } else { Ok(()) }
+        let too_long = || ProgramError::Protocol(format!("answered with more than {most} bytes"));
+        if size > most { Err(too_long()) } else { Ok(()) }
     };
+    let truncated = |part| ProgramError::Protocol(format!("ended in the middle of {part}"));
     let mut frame = MessageFrame::default();
     loop {
         let part = output.fill_buf().map_err(ProgramError::Unreadable)?;
@@ -135,7 +137,7 @@ pub(super) fn read_one(
         return Ok(None);
     }
     if frame.line.pop_if(|last| *last == b'\n').is_none() {
-        return Err(ProgramError::Truncated("an answer"));
+        return Err(truncated("an answer"));
     }
     let following = announced(&frame.line);
     check_size(following)?;
@@ -143,7 +145,7 @@ pub(super) fn read_one(
     match output.read_exact(&mut frame.bytes) {
         Ok(()) => Ok(Some(frame)),
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
-            Err(ProgramError::Truncated("a block of bytes"))
+            Err(truncated("a block of bytes"))
         }
         Err(error) => Err(ProgramError::Unreadable(error)),
     }

@@ -2,7 +2,7 @@
 //! message must not matter.
 
 use super::force::ramp;
-use crate::external::ProblemNeeds;
+use crate::external::{LevelProblem, ProblemNeeds};
 use crate::testing::doctor::course::{
     AffineField, Course, Field, displacement, largest_difference, minus, shown, size, velocity,
 };
@@ -31,26 +31,23 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     })?;
     let (problem, _) = scene.problem()?;
     let stepwise = complete(patient.run_problem(&scene, problem.clone())?)?;
-    let mut findings: Vec<SolverFinding> = wrong_weights(&stepwise, &scene).into_iter().collect();
     let second = patient.run_problem(&scene, problem.clone())?;
-    if findings.is_empty() {
-        findings.extend(repeated(&stepwise, &second, patient));
-    }
-    if findings.is_empty() {
-        let mut at_once = problem;
-        at_once.instants = vec![STEPS];
+    let mut finding =
+        wrong_weights(&stepwise, &scene).or_else(|| repeated(&stepwise, &second, patient));
+    if finding.is_none() {
+        let at_once = LevelProblem { instants: vec![STEPS], ..problem };
         let at_once = patient.run_problem(&scene, at_once)?;
-        findings.extend(grouped(&stepwise, &at_once, patient, "at constant speed"));
-    }
-    if findings.is_empty() {
-        findings.extend(grouped_under_acceleration(patient, (scene.dimension, scene.law))?);
-    }
-    if findings.is_empty() {
-        let halved = BoxScene { dt: 0.5 * scene.dt, ..scene.clone() };
-        findings.extend(halved_step(&stepwise, &patient.run(&halved)?));
+        finding = grouped(&stepwise, &at_once, patient, "at constant speed");
     }
     let (n, d, law) = (stepwise.states[0].len(), scene.dimension, scene.law);
-    Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), findings))
+    if finding.is_none() {
+        finding = grouped_under_acceleration(patient, (d, law))?;
+    }
+    if finding.is_none() {
+        let halved = BoxScene { dt: 0.5 * scene.dt, ..scene };
+        finding = halved_step(&stepwise, &patient.run(&halved)?);
+    }
+    Ok(Examined::new(format!("{n} points in {d}-D, law {law}, {STEPS} steps"), finding))
 }
 
 /// Returns a finding if the weights of the points do not sum to the volume of the body. If the
@@ -137,17 +134,13 @@ fn grouped_under_acceleration(
     if is_manufactured {
         ramp(&mut problem);
     }
-    let mut at_once = problem.clone();
-    at_once.instants = vec![STEPS];
-    let stepwise = match patient.run_problem(&scene, problem) {
+    let at_once = LevelProblem { instants: vec![STEPS], ..problem.clone() };
+    let stepwise = match patient.run_problem(&scene, problem).and_then(complete) {
         Ok(stepwise) => stepwise,
+        // A failed run is not reported here, because other examinations report it.
         Err(Hindrance::Broke(_)) => return Ok(None),
         Err(lacks) => return Err(lacks),
     };
-    // A failed run is not reported here, because other examinations report it.
-    if stepwise.failure.is_some() {
-        return Ok(None);
-    }
     let at_once = complete(patient.run_problem(&scene, at_once)?)?;
     Ok(grouped(&stepwise, &at_once, patient, "under acceleration"))
 }
