@@ -22,8 +22,8 @@ objects! {
 
 /// Converts nodal momenta to velocities, and forces to accelerations.
 pub trait MassMatrix<const D: usize>: Send + Sync {
-    /// Assembles the matrix for new particle positions, if it does not consist of `grid.mass`, which
-    /// must be up to date. Returns the number of passes over the particles.
+    /// Assembles the matrix for new particle positions, if it does not consist of `grid.mass`,
+    /// which must be up to date. Returns the number of passes over the particles.
     ///
     /// # Errors
     /// [`Failure::Solve`] if the matrix is singular.

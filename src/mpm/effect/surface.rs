@@ -89,8 +89,8 @@ impl Surface {
         Self { layer, placement, axis, outwards, area, depth, column, is_integrated, below }
     }
 
-    /// Creates the outermost plane face of a mapped body along `axis` in the direction `outwards` (1
-    /// or -1). `None` for a body that is not a mapped box.
+    /// Creates the outermost plane face of a mapped body along `axis` in the direction `outwards`
+    /// (1 or -1). `None` for a body that is not a mapped box.
     fn mapped<const D: usize>(
         particles: &Particles<D>,
         axis: usize,

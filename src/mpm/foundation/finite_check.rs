@@ -35,8 +35,8 @@ impl<const D: usize> Particles<D> {
         first_matrix("stress", &self.sigma)
     }
 
-    /// Checks that `J = V / V0` of every particle is positive and finite, and updates the smallest J
-    /// of the run, `min_j`.
+    /// Checks that `J = V / V0` of every particle is positive and finite, and updates the smallest
+    /// J of the run, `min_j`.
     pub(in crate::mpm) fn volumes_positive(&self, min_j: &mut f64) -> Result<(), Failure> {
         for (p, (vol, vol0)) in self.vol.iter().zip(&self.vol0).enumerate() {
             let (j, site) = (vol / vol0, Site::Particle(p));

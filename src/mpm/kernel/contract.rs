@@ -20,8 +20,8 @@ pub trait Kernel<const D: usize>: Send + Sync {
     /// Computes all quantities of `request`, from particles to nodes, in one pass.
     fn p2g(&self, particles: &Particles<D>, request: &P2gRequest<'_, D>, grid: &mut Grid<D>);
 
-    /// Computes all quantities of `request`, from nodes to particles, in one pass. `field` takes the
-    /// place of the nodal velocities.
+    /// Computes all quantities of `request`, from nodes to particles, in one pass. `field` takes
+    /// the place of the nodal velocities.
     fn g2p_field(
         &self,
         grid: &Grid<D>,

@@ -184,8 +184,8 @@ mod tests {
         hold::<3>();
     }
 
-    /// Tests `P : dF = d(W_law + S0 : E)`. The energy of a law in rate form would require the stress
-    /// without S0.
+    /// Tests `P : dF = d(W_law + S0 : E)`. The energy of a law in rate form would require the
+    /// stress without S0.
     #[test]
     fn stress_is_the_derivative_of_the_energy() {
         fn hold<const D: usize>() {

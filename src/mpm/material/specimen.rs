@@ -131,9 +131,9 @@ pub(super) fn scattered<const D: usize>(size: f64, seed: f64) -> Matrix<D> {
     Matrix::from_fn(|i, j| size * libm::sin(seed + 7.0 * i as f64 + 11.3 * j as f64))
 }
 
-/// Extrapolates `rows`, computed with steps that halve from row to row, to step zero by Richardson's
-/// method in powers of the step: all powers for `base` 2, even powers for `base` 4. Also returns the
-/// observed order of the first component.
+/// Extrapolates `rows`, computed with steps that halve from row to row, to step zero by
+/// Richardson's method in powers of the step: all powers for `base` 2, even powers for `base` 4.
+/// Also returns the observed order of the first component.
 pub(super) fn richardson<const N: usize>(mut rows: Vec<Vector<N>>, base: i32) -> (Vector<N>, f64) {
     let change = |k: usize| rows[rows.len() - k][0] - rows[rows.len() - k - 1][0];
     let order = libm::log2(change(2) / change(1));

@@ -347,7 +347,7 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
 }
 
-type Dual = (f64, f64);
+type ValueAndSlope = (f64, f64);
 
 /// Computes the exact derivative of the functional at the end of the run with respect to a
 /// parameter of the problem. This is the total derivative. If the initial velocity of the suite
@@ -393,13 +393,17 @@ fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
 }
 
 /// Computes the square of a vector, with its derivative.
-fn square(vector: &[f64], slope: &[f64]) -> Dual {
+fn square(vector: &[f64], slope: &[f64]) -> ValueAndSlope {
     let both = vector.iter().zip(slope);
     both.fold((0.0, 0.0), |(sum, rise), (x, dx)| (sum + x * x, rise + 2.0 * x * dx))
 }
 
 /// Integrates a function over the body, with its derivative.
-fn integral(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
+fn integral(
+    motion: &ParametricMotion,
+    t: f64,
+    of: &dyn Fn(&ParametricState) -> ValueAndSlope,
+) -> ValueAndSlope {
     let states = motion.states(t);
     states.iter().fold((0.0, 0.0), |(sum, rise), (state, weight)| {
         let (value, slope) = of(state);
@@ -408,7 +412,11 @@ fn integral(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> 
 }
 
 /// Computes the mean of a function over the body, with its derivative.
-fn mean(motion: &ParametricMotion, t: f64, of: &dyn Fn(&ParametricState) -> Dual) -> Dual {
+fn mean(
+    motion: &ParametricMotion,
+    t: f64,
+    of: &dyn Fn(&ParametricState) -> ValueAndSlope,
+) -> ValueAndSlope {
     let (sum, slope) = integral(motion, t, of);
     let volume: f64 = motion.from.iter().zip(&motion.to).map(|(from, to)| to - from).product();
     (sum / volume, slope / volume)
