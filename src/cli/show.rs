@@ -1,7 +1,6 @@
 //! Prints information about suites, as one text page for each suite or as one JSON document.
 
-use super::output;
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use super::select::Found;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
