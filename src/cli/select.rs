@@ -24,24 +24,23 @@ pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
 }
 
 pub(super) fn with_sources(targets: &[PathBuf]) -> Vec<Found> {
-    // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
-    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
-    selected(targets).into_par_iter().map(|source| source.and_then(load)).collect()
+    load(targets, |source| source)
 }
 
-/// Loads the suites as [`with_sources`], without checking their solutions.
+/// Loads suites like [`with_sources`], without checking their solutions.
 pub(super) fn unchecked(targets: &[PathBuf]) -> Vec<Found> {
-    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
-    let sources = selected(targets).into_par_iter();
-    sources.map(|source| source.map(Source::trusted).and_then(load)).collect()
+    load(targets, Source::trusted)
 }
 
-fn selected(targets: &[PathBuf]) -> Sources {
-    if targets.is_empty() {
+fn load(targets: &[PathBuf], prepare: fn(Source) -> Source) -> Vec<Found> {
+    let sources = if targets.is_empty() {
         everything()
     } else {
         targets.iter().flat_map(|target| sources(target)).collect()
-    }
+    };
+    // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
+    let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
+    sources.into_par_iter().map(|source| source.map(prepare).and_then(load)).collect()
 }
 
 /// A suite with its text, or the error in the text.

@@ -116,7 +116,7 @@ fn folder_of_suites_replaces_the_built_in_ones() {
     assert!(folder.call(&["list", "oedometer"]).out.starts_with("oedometer: "));
 }
 
-/// A list does not check solutions, which takes ten times as long.
+/// A list does not check solutions.
 #[test]
 fn suite_with_a_wrong_solution_is_listed() {
     let wrong = BAR.replace("omega: \"5*pi\"", "omega: \"6*pi\"");
