@@ -216,7 +216,7 @@ mod tests {
         let (label, t) = ([0.3, 0.6], 0.2);
         let force = problem.manufactured_force(&label, t);
         let mut at_places = [[0.0; 3]];
-        Forcing::new(&problem, [label.as_slice()].into_iter()).at(t, &mut at_places, |b| b);
+        Forcing::new(&problem, [label.as_slice()].into_iter()).at(t, &mut at_places);
         assert_eq!(at_places[0], force);
         let now = problem.derivatives(&label, t);
         let stress = problem.divergence(&label, t, &now)[0];

@@ -169,7 +169,7 @@ mod tests {
         let force = problem.manufactured_force(&label, 0.2);
         assert!((force[0] - bare.manufactured_force(&label, 0.2)[0]).abs() > 0.1);
         let mut found = [[0.0; 3]];
-        Forcing::new(&problem, [label.as_slice()].into_iter()).at(0.2, &mut found, |b| b);
+        Forcing::new(&problem, [label.as_slice()].into_iter()).at(0.2, &mut found);
         assert_eq!(found[0], force);
     }
 

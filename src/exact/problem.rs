@@ -412,15 +412,15 @@ impl Forcing {
         Self { problem: problem.clone(), places, labels, shared }
     }
 
-    /// Writes the force (m/s2) at each position and time `t` (s), converted by `make`. Equals
+    /// Writes the force (m/s2) at each position and time `t` (s). Equals
     /// [`Problem::manufactured_force`]. Allocates only for shared forces.
-    pub fn at<T>(&mut self, t: f64, into: &mut [T], make: impl Fn([f64; 3]) -> T) {
+    pub fn at(&mut self, t: f64, into: &mut [[f64; 3]]) {
         let dimension = self.problem.dimension();
         let known =
             |(shared, at): &(Arc<SharedValues>, _)| shared.get(SharedQuantity::Force, *at, t);
         if let Some(known) = self.shared.as_ref().and_then(known) {
             for (force, known) in into.iter_mut().zip(known.chunks_exact(dimension)) {
-                *force = make(std::array::from_fn(|i| known.get(i).copied().unwrap_or(0.0)));
+                *force = std::array::from_fn(|i| known.get(i).copied().unwrap_or(0.0));
             }
             return;
         }
@@ -441,7 +441,7 @@ impl Forcing {
             if self.shared.is_some() {
                 found.extend_from_slice(&left[..dimension]);
             }
-            *force = make(left);
+            *force = left;
         }
         if let Some((shared, at)) = &self.shared {
             shared.put(SharedQuantity::Force, *at, t, &found);

@@ -232,7 +232,7 @@ fn the_force_of_a_run_is_the_force(
     let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
     let mut found = [[0.0; 3]; 5];
     for t in [0.0, 0.3, 0.7] {
-        forcing.at(t, &mut found, |force| force);
+        forcing.at(t, &mut found);
         for (label, found) in labels.iter().zip(found) {
             assert_eq!(found, problem.manufactured_force(label, t), "{label:?}, {t}");
         }
@@ -252,7 +252,7 @@ fn shared_values_are_bit_identical(#[values(1, 2, 3)] dimension: usize) {
         let mut forcing = Forcing::new(&problem, labels.iter().map(Vec::as_slice));
         let (mut found, mut moved) = ([[0.0; 3]; 5], vec![f64::NAN; 5 * dimension]);
         for t in times {
-            forcing.at(t, &mut found, |force| force);
+            forcing.at(t, &mut found);
             problem.displacements(dimension, &labels.concat(), t, &mut moved);
             for ((label, found), moved) in labels.iter().zip(found).zip(moved.chunks(dimension)) {
                 let expected = alone.manufactured_force(label, t);

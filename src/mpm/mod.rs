@@ -29,6 +29,7 @@ mod basis;
 mod boundary;
 mod effect;
 mod foundation;
+pub mod input;
 mod kernel;
 mod mass;
 pub mod material;

@@ -104,7 +104,7 @@ impl WaveRun<'_> {
         let level = self.plan.level(wave);
         let body = |own| Body::stated(scene, own, self.plan.lattice());
         let Some(solver) = self.context.solver else {
-            return Ok(perturbable(&[body(scene)], self.case.method, level)?);
+            return Ok(perturbable(vec![body(scene)], self.case.method, level)?);
         };
         let bare = unloaded(scene);
         let bodies: Vec<Body<'_>> = bare.iter().map(body).collect();
@@ -114,7 +114,7 @@ impl WaveRun<'_> {
             dt: level.dt,
             until: steps as f64 * level.dt,
             instants: (1..=steps).collect(),
-            particles: start(&bodies, level, &mut |_| ())?,
+            particles: start(bodies, level, &mut |_| ())?,
             initial: vec![Initial::stated(scene)],
             is_perturbed: false,
         };

@@ -34,8 +34,6 @@ mod words;
 
 use rules::Breach;
 
-const DISPATCH: &str = "src/study/setup/dispatch.rs";
-
 /// Fails with a list of `breaches`, the rule and its reason.
 fn hold(rule: &str, why: &str, breaches: &[Breach]) {
     let lines: Vec<String> =
@@ -89,18 +87,6 @@ fn rules_and_exceptions_concern_existing_files() {
         let needed = found.is_some_and(|source| source.lines > rules::MOST_LINES);
         assert!(needed, "{file} may be long ({reason}) but is not: take it off the list");
     }
-}
-
-#[test]
-fn only_dispatch_uses_both_solvers() {
-    let (sources, both): (_, [&[&str]; 2]) = (source::of_crate(), [&["Solver"], &["bar", "("]]);
-    hold(
-        "only src/study/setup/dispatch.rs mentions both `Solver` (MPM) and calls `bar` (FEM)",
-        "names become solvers in one place, so that a new solver is added in one place",
-        &rules::mentions(&sources, &both, DISPATCH),
-    );
-    let there = rules::mentions(&sources, &both, "nowhere");
-    assert!(!there.is_empty(), "{DISPATCH} no longer has `Solver` and `bar`: rename them here too");
 }
 
 #[test]

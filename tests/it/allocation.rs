@@ -119,8 +119,12 @@ fn mpm_holds_its_memory<const D: usize>(scheme: SchemeName, start: Start) {
         let drive = || -> VelocityField<D> { Box::new(|x, t| x * t) };
         let driven = PrescribedVelocity::on(&setup.particles, &[2, 3], drive());
         let mut forcing = forcing(&setup.particles.x0);
+        let mut forces = vec![[0.0; 3]; setup.particles.len()];
         let made = BodyForce::new(Box::new(move |t, _, b| {
-            forcing.at(t, b, |force| Vector::<D>::from_fn(|i, _| force[i]));
+            forcing.at(t, &mut forces);
+            for (b, force) in b.iter_mut().zip(&forces) {
+                *b = Vector::<D>::from_fn(|i, _| force[i]);
+            }
         }));
         let heat = heat(&mut setup.particles, (&setup.grid, method.0));
         setup.effects = vec![

@@ -1,9 +1,8 @@
 //! Initial state, loads and face conditions at points that a solver chooses.
 
-use crate::dimension::with_dimension;
 use crate::exact::Circle;
 use crate::external::{FieldError, FieldName, FieldPlaces, ProblemFields};
-use crate::mpm::{Block, Fragment, Matrix, Particles, Vector, complete_start};
+use crate::mpm::input::initial_stress;
 use crate::study::setup::initial_state::Initial;
 use crate::subject::PlaneState;
 use crate::suite::model::Scene;
@@ -80,7 +79,7 @@ impl SceneFields {
                 (0..at.bodies.len()).filter(|place| at.bodies[*place] == number).collect();
             let labels: Vec<&[f64]> =
                 places.iter().map(|place| &at.labels[place * d..(place + 1) * d]).collect();
-            let stress = with_dimension!(d, D => self.stress_of::<D>(number, &labels))?;
+            let stress = self.stress_of(number, &labels)?;
             for (place, stress) in places.iter().zip(stress.chunks_exact(d * d)) {
                 values[place * d * d..(place + 1) * d * d].copy_from_slice(stress);
             }
@@ -88,45 +87,23 @@ impl SceneFields {
         Ok(values)
     }
 
-    fn stress_of<const D: usize>(
-        &self,
-        number: usize,
-        labels: &[&[f64]],
-    ) -> Result<Vec<f64>, FieldError> {
+    fn stress_of(&self, number: usize, labels: &[&[f64]]) -> Result<Vec<f64>, FieldError> {
         let FieldBody { scene, initial } = self.body(number)?;
-        let undefined = |reason: String| {
-            FieldError::Undefined(format!("the initial stress is not defined there: {reason}"))
-        };
-        let is_revolved = self.scene.plane == PlaneState::Axisymmetric;
+        let plane = self.scene.plane;
         let axis = NEAR_AXIS * scene.size();
-        let fragment = |label: &&[f64]| {
-            let mut place = Vector::<D>::from_fn(|i, _| label[i]);
-            if is_revolved && !(place[0] >= axis) {
+        let place = |label: &&[f64]| {
+            let mut place = label.to_vec();
+            if plane == PlaneState::Axisymmetric && !(place[0] >= axis) {
                 place[0] = axis;
             }
-            Fragment { place, volume: 1.0, domain: Matrix::identity() }
+            place
         };
-        let fragments: Vec<Fragment<D>> = labels.iter().map(fragment).collect();
-        let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-        let none = Block { from, to, density: scene.density.largest() };
-        let mut particles = Particles::fill_where(&none, 1.0, 1, |_| false);
-        particles.add_fragments(&fragments, 1.0);
-        for (mass, label) in particles.mass.iter_mut().zip(labels) {
-            *mass = scene.density.at(label);
-        }
-        if is_revolved {
-            particles.revolve();
-        }
-        initial.put(&mut particles);
-        let law = scene.material.in_plane(self.scene.plane);
-        let law = law.ok_or_else(|| undefined("a law not supported in its plane".to_owned()))?;
-        let stressed = initial.stressed(law, &mut particles);
-        let mut law = stressed.map_err(|failure| undefined(failure.to_string()))?;
-        complete_start(&mut particles, law.as_mut())
-            .map_err(|failure| undefined(failure.to_string()))?;
-        // The matrix library stores columns; the protocol uses rows.
-        let rows = |sigma: &Matrix<D>| sigma.transpose().data.0;
-        Ok(particles.sigma.iter().flat_map(rows).flatten().collect())
+        let places: Vec<Vec<f64>> = labels.iter().map(place).collect();
+        let densities: Vec<f64> = labels.iter().map(|label| scene.density.at(label)).collect();
+        let initial = initial.clone().input();
+        initial_stress(&places, plane, &scene.material, &initial, &densities).map_err(|error| {
+            FieldError::Undefined(format!("the initial stress is not defined there: {error}"))
+        })
     }
 
     /// Returns the values of a load or a face condition, named `what` in messages, at each point.

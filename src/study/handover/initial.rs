@@ -251,7 +251,7 @@ impl BodyForceField for SceneForce {
         let mut forcing = Forcing::new(self.made.as_ref()?, labels.iter().copied());
         let (force, places) = (self.clone(), owned(bodies, labels));
         Some(Box::new(move |t, into| {
-            forcing.at(t, into, |made| made);
+            forcing.at(t, into);
             for (into, (body, label)) in into.iter_mut().zip(&places) {
                 *into = force.whole(*into, *body, label, t, &[0.0; 3]);
             }

@@ -1,15 +1,13 @@
 //! Computes the initial particles of a run, and their exact state at a later time.
 
-use crate::dimension::with_dimension;
 use crate::exact::Truth;
 use crate::external::ProblemParticles;
+use crate::mpm::input::{MpmMethod, initial_particles};
 use crate::mpm::{
-    BasisName, FrameName, MassName, SchemeName, Solver, TransferName, Vector, VolumeName,
-    det_of_rows,
+    BasisName, FrameName, MassName, SchemeName, TransferName, VolumeName, det_of_rows,
 };
-use crate::study::setup::body::{Body, setup};
+use crate::study::setup::body::{Body, scene_input};
 use crate::subject::{Perturbable, Precision, Start, SubjectError};
-use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
 
@@ -20,7 +18,7 @@ pub(super) fn particles(
     let bare = unloaded(&plan.scene);
     let body = |own| Body { manufactured: None, ..Body::of(plan, own) };
     let bodies: Vec<Body<'_>> = bare.iter().map(body).collect();
-    start(&bodies, level, &mut |_| ())
+    start(bodies, level, &mut |_| ())
 }
 
 /// Copies the bodies of a scene without their loads, which do not affect the initial state.
@@ -31,21 +29,12 @@ pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
 /// Creates the initial particles of all bodies; `disturb` may modify the state of each body. Each
 /// law computes the initial stress from the initial deformation.
 pub(crate) fn start(
-    bodies: &[Body<'_>],
-    level: LevelPlan,
-    disturb: &mut dyn FnMut(&mut dyn Perturbable),
-) -> Result<ProblemParticles, SubjectError> {
-    let dimension = bodies.first().map_or(1, |body| body.scene.dimension());
-    with_dimension!(dimension, D => started::<D>(bodies, level, disturb))
-}
-
-fn started<const D: usize>(
-    bodies: &[Body<'_>],
+    bodies: Vec<Body<'_>>,
     level: LevelPlan,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<ProblemParticles, SubjectError> {
     // A method is chosen that stores no state except that of the particles.
-    let method = Method::Mpm {
+    let method = MpmMethod {
         basis: BasisName::Linear,
         transfer: TransferName::Flip.into(),
         scheme: SchemeName::Usl,
@@ -55,48 +44,33 @@ fn started<const D: usize>(
         volume: VolumeName::Particle,
         precision: Precision::Double,
     };
-    let is_stressed = bodies.iter().any(|body| !body.own.initial_stress.is_none());
-    let is_stressed_across = bodies
-        .iter()
-        .any(|body| body.own.initial_stress.components().iter().any(|(i, ..)| *i >= D));
+    let d = bodies.first().map_or(1, |body| body.scene.dimension());
+    let stresses: Vec<_> = bodies.iter().map(|body| &body.own.initial_stress).collect();
+    let is_stressed = stresses.iter().any(|stress| !stress.is_none());
+    let is_stressed_across =
+        stresses.iter().any(|stress| stress.components().iter().any(|(i, ..)| *i >= d));
+    let tables = initial_particles(scene_input(bodies, level)?, method, disturb)?;
     let mut all = ProblemParticles::default();
-    for (number, body) in bodies.iter().enumerate() {
-        let mut solver = Solver::<D>::new(setup(body, method, level)?)?;
-        disturb(&mut solver);
-        let mut particles = solver.particles().clone();
-        // F is passed even if the law does not use it.
-        particles.track_deformation();
-        let flat = |vectors: &[Vector<D>]| vectors.iter().flatten().copied().collect::<Vec<_>>();
-        all.reference_position.extend(flat(&particles.x0));
-        all.position.extend(flat(&particles.x));
-        all.velocity.extend(flat(&particles.v));
-        all.mass.extend(&particles.mass);
-        all.reference_volume.extend(&particles.vol0);
-        all.volume.extend(&particles.vol);
-        for (into, tensors) in [
-            (&mut all.deformation_gradient, &particles.def_grad),
-            (&mut all.stress, &particles.sigma),
-        ] {
-            // The matrix library stores columns; the protocol uses rows.
-            into.extend(tensors.iter().flat_map(|tensor| tensor.transpose().data.0).flatten());
-        }
-        all.body.extend(vec![number as f64; particles.x0.len()]);
-        all.hoop_stress.extend(&particles.stress_across);
+    for (number, (table, initial_stress)) in tables.into_iter().zip(stresses).enumerate() {
         if is_stressed {
-            let stress = |x0: &Vector<D>| body.own.initial_stress.at(x0.as_slice());
-            let rows = |x0| {
-                let stress = stress(x0);
-                (0..D * D).map(move |k| stress[k / D][k % D])
-            };
-            all.initial_stress.extend(particles.x0.iter().flat_map(rows));
-            if is_stressed_across {
-                let normals = |x0| {
-                    let stress = stress(x0);
-                    (D..3).map(move |i| stress[i][i])
-                };
-                all.initial_stress_across.extend(particles.x0.iter().flat_map(normals));
+            for label in table.reference_position.chunks_exact(d) {
+                let stress = initial_stress.at(label);
+                all.initial_stress.extend((0..d * d).map(|k| stress[k / d][k % d]));
+                if is_stressed_across {
+                    all.initial_stress_across.extend((d..3).map(|i| stress[i][i]));
+                }
             }
         }
+        all.body.extend(vec![number as f64; table.mass.len()]);
+        all.reference_position.extend(table.reference_position);
+        all.position.extend(table.position);
+        all.velocity.extend(table.velocity);
+        all.mass.extend(table.mass);
+        all.reference_volume.extend(table.reference_volume);
+        all.volume.extend(table.volume);
+        all.deformation_gradient.extend(table.deformation_gradient);
+        all.stress.extend(table.stress);
+        all.hoop_stress.extend(table.hoop_stress);
     }
     Ok(all)
 }

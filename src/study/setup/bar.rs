@@ -47,14 +47,16 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     if stated.is_empty() && made.is_none() {
         return None;
     }
-    let mut forcing = None;
+    let (mut forcing, mut forces) = (None, Vec::new());
     Some(Box::new(move |t, (places, u), values| {
         match &made {
             None => values.fill(0.0),
             Some(made) => {
                 let labels = || places.iter().map(std::slice::from_ref);
                 let forcing = forcing.get_or_insert_with(|| Forcing::new(made, labels()));
-                forcing.at(t, values, |force| force[0]);
+                forces.resize(values.len(), [0.0; 3]);
+                forcing.at(t, &mut forces);
+                values.iter_mut().zip(&forces).for_each(|(value, force)| *value = force[0]);
             }
         }
         add_stated(&stated, t, places, u, values);

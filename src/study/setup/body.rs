@@ -1,21 +1,20 @@
-//! Converts the model of one body to solver inputs, in any number of dimensions.
+//! Converts the model of a body to data for the solvers.
 
 use super::initial_state::Initial;
 use crate::exact::heat::Conduction;
 use crate::exact::{CellQuadrature, Cut, Forcing, Piece, Problem, Random, join_small};
-use crate::mpm::{
-    BasisName, BodyForce, Boundary, Effect, Fragment, Grid, HeatSolver, Hoop, Kernel, Material,
-    Matrix, Particles, QuasiStatic, QuasiStaticSetup, Setup, Side, Vector, kernel,
+use crate::mpm::Side;
+use crate::mpm::input::{
+    BodyInput, CellLattice, Displace, EffectInput, FaceInput, ForceAt, FragmentInput, GridInput,
+    LatticeCell, MassAt, SceneInput, ShapeInput, WallInput,
 };
-use crate::subject::{PlaneState, SubjectError};
-use crate::suite::model::method::Method;
+use crate::subject::SubjectError;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::stability::LatticeEdits;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace, Suite};
-use crate::suite::scene::boundary::{FaceSite, build as build_boundary};
-use crate::suite::scene::lattice::{LatticeOffsets, block};
+use crate::suite::scene::lattice::{LatticeOffsets, lattice_ends};
 use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
-use crate::suite::scene::{cell_size, grid_axis, load, per_axis};
+use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::verify::Quantity;
 
 /// Model of a body at the start of a run.
@@ -54,168 +53,105 @@ impl<'a> Body<'a> {
         Self { scene, own, initial, manufactured: None, heat: None, judged: None, lattice }
     }
 
-    /// Creates the material law of the body, with its initial stress.
-    fn material<const D: usize>(
-        &self,
-        particles: &mut Particles<D>,
-    ) -> Result<Box<dyn Material<D>>, SubjectError> {
-        let law = self.own.material.in_plane(self.scene.plane);
-        let law = law.ok_or("a law not supported in its plane")?;
-        Ok(self.initial.stressed(law, particles)?)
+    /// Creates the data of the body on the cells of `level`.
+    fn input(self, level: LevelPlan) -> Result<BodyInput<'a>, SubjectError> {
+        let Self { scene, own, judged, .. } = self;
+        let h = cell_size(scene, level.cells);
+        let d = scene.dimension();
+        let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, d)).ok_or("MPM needs particles")?;
+        let effects = self.effects();
+        let LatticeEdits { shift, scatter, extra } = self.lattice;
+        Ok(BodyInput {
+            shape: shape(own, scene, h),
+            per_axis,
+            density: own.density.largest(),
+            mass: mass(own),
+            displace: displacement(shift, scatter),
+            extra,
+            material: own.material,
+            effects,
+            initial: self.initial.input(),
+            stores_deformation: judged.is_some_and(Quantity::needs_deformation_gradient),
+            samples_stress_across: judged.is_some_and(Quantity::needs_stress_across),
+        })
+    }
+
+    /// Creates the effects of the loads. A manufactured force comes before loads on sets.
+    fn effects(&self) -> Vec<EffectInput> {
+        let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));
+        let loads = &self.own.loads;
+        let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
+        let site = BodySite { heat: self.heat };
+        let made = self.manufactured.map(|problem| {
+            let force = ManufacturedForce { problem: problem.clone(), forcing: None };
+            EffectInput::BodyForce(Box::new(force))
+        });
+        let input = |load: &ListedLoad| load.input(&site);
+        whole.iter().map(input).chain(made).chain(sets.iter().map(input)).collect()
     }
 }
 
-/// Creates the solver inputs of `body` on the cells of `level`.
-pub(crate) fn setup<const D: usize>(
-    body: &Body<'_>,
-    method: Method,
+/// Creates the data of all `bodies` of one scene on the cells of `level`.
+pub(crate) fn scene_input(
+    bodies: Vec<Body<'_>>,
     level: LevelPlan,
-) -> Result<Setup<D>, SubjectError> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = method else {
-        return Err("not an MPM method".into());
-    };
-    let scene = body.scene;
-    let (kernel, grid, mut particles) = discretisation::<D>(body, basis, level)?;
-    if body.judged.is_some_and(Quantity::needs_deformation_gradient) {
-        particles.track_deformation();
-    }
-    body.initial.put(&mut particles);
-    let mut effects = effects_of(body, &grid, basis, &mut particles)?;
-    if scene.plane == PlaneState::Axisymmetric {
-        effects.insert(0, Box::new(Hoop::default()));
-    }
-    let material = body.material(&mut particles)?;
-    Ok(Setup {
-        kernel,
-        transfer: transfer.build(),
-        mass: crate::mpm::mass_matrix(mass),
-        frame,
-        volume,
-        material,
-        effects,
-        boundary: boundary(scene, &grid, basis),
-        grid,
-        particles,
-        scheme,
-        start,
+) -> Result<SceneInput<'_>, SubjectError> {
+    let scene = bodies.first().ok_or("the scene has no body")?.scene;
+    let bodies: Result<_, SubjectError> =
+        bodies.into_iter().map(|body| body.input(level)).collect();
+    Ok(SceneInput {
+        plane: scene.plane,
+        grid: grid(scene, cell_size(scene, level.cells)),
+        walls: walls(scene),
+        bodies: bodies?,
+        contact: scene.contact,
     })
 }
 
-fn discretisation<const D: usize>(
-    body: &Body<'_>,
-    basis: BasisName,
-    level: LevelPlan,
-) -> Result<(Box<dyn Kernel<D>>, Grid<D>, Particles<D>), SubjectError> {
-    let h = cell_size(body.scene, level.cells);
-    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let kernel = kernel::<D>(basis);
-    let grid = grid(body.scene, h, kernel.as_ref());
-    let mut particles = seeded_particles(body.own, &grid.origin, h, per_axis);
-    body.lattice.apply(&mut particles);
-    particles.samples_stress_across =
-        D == 2 && body.judged.is_some_and(Quantity::needs_stress_across);
-    if body.scene.plane == PlaneState::Axisymmetric {
-        particles.revolve();
-    }
-    Ok((kernel, grid, particles))
-}
-
-/// Creates the quasi-static solver of `plan`, which applies the load in `load_steps` steps.
-pub(crate) fn quasi_static<const D: usize>(
+/// Creates the data of all bodies of `plan` on the cells of `level`.
+pub(crate) fn plan_input(
     plan: &ConvergencePlan,
-    basis: BasisName,
     level: LevelPlan,
-    load_steps: u64,
-) -> Result<QuasiStatic<D>, SubjectError> {
-    let body = Body::of(plan, &plan.scene);
-    let (kernel, grid, mut particles) = discretisation::<D>(&body, basis, level)?;
-    let effects = effects_of(&body, &grid, basis, &mut particles)?;
-    let boundary = boundary(&plan.scene, &grid, basis);
-    let material = body.material(&mut particles)?;
-    Ok(QuasiStatic::new(QuasiStaticSetup {
-        grid,
-        particles,
-        kernel,
-        material,
-        effects,
-        boundary,
-        load_steps,
-    })?)
+) -> Result<SceneInput<'_>, SubjectError> {
+    scene_input(plan.scene.each().iter().map(|own| Body::of(plan, own)).collect(), level)
 }
 
-/// Creates the effects in the scene of `suite`, for `particles` and a `grid` of the caller.
+/// Creates the effects in the scene of `suite`.
 ///
 /// # Errors
-/// The reason why the effects cannot be created.
-pub fn effects<const D: usize>(
-    suite: &Suite,
-    grid: &Grid<D>,
-    basis: BasisName,
-    particles: &mut Particles<D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
+/// The suite is not a convergence study.
+pub fn effects(suite: &Suite) -> Result<Vec<EffectInput>, SubjectError> {
     let plan = suite.convergence().ok_or("the suite is not a convergence study")?;
-    let site = BodySite { grid, basis, heat: plan.heat_problem(), particles };
-    built(&plan.scene.loads, site)
+    let site = BodySite { heat: plan.heat_problem() };
+    Ok(plan.scene.loads.iter().map(|load| load.input(&site)).collect())
 }
 
-/// Creates the heat solver of a body at rest.
-pub(crate) fn conductor<const D: usize>(
-    plan: &ConvergencePlan,
-    basis: BasisName,
-    level: LevelPlan,
-) -> Result<HeatSolver<D>, SubjectError> {
-    let h = cell_size(&plan.scene, level.cells);
-    let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, D)).ok_or("MPM needs particles")?;
-    let kernel = kernel::<D>(basis);
-    let grid = grid(&plan.scene, h, kernel.as_ref());
-    let mut particles = seeded_particles(&plan.scene, &grid.origin, h, per_axis);
-    let site =
-        BodySite { grid: &grid, basis, heat: plan.heat_problem(), particles: &mut particles };
-    let effects = built(&plan.scene.loads, site)?;
-    Ok(HeatSolver::new(kernel, grid, particles, effects)?)
+/// The manufactured force of a problem, with the particle positions once they are known.
+struct ManufacturedForce {
+    problem: Problem,
+    forcing: Option<Forcing>,
 }
 
-fn manufactured_force<const D: usize>(
-    made: &Problem,
-    particles: &Particles<D>,
-) -> Box<dyn Effect<D>> {
-    let mut forcing = Forcing::new(made, particles.x0.iter().map(Vector::as_slice));
-    Box::new(BodyForce::new(Box::new(move |t, _, b| {
-        forcing.at(t, b, |force| Vector::from_fn(|i, _| force[i]));
-    })))
+impl ForceAt for ManufacturedForce {
+    fn prepare(&mut self, labels: &[&[f64]]) {
+        self.forcing = Some(Forcing::new(&self.problem, labels.iter().copied()));
+    }
+
+    fn write(&mut self, t: f64, _: &dyn Fn(usize) -> [f64; 3], into: &mut [[f64; 3]]) {
+        if let Some(forcing) = &mut self.forcing {
+            forcing.at(t, into);
+        }
+    }
 }
 
-/// Creates the grid of the suite. If the suite defines no grid, the grid covers the bounding box of
+/// Returns the grid of the scene. If the scene defines no grid, the grid covers the bounding box of
 /// the body, with additional cells outside free faces.
-fn grid<const D: usize>(scene: &Scene, h: f64, kernel: &dyn Kernel<D>) -> Grid<D> {
-    let axes: [(f64, f64); D] = std::array::from_fn(|axis| grid_axis(scene, axis, h));
-    let origin = Vector::from_fn(|axis, _| axes[axis].0);
-    let cells = axes.map(|(_, cells)| cells as usize);
-    kernel.grid(origin, h, cells, std::array::from_fn(|axis| periodic(scene, axis)))
-}
-
-/// Creates the effects of the body's loads. A manufactured force comes before loads on sets.
-fn effects_of<const D: usize>(
-    body: &Body<'_>,
-    grid: &Grid<D>,
-    basis: BasisName,
-    particles: &mut Particles<D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
-    let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));
-    let loads = &body.own.loads;
-    let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
-    let site = BodySite { grid, basis, heat: body.heat, particles };
-    let mut effects = built(whole, site)?;
-    effects.extend(body.manufactured.map(|made| manufactured_force(made, particles)));
-    effects.extend(built(sets, BodySite { grid, basis, heat: body.heat, particles })?);
-    Ok(effects)
-}
-
-fn built<const D: usize>(
-    loads: &[ListedLoad],
-    mut site: BodySite<'_, D>,
-) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
-    loads.iter().map(|load| Ok(load::build(load, &mut site)?)).collect()
+fn grid(scene: &Scene, h: f64) -> GridInput {
+    let axes = 0..scene.dimension();
+    let (origin, cells) = axes.clone().map(|axis| grid_axis(scene, axis, h)).unzip();
+    let counts = |cells: Vec<f64>| cells.into_iter().map(|cells| cells as usize).collect();
+    let periodic = axes.map(|axis| periodic(scene, axis)).collect();
+    GridInput { origin, h, cells: counts(cells), periodic }
 }
 
 /// Whether an axis is periodic. A round body has no faces and no periodic axes.
@@ -223,107 +159,83 @@ pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Creates boundary conditions on the faces of the grid. Conditions with higher priority come last,
+/// Lists the conditions on the faces of the grid. Conditions with higher priority come last,
 /// because later conditions override earlier ones at shared nodes.
-pub(crate) fn boundary<const D: usize>(
-    scene: &Scene,
-    grid: &Grid<D>,
-    basis: BasisName,
-) -> Vec<Box<dyn Boundary<D>>> {
+fn walls(scene: &Scene) -> Vec<WallInput> {
     let mut faces: Vec<&SceneFace> = scene.faces.iter().collect();
     faces.sort_by_key(|face| face.hold.kind().strength);
-    let build = |face: &SceneFace| {
+    let wall = |face: &SceneFace| {
         let side = if face.high { Side::High } else { Side::Low };
-        build_boundary(&face.hold, &FaceSite { grid, basis, at: (face.axis, side) })
+        let condition = face.hold.wall()?;
+        Some(WallInput { face: FaceInput { axis: face.axis, side }, condition })
     };
-    faces.into_iter().filter_map(build).collect()
+    faces.into_iter().filter_map(wall).collect()
 }
 
-/// Creates the particles of a scene on a grid with the origin `origin` and cells of size `h`.
-pub(crate) fn seeded_particles<const D: usize>(
-    scene: &Scene,
-    origin: &Vector<D>,
-    h: f64,
-    per_axis: usize,
-) -> Particles<D> {
-    if let Some(panel) = &scene.mapped {
-        return panel.fill(scene.density.largest(), h, per_axis);
+/// Returns the shape of a body in a grid with cells of size `h`.
+fn shape<'a>(own: &'a Scene, scene: &Scene, h: f64) -> ShapeInput<'a> {
+    if let Some(panel) = &own.mapped {
+        return ShapeInput::Panel(panel.clone());
     }
-    let block = block(scene, origin, h);
-    let Some(outline) = &scene.outline else {
-        let mut particles = Particles::fill(&block, h, per_axis);
-        weigh(scene, &mut particles);
-        return particles;
+    let Some(outline) = &own.outline else {
+        return ShapeInput::Box { from: own.from.clone(), to: own.to.clone() };
     };
-    let half = block.spacing(h, per_axis) * 0.5;
-    let centres: Vec<Vector<D>> = block.centres(h, per_axis).collect();
-    let cut = |centre: &Vector<D>| outline.cut(centre.as_slice(), half.as_slice());
-    let mut cuts: Vec<Cut> = centres.iter().map(cut).collect();
-    if let [x, y] = half.as_slice() {
-        let along = block.counts(h, per_axis)[0];
-        let place = |p: usize| [centres[p][0], centres[p][1]];
-        join_small(&mut cuts, along, [*x, *y], &place, &|label| outline.holds(label));
-    }
-    let mut fragments = Vec::new();
-    let mut all = cuts.iter();
-    let mut particles = Particles::fill_where(&block, h, per_axis, |_| match all.next() {
-        Some(Cut::Pieces(pieces)) => {
-            fragments.extend(pieces.iter().map(fragment));
-            false
+    let (from, to) = lattice_ends(own, scene, h);
+    let cut = |lattice: &CellLattice| {
+        let CellLattice { centres, half, along } = lattice;
+        let cut = |centre: &Vec<f64>| outline.cut(centre, half);
+        let mut cuts: Vec<Cut> = centres.iter().map(cut).collect();
+        if let [x, y] = half[..] {
+            let place = |p: usize| [centres[p][0], centres[p][1]];
+            join_small(&mut cuts, *along, [x, y], &place, &|label| outline.holds(label));
         }
-        cut => cut == Some(&Cut::Whole),
-    });
-    particles.add_fragments(&fragments, scene.density.largest());
-    weigh(scene, &mut particles);
-    particles
+        cuts.iter().map(lattice_cell).collect()
+    };
+    ShapeInput::Cells { from, to, cut: Box::new(cut) }
 }
 
-/// Sets each particle mass for a varying density: the density is integrated over the part of the
-/// particle's lattice cell that is inside the body.
-fn weigh<const D: usize>(scene: &Scene, particles: &mut Particles<D>) {
-    if scene.density.uniform().is_some() {
-        return;
-    }
-    let half = particles.spacing * 0.5;
-    let holds = |label: &[f64]| scene.outline.as_ref().is_none_or(|o| o.holds(label));
-    let cells = CellQuadrature::new(D);
-    for (mass, x0) in particles.mass.iter_mut().zip(&particles.x0) {
-        *mass = scene.density.mass(&cells, x0.as_slice(), half.as_slice(), holds);
-    }
-}
-
-/// Converts a piece of a body in the plane to a particle, with unit thickness along a third axis.
-fn fragment<const D: usize>(piece: &Piece) -> Fragment<D> {
-    let domain = piece.domain();
-    Fragment {
+fn lattice_cell(cut: &Cut) -> LatticeCell {
+    let fragment = |piece: &Piece| FragmentInput {
+        place: piece.place,
         volume: piece.volume,
-        place: Vector::from_fn(|i, _| piece.place.get(i).copied().unwrap_or(0.0)),
-        domain: Matrix::from_fn(|i, j| match (i, j) {
-            (0 | 1, 0 | 1) => domain[2 * i + j],
-            _ => 0.5 * f64::from(u8::from(i == j)),
-        }),
+        domain: piece.domain(),
+    };
+    match cut {
+        Cut::Nothing => LatticeCell::Empty,
+        Cut::Whole => LatticeCell::Whole,
+        Cut::Pieces(pieces) => LatticeCell::Parts(pieces.iter().map(fragment).collect()),
     }
 }
 
-impl LatticeEdits {
-    /// Shifts and perturbs the particles, and adds the extra particles.
-    pub(crate) fn apply<const D: usize>(&self, particles: &mut Particles<D>) {
-        let vector =
-            |numbers: &[f64]| Vector::<D>::from_fn(|i, _| numbers.get(i).copied().unwrap_or(0.0));
-        let shift = vector(&self.shift);
-        particles.x0.iter_mut().for_each(|x| *x += shift);
-        if !self.scatter.is_none() {
-            let LatticeOffsets { shift, perturb, seed } = &self.scatter;
-            let (shift, spacing) = (vector(shift), particles.spacing);
-            let mut random = Random::new(*seed);
-            for x in &mut particles.x0 {
-                let mut share = |axis: usize| shift[axis] + perturb * random.between(-1.0, 1.0);
-                *x += Vector::from_fn(|axis, _| share(axis) * spacing[axis]);
-            }
-        }
-        for place in &self.extra {
-            particles.add(vector(place));
-        }
-        particles.x.clone_from(&particles.x0);
+/// Returns the mass of a particle for a varying density: the density is integrated over the part of
+/// the particle's lattice cell that is inside the body.
+fn mass(scene: &Scene) -> Option<MassAt<'_>> {
+    if scene.density.uniform().is_some() {
+        return None;
     }
+    let holds = |label: &[f64]| scene.outline.as_ref().is_none_or(|o| o.holds(label));
+    let cells = CellQuadrature::new(scene.dimension());
+    Some(Box::new(move |x0, half| scene.density.mass(&cells, x0, half, holds)))
+}
+
+/// Returns the function that shifts and perturbs particle positions (m), for a given spacing (m).
+fn displacement(shift: Vec<f64>, scatter: LatticeOffsets) -> Option<Displace<'static>> {
+    if shift.is_empty() && scatter.is_none() {
+        return None;
+    }
+    let component = |numbers: &[f64], axis: usize| numbers.get(axis).copied().unwrap_or(0.0);
+    let mut random = Random::new(scatter.seed);
+    Some(Box::new(move |x, spacing| {
+        for (axis, x) in x.iter_mut().enumerate() {
+            *x += component(&shift, axis);
+        }
+        if scatter.is_none() {
+            return;
+        }
+        for (axis, x) in x.iter_mut().enumerate() {
+            let random = random.between(-1.0, 1.0);
+            let share = component(&scatter.shift, axis) + scatter.perturb * random;
+            *x += share * spacing[axis];
+        }
+    }))
 }

@@ -7,10 +7,10 @@
 
 use crate::exact::formula::Formula;
 use crate::exact::{Derivatives, InitialStress, Motion};
-use crate::mpm::{Material, Matrix, Particles, Prestressed, Vector, inverse};
-use crate::subject::Failure;
+use crate::mpm::input::{InitialState, StateInput, StressAt};
 use crate::suite::model::{ConvergencePlan, Scene};
 
+#[derive(Clone)]
 pub(crate) struct Initial {
     /// Exact motion from which the initial state is computed, if any.
     motion: Option<Motion>,
@@ -52,44 +52,18 @@ impl Initial {
         now
     }
 
-    /// Adds the initial stress of `particles`, if any, to `law`.
-    ///
-    /// # Errors
-    /// [`Failure::OutsideYieldSurface`] for a stress that violates the yield condition of `law`.
-    pub(crate) fn stressed<const D: usize>(
-        &self,
-        law: Box<dyn Material<D>>,
-        particles: &mut Particles<D>,
-    ) -> Result<Box<dyn Material<D>>, Failure> {
-        if self.stress.is_none() {
-            return Ok(law);
-        }
-        let stress = particles.x0.iter().map(|x0| {
-            let stress = self.stress.at(x0.as_slice());
-            Matrix::from_fn(|i, j| stress[i][j])
-        });
-        let stress: Vec<Matrix<3>> = stress.collect();
-        Ok(Box::new(Prestressed::new(law, &stress, particles)?))
-    }
-
-    pub(crate) fn put<const D: usize>(&self, particles: &mut Particles<D>) {
-        let states: Vec<Derivatives> =
-            particles.x0.iter().map(|x0| self.at(x0.as_slice())).collect();
-        for (v, now) in particles.v.iter_mut().zip(&states) {
-            *v = Vector::from_fn(|i, _| now.velocity[i]);
-        }
-        for (grad_v, now) in particles.grad_v.iter_mut().zip(&states) {
-            let f: Matrix<D> = Matrix::from_fn(|i, j| now.grad[i][j]) + Matrix::identity();
-            let rate = Matrix::from_fn(|i, j| now.grad_rate[i][j]);
-            // If F has no inverse, the solver rejects the initial state.
-            *grad_v = inverse(&f).map_or_else(Matrix::zeros, |inverse| rate * inverse);
-        }
-        if self.motion.is_some() || self.displacement.is_some() {
-            particles.deform(|p| {
-                let Derivatives { u, grad, .. } = &states[p];
-                let grad = Matrix::from_fn(|i, j| grad[i][j]);
-                (Vector::from_fn(|i, _| u[i]), Matrix::identity() + grad)
-            });
+    /// Converts the state to functions for the solver.
+    pub(crate) fn input(self) -> InitialState<'static> {
+        let is_displaced = self.motion.is_some() || self.displacement.is_some();
+        let stress = self.stress.clone();
+        InitialState {
+            motion: Box::new(move |label| {
+                let Derivatives { u, grad, velocity, grad_rate, .. } = self.at(label);
+                StateInput { u, grad, velocity, grad_rate }
+            }),
+            is_displaced,
+            stress: (!stress.is_none())
+                .then(|| -> StressAt<'_> { Box::new(move |x| stress.at(x)) }),
         }
     }
 }
@@ -98,7 +72,9 @@ impl Initial {
 mod tests {
     use super::*;
     use crate::exact::formula::{Expr, Scope};
-    use crate::mpm::{Block, MaterialPlan};
+    use crate::mpm::MaterialPlan;
+    use crate::mpm::input::initial_stress;
+    use crate::subject::PlaneState;
     use approx::assert_relative_eq;
     use rstest::rstest;
 
@@ -118,23 +94,22 @@ mod tests {
     #[case(MaterialPlan::Hencky { young: 100.0, poisson: 0.3 })]
     fn solver_and_exact_solution_have_the_same_initial_stress(#[case] plan: MaterialPlan) {
         let is_finite = plan.properties().depends_on_deformation_alone().is_ok();
-        let f = Matrix::<2>::new(1.1, 0.2, -0.3, 1.05);
         let grad = [[0.1, 0.2, 0.0], [-0.3, 0.05, 0.0], [0.0; 3]];
-        let started = |stress: InitialStress| {
-            let (from, to) = (Vector::zeros(), Vector::from_element(1.0));
-            let mut body = Particles::fill(&Block { from, to, density: 1.0 }, 1.0, 2);
+        let labels = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]].map(Vec::from);
+        let computed = |stress: InitialStress| {
             let initial = Initial { motion: None, displacement: None, velocity: None, stress };
-            let mut law = initial.stressed(plan.build(), &mut body).unwrap();
-            body.deform(|_| (Vector::zeros(), f));
-            law.start_deformed(&mut body).unwrap();
-            body
+            let mut initial = initial.input();
+            initial.motion = Box::new(move |_| StateInput { grad, ..StateInput::default() });
+            initial.is_displaced = true;
+            initial_stress(&labels, PlaneState::Strain, &plan, &initial, &[1.0; 4]).unwrap()
         };
-        let (with, without) = (started(stress()), started(InitialStress::default()));
-        for (p, label) in with.x0.iter().enumerate() {
-            let expected = stress().cauchy(label.as_slice(), &grad, is_finite);
-            let expected = Matrix::<2>::from_fn(|i, j| expected[i][j]);
-            let found = with.sigma[p] - without.sigma[p];
-            assert_relative_eq!(found, expected, epsilon = 1e-12);
+        let (with, without) = (computed(stress()), computed(InitialStress::default()));
+        for (p, label) in labels.iter().enumerate() {
+            let expected = stress().cauchy(label, &grad, is_finite);
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let added = with[4 * p + 2 * i + j] - without[4 * p + 2 * i + j];
+                assert_relative_eq!(added, expected[i][j], epsilon = 1e-12);
+            }
         }
     }
 }

@@ -56,7 +56,7 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
     let mut disturb = |subject: &mut dyn Perturbable| perturb(subject, setup);
-    let particles = start(&bodies(setup, &bare), setup.level, &mut disturb)?;
+    let particles = start(bodies(setup, &bare), setup.level, &mut disturb)?;
     let steps = setup.steps;
     let instants = (1..=steps).filter(|step| is_looked_at(*step, steps)).collect();
     let run = HandedRun {

@@ -4,7 +4,6 @@ use super::handed;
 use super::handed::{bodies, perturb};
 use crate::study::convergence::time_steps::ROUNDS;
 use crate::study::kind::RunContext;
-use crate::study::setup::body::Body;
 use crate::study::setup::dispatch::{perturbable, stable_time_step_of, with_ledger};
 use crate::study::time_series::ShownRun;
 use crate::subject::{Perturbable, Subject, SubjectError};
@@ -69,18 +68,19 @@ impl CaseRun<'_> {
     /// Returns the stable time step (s). For an external solver, the time in which a wave crosses a
     /// cell is used.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
-        let of_body = |body: &Body<'_>| match self.case.method {
-            Method::External { .. } => Ok(setup.level.h / body.own.wave_speed()),
-            method => stable_time_step_of(body, method, setup.level, ROUNDS),
-        };
-        let all = bodies(setup, setup.scene.each());
-        all.iter().try_fold(f64::INFINITY, |least, body| Ok(least.min(of_body(body)?)))
+        match self.case.method {
+            Method::External { .. } => Ok(setup.level.h / setup.scene.fastest_wave()),
+            method => {
+                let all = bodies(setup, setup.scene.each());
+                stable_time_step_of(all, method, setup.level, ROUNDS)
+            }
+        }
     }
 
     fn subject(&self, setup: &RunSetup) -> Result<Box<dyn Perturbable>, SubjectError> {
         let all = bodies(setup, setup.scene.each());
         let build = if setup.ledger { with_ledger } else { perturbable };
-        let mut subject = build(&all, self.case.method, setup.level)?;
+        let mut subject = build(all, self.case.method, setup.level)?;
         if setup.frozen {
             subject.fix_configuration();
         }

@@ -8,9 +8,8 @@
 
 use super::Scene;
 use super::grid_axis;
-use crate::dimension::with_dimension;
 use crate::exact::Cut;
-use crate::mpm::{Block, Vector};
+use crate::mpm::input::visit_lattice;
 
 /// Offsets of particles from their lattice points, as shares of the particle spacing.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,18 +29,17 @@ impl LatticeOffsets {
     }
 }
 
-/// Returns the box to fill with particles: the body itself if it is a box, otherwise whole cells of
-/// the grid that starts at `origin`.
-pub(crate) fn block<const D: usize>(scene: &Scene, origin: &Vector<D>, h: f64) -> Block<D> {
-    let node = |axis: usize, x: f64, round: fn(f64) -> f64| match scene.outline {
-        Some(_) => origin[axis] + round((x - origin[axis]) / h) * h,
-        None => x,
+/// Returns the corners (m) of the box to fill with particles: the body itself if it is a box,
+/// otherwise whole cells of the grid of `scene`, of size `h`.
+pub(crate) fn lattice_ends(body: &Scene, scene: &Scene, h: f64) -> (Vec<f64>, Vec<f64>) {
+    let node = |axis: usize, x: f64, round: fn(f64) -> f64| {
+        let origin = grid_axis(scene, axis, h).0;
+        if body.outline.is_some() { origin + round((x - origin) / h) * h } else { x }
     };
-    Block {
-        from: Vector::from_fn(|axis, _| node(axis, scene.from[axis], libm::floor)),
-        to: Vector::from_fn(|axis, _| node(axis, scene.to[axis], libm::ceil)),
-        density: scene.density.largest(),
-    }
+    let end = |ends: &[f64], round| {
+        ends.iter().enumerate().map(|(axis, x)| node(axis, *x, round)).collect()
+    };
+    (end(&body.from, libm::floor), end(&body.to, libm::ceil))
 }
 
 /// Whether a body with a free surface is smaller than one particle volume, for cell size `h`.
@@ -66,17 +64,13 @@ pub(crate) fn any_particle(
     mut holds: impl FnMut(&[f64], f64) -> bool,
 ) -> bool {
     let Some(outline) = &body.outline else { return false };
-    with_dimension!(body.dimension(), D => {
-        let origin = Vector::<D>::from_fn(|axis, _| grid_axis(scene, axis, h).0);
-        let block = block(body, &origin, h);
-        let half = block.spacing(h, per_axis) * 0.5;
-        let share = half.iter().map(|half| 2.0 * half).product::<f64>();
-        block.centres(h, per_axis).any(|centre| {
-            match outline.cut(centre.as_slice(), half.as_slice()) {
-                Cut::Nothing => false,
-                Cut::Whole => holds(centre.as_slice(), 1.0),
-                Cut::Pieces(all) => all.iter().any(|one| holds(&one.place, one.volume / share)),
-            }
-        })
+    let (from, to) = lattice_ends(body, scene, h);
+    visit_lattice((&from, &to), h, per_axis, &mut |centre, half| {
+        let cell = || half.iter().map(|half| 2.0 * half).product::<f64>();
+        match outline.cut(centre, half) {
+            Cut::Nothing => false,
+            Cut::Whole => holds(centre, 1.0),
+            Cut::Pieces(all) => all.iter().any(|one| holds(&one.place, one.volume / cell())),
+        }
     })
 }

@@ -1,9 +1,9 @@
 //! Converts formulas and numbers of loads and boundary conditions to functions for the built-in
 //! solver and to numbers for external solvers.
 
-use crate::exact::formula::{Formula, Number};
+use crate::exact::formula::Formula;
 use crate::exact::{Region, variables};
-use crate::mpm::{ScalarField, Vector, VelocityField};
+use crate::mpm::input::VectorOfTime;
 
 /// The numbers of a load or of a boundary condition.
 #[derive(Debug, Clone, Default)]
@@ -85,44 +85,33 @@ impl NumberField {
     }
 }
 
-/// Converts formulas of t, one for each component, to a function.
-pub(crate) fn of_time<const D: usize>(
-    formulas: &[Formula],
-) -> Box<dyn Fn(f64) -> Vector<D> + Send> {
+/// Converts formulas of t, one for each component, to a function that writes a vector.
+pub(crate) fn of_time(formulas: &[Formula]) -> VectorOfTime {
     let formulas = formulas.to_vec();
-    Box::new(move |t| Vector::from_fn(|i, _| formulas[i].eval(&[t])))
-}
-
-/// Converts formulas of the coordinates and t, one for each component, to a field.
-pub(crate) fn of_place_and_time<const D: usize>(formulas: &[Formula]) -> VelocityField<D> {
-    let formulas = formulas.to_vec();
-    Box::new(move |x: &Vector<D>, t| {
-        let variables = variables(x.as_slice(), t);
-        Vector::from_fn(|i, _| formulas[i].eval(&variables[..=D]))
+    Box::new(move |t, into| {
+        for (value, formula) in into.iter_mut().zip(&formulas) {
+            *value = formula.eval(&[t]);
+        }
     })
 }
 
-/// Converts a formula of the coordinates and t to a field.
-pub(crate) fn scalar<const D: usize>(formula: &Formula) -> ScalarField<D> {
-    let formula = formula.clone();
-    Box::new(move |x: &Vector<D>, t| formula.at(x.as_slice(), t))
+/// Converts formulas of the coordinates and t, one for each component, to a field.
+pub(crate) fn of_place_and_time(
+    formulas: &[Formula],
+) -> impl Fn(&[f64], f64, &mut [f64]) + Send + Sync + 'static {
+    let formulas = formulas.to_vec();
+    move |x, t, into| {
+        let variables = variables(x, t);
+        for (value, formula) in into.iter_mut().zip(&formulas) {
+            *value = formula.eval(&variables[..=x.len()]);
+        }
+    }
 }
 
-/// Evaluates a formula at the reference position `label` (m) and time `t`, for the displacement `u`
-/// (m). The formula need not depend on `u`.
-pub(crate) fn of_displacement<T: Number>(
-    formula: &Formula,
-    label: &[f64],
-    t: f64,
-    u: &[T; 3],
-) -> T {
-    let (d, place) = (label.len(), variables(label, t));
-    let mut all = [T::from(0.0); 7];
-    for (value, known) in all.iter_mut().zip(place) {
-        *value = T::from(known);
-    }
-    all[d + 1..][..d].copy_from_slice(&u[..d]);
-    formula.eval(&all[..formula.variables()])
+/// Converts a formula of the coordinates and t to a field.
+pub(crate) fn scalar(formula: &Formula) -> impl Fn(&[f64], f64) -> f64 + Send + 'static {
+    let formula = formula.clone();
+    move |x, t| formula.at(x, t)
 }
 
 pub(crate) fn sources(formulas: &[Formula]) -> String {

@@ -16,8 +16,10 @@ pub(crate) fn add<const D: usize>(
 ) {
     let source = Source::from_text("effect.yaml", suite(name, D, size)).unwrap();
     let suite = Suite::load(&source).unwrap_or_else(|diagnostic| panic!("{diagnostic}"));
-    let made = study::effects(&suite, &setup.grid, basis, &mut setup.particles).unwrap();
-    setup.effects.extend(made);
+    for effect in study::effects(&suite).unwrap() {
+        let effect = effect.build(&setup.grid, basis, &mut setup.particles);
+        setup.effects.push(effect.unwrap());
+    }
 }
 
 /// Creates a suite of the free body with the example of an effect, and of the effects that it

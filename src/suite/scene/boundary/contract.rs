@@ -1,9 +1,8 @@
 //! Boundary conditions on the faces of a body: their keys, and the compiled condition.
 
-use crate::dimension::in_every_dimension;
 use crate::exact::Condition;
 use crate::exact::formula::Formula;
-use crate::mpm::{BasisName, Boundary, Grid, Side};
+use crate::mpm::input::WallCondition;
 use crate::suite::evaluator::{SuitePath, coordinates_and_time};
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -52,27 +51,6 @@ impl FaceEntry<'_> {
         let variables = coordinates_and_time(self.dimension);
         self.path.vector(texts, self.dimension, &variables)
     }
-}
-
-/// A face of a D-dimensional grid, for which a condition is built.
-pub(crate) struct FaceSite<'a, const D: usize> {
-    pub(crate) grid: &'a Grid<D>,
-    pub(crate) basis: BasisName,
-    /// Axis of the normal, and the end of the axis at which the face lies.
-    pub(crate) at: (usize, Side),
-}
-
-/// Converts a condition of a scene to a condition of the solver.
-pub(crate) trait BuildBoundary<const D: usize> {
-    /// Returns the condition on the nodes of the face at `site`; `None` if the nodes are free.
-    fn build(&self, _site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
-        None
-    }
-}
-
-in_every_dimension! {
-    /// Implementation of [`BuildBoundary`] in every dimension.
-    BuildBoundaries: BuildBoundary
 }
 
 /// How a boundary condition lets a face move.
@@ -125,12 +103,17 @@ impl FaceKind {
 }
 
 /// Compiled boundary condition on the motion of one face of the body.
-pub(crate) trait BoundaryCondition: BuildBoundaries + Condition + 'static {
+pub(crate) trait BoundaryCondition: Condition + 'static {
     fn kind(&self) -> FaceKind;
 
     /// Returns the numbers for external solvers; empty if the name describes the condition fully.
     fn numbers(&self) -> LoadNumbers {
         LoadNumbers::default()
+    }
+
+    /// Returns the condition on the grid nodes of the face; `None` if the nodes are free.
+    fn wall(&self) -> Option<WallCondition> {
+        None
     }
 
     /// Returns the text for the report row of the face; empty for no row.
@@ -164,13 +147,4 @@ impl dyn BoundaryCondition {
     pub(crate) fn holds_all_components(&self) -> bool {
         self.kind().motion == FaceMotion::Stays { holds_all_components: true }
     }
-}
-
-/// Builds the condition in D dimensions on the nodes of the face at `site`.
-pub(crate) fn build<const D: usize>(
-    condition: &Arc<dyn BoundaryCondition>,
-    site: &FaceSite<'_, D>,
-) -> Option<Box<dyn Boundary<D>>> {
-    let condition: Arc<dyn BuildBoundaries> = condition.clone();
-    condition.in_dimension::<D>()?.build(site)
 }

@@ -1,8 +1,8 @@
 //! A face that does not move.
 
-use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion, FaceSite};
+use super::contract::{BoundaryCondition, FaceKind, FaceMotion};
 use crate::exact::{Condition, FacePoint, Violation};
-use crate::mpm::{Boundary, Fixed};
+use crate::mpm::input::WallCondition;
 
 /// The condition u = 0 on a face.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +19,8 @@ impl BoundaryCondition for FixedFace {
         let motion = FaceMotion::Stays { holds_all_components: true };
         FaceKind { strength: 3, ..FaceKind::new("fixed", "is fixed", motion) }
     }
-}
 
-impl<const D: usize> BuildBoundary<D> for FixedFace {
-    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
-        let (axis, side) = site.at;
-        Some(Box::new(Fixed::face(site.grid, axis, side)))
+    fn wall(&self) -> Option<WallCondition> {
+        Some(WallCondition::Fixed)
     }
 }

@@ -1,10 +1,8 @@
 //! A frictional wall: it resists compression and sliding, but not separation.
 
-use super::contract::{
-    BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceKind, FaceMotion, FaceSite,
-};
+use super::contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceKind, FaceMotion};
 use crate::exact::{Condition, FacePoint, Violation};
-use crate::mpm::{Boundary, Friction};
+use crate::mpm::input::WallCondition;
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -55,12 +53,9 @@ impl BoundaryCondition for FrictionFace {
     fn row(&self) -> String {
         format!("wall without tension, with the coefficient of friction {:.4}", self.0)
     }
-}
 
-impl<const D: usize> BuildBoundary<D> for FrictionFace {
-    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
-        let (axis, side) = site.at;
-        Some(Box::new(Friction::face(site.grid, axis, side, self.0)))
+    fn wall(&self) -> Option<WallCondition> {
+        Some(WallCondition::Friction(self.0))
     }
 }
 

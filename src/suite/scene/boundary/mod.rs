@@ -10,10 +10,10 @@ mod roller;
 pub(crate) mod thermal;
 mod velocity;
 
-pub(crate) use contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceSite, build};
+pub(crate) use contract::{BoundaryCondition, BoundaryKeys, FaceEntry};
 
 use crate::exact::{Condition, FacePoint, Violation};
-use contract::{BuildBoundary, FaceKind, FaceMotion};
+use contract::{FaceKind, FaceMotion};
 use fixed::FixedFace;
 
 /// Declares the names of conditions in suites. For example, the lines
@@ -86,8 +86,6 @@ impl BoundaryCondition for FreeFace {
     }
 }
 
-impl<const D: usize> BuildBoundary<D> for FreeFace {}
-
 /// The condition on the faces of a body with u = 0 everywhere.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FaceAtRest;
@@ -108,5 +106,3 @@ impl BoundaryCondition for FaceAtRest {
         String::new()
     }
 }
-
-impl<const D: usize> BuildBoundary<D> for FaceAtRest {}

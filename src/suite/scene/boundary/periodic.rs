@@ -1,6 +1,6 @@
 //! A face that coincides with the opposite face; the grid is periodic along this axis.
 
-use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion};
+use super::contract::{BoundaryCondition, FaceKind, FaceMotion};
 use crate::exact::{Condition, FacePoint, Violation};
 
 /// A face whose state equals that of the opposite face.
@@ -19,5 +19,3 @@ impl BoundaryCondition for PeriodicFace {
         FaceKind { is_lacked_by_fem: true, ..kind }
     }
 }
-
-impl<const D: usize> BuildBoundary<D> for PeriodicFace {}

@@ -1,8 +1,8 @@
 //! A face without normal motion and with frictionless sliding.
 
-use super::contract::{BoundaryCondition, BuildBoundary, FaceKind, FaceMotion, FaceSite};
+use super::contract::{BoundaryCondition, FaceKind, FaceMotion};
 use crate::exact::{Condition, FacePoint, Violation};
-use crate::mpm::{Boundary, Roller};
+use crate::mpm::input::WallCondition;
 
 /// The condition u . n = 0 on a face, without tangential traction.
 #[derive(Debug, Clone, Copy)]
@@ -22,11 +22,8 @@ impl BoundaryCondition for RollerFace {
         let motion = FaceMotion::Stays { holds_all_components: false };
         FaceKind { strength: 1, ..FaceKind::new("roller", "is a roller", motion) }
     }
-}
 
-impl<const D: usize> BuildBoundary<D> for RollerFace {
-    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
-        let (axis, side) = site.at;
-        Some(Box::new(Roller::face(site.grid, axis, side)))
+    fn wall(&self) -> Option<WallCondition> {
+        Some(WallCondition::Roller)
     }
 }

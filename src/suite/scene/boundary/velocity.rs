@@ -1,11 +1,9 @@
 //! A face with a prescribed velocity.
 
-use super::contract::{
-    BoundaryCondition, BoundaryKeys, BuildBoundary, FaceEntry, FaceKind, FaceMotion, FaceSite,
-};
+use super::contract::{BoundaryCondition, BoundaryKeys, FaceEntry, FaceKind, FaceMotion};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Violation};
-use crate::mpm::{Boundary, Prescribed};
+use crate::mpm::input::WallCondition;
 use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -51,12 +49,8 @@ impl BoundaryCondition for MovingFace {
     fn row(&self) -> String {
         format!("velocity = {}", value_with_unit(&self.0, "m/s"))
     }
-}
 
-impl<const D: usize> BuildBoundary<D> for MovingFace {
-    fn build(&self, site: &FaceSite<'_, D>) -> Option<Box<dyn Boundary<D>>> {
-        let (axis, side) = site.at;
-        let value = of_place_and_time(&self.0);
-        Some(Box::new(Prescribed::face(site.grid, site.basis, axis, side, value)))
+    fn wall(&self) -> Option<WallCondition> {
+        Some(WallCondition::Velocity(Arc::new(of_place_and_time(&self.0))))
     }
 }

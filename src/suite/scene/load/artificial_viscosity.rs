@@ -1,9 +1,10 @@
 //! Artificial viscosity: a pressure that resists compression, for shocks.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
-use crate::mpm::{ArtificialViscosity, Effect};
+use crate::mpm::ArtificialViscosity;
+use crate::mpm::input::EffectInput;
 use crate::subject::PlaneState;
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -77,12 +78,12 @@ impl SceneLoad for ViscosityLoad {
     fn disturbs_rest(&self) -> bool {
         false
     }
-}
 
-impl<const D: usize> BuildEffect<D> for ViscosityLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
         let Self { linear, quadratic, speed } = *self;
-        let length = site.grid.h;
-        Ok(Box::new(ArtificialViscosity { linear, quadratic, length, speed, q: Vec::new() }))
+        // The solver uses the cell size as length.
+        let viscosity =
+            ArtificialViscosity { linear, quadratic, length: 0.0, speed, q: Vec::new() };
+        EffectInput::ArtificialViscosity(viscosity)
     }
 }

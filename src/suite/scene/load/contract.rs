@@ -1,13 +1,11 @@
 //! Traits of loads. The implementations are in the other files of this folder.
 
-use crate::dimension::in_every_dimension;
 use crate::exact::heat::Conduction;
 use crate::exact::{Condition, Term};
 use crate::fem::TimeFunction;
 use crate::members::each_effect;
-use crate::mpm::{BasisName, Effect, Grid, Particles};
+use crate::mpm::input::EffectInput;
 use crate::named::named;
-use crate::subject::SubjectError;
 use crate::suite::scene::boundary::thermal::SceneHeat;
 use crate::suite::scene::numbers::LoadNumbers;
 use std::ops::Deref;
@@ -79,42 +77,17 @@ impl LoadTarget {
     }
 }
 
-/// A D-dimensional body for which effects are built.
-pub(crate) struct BodySite<'a, const D: usize> {
-    pub(crate) grid: &'a Grid<D>,
-    pub(crate) basis: BasisName,
+/// A body for which effects are created.
+pub(crate) struct BodySite<'a> {
     /// The heat problem that the exact temperature solves.
     pub(crate) heat: Option<&'a Conduction>,
-    pub(crate) particles: &'a mut Particles<D>,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(crate) enum BuildError {
-    #[error("the set `{0}` holds no particle")]
-    EmptySet(String),
-    #[error("there is no MPM in {0} dimensions")]
-    Dimension(usize),
-}
-
-impl From<BuildError> for SubjectError {
-    fn from(error: BuildError) -> Self {
-        Self::Unsupported(error.to_string())
-    }
-}
-
-/// Converts a load to an effect of the solver.
-pub(crate) trait BuildEffect<const D: usize> {
-    /// Builds the effect on the body at `site`.
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError>;
-}
-
-in_every_dimension! {
-    /// Implementation of [`BuildEffect`] in every dimension.
-    BuildEffects: BuildEffect
 }
 
 /// A load or effect of a scene, with all numbers computed.
-pub(crate) trait SceneLoad: BuildEffects + Term + 'static {
+pub(crate) trait SceneLoad: Term + 'static {
+    /// Converts the load to an effect of the solver.
+    fn input(&self, site: &BodySite<'_>) -> EffectInput;
+
     fn target(&self) -> LoadTarget {
         LoadTarget::Body
     }
@@ -167,13 +140,4 @@ impl Deref for ListedLoad {
     fn deref(&self) -> &Self::Target {
         self.load.as_ref()
     }
-}
-
-pub(crate) fn build<const D: usize>(
-    load: &ListedLoad,
-    site: &mut BodySite<'_, D>,
-) -> Result<Box<dyn Effect<D>>, BuildError> {
-    let load: Arc<dyn BuildEffects> = load.load.clone();
-    let load = load.in_dimension::<D>();
-    load.ok_or(BuildError::Dimension(D))?.build(site)
 }

@@ -1,10 +1,11 @@
 //! Mass-proportional damping: velocities decay at a given rate.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
-use crate::mpm::{Damping, Effect};
+use crate::mpm::Damping;
+use crate::mpm::input::EffectInput;
 use crate::suite::evaluator::shown;
 use crate::suite::scene::numbers::{LoadNumbers, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -69,11 +70,9 @@ impl SceneLoad for DampingLoad {
     fn rows(&self) -> Vec<(String, String)> {
         vec![("damping".to_owned(), with_unit(self.0.source(), "1/s"))]
     }
-}
 
-impl<const D: usize> BuildEffect<D> for DampingLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
         let rate = self.0.clone();
-        Ok(Box::new(Damping(Box::new(move |t| rate.eval(&[t])))))
+        EffectInput::Damping(Damping(Box::new(move |t| rate.eval(&[t]))))
     }
 }

@@ -1,9 +1,10 @@
 //! The keys of a load, and the context in which they are compiled.
 
-use super::contract::{BuildError, EffectName, LoadTarget, SceneLoad};
+use super::contract::{EffectName, LoadTarget, SceneLoad};
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::{Circle, Region};
-use crate::mpm::{Particles, Placement, Side};
+use crate::mpm::input::{FaceInput, SetInput};
+use crate::mpm::{Placement, Side};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{DISPLACEMENTS, SuitePath, coordinates_and_time, suggestion};
 use crate::suite::scene::Scene;
@@ -199,9 +200,9 @@ impl LoadedFace {
         (self.name.to_owned(), format!("{load}{place}"))
     }
 
-    /// Returns the axis of the normal, and the end of the axis at which the face lies.
-    pub(crate) fn place(self) -> (usize, Side) {
-        (self.number / 2, if self.number % 2 == 1 { Side::High } else { Side::Low })
+    pub(crate) fn place(self) -> FaceInput {
+        let side = if self.number % 2 == 1 { Side::High } else { Side::Low };
+        FaceInput { axis: self.number / 2, side }
     }
 }
 
@@ -222,17 +223,9 @@ impl LoadedSet {
         (format!("particle set `{name}`"), text)
     }
 
-    /// Returns the indices of the particles in the set.
-    pub(crate) fn members<const D: usize>(
-        &self,
-        particles: &Particles<D>,
-    ) -> Result<Vec<usize>, BuildError> {
-        let inside = |p: &usize| self.region.holds(particles.x0[*p].as_slice());
-        let members: Vec<usize> = (0..particles.len()).filter(inside).collect();
-        if members.is_empty() {
-            return Err(BuildError::EmptySet(self.region.name.clone()));
-        }
-        Ok(members)
+    pub(crate) fn input(&self) -> SetInput {
+        let region = self.region.clone();
+        SetInput { name: region.name.clone(), holds: Box::new(move |label| region.holds(label)) }
     }
 }
 

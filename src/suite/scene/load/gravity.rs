@@ -1,10 +1,10 @@
 //! Gravity: a uniform acceleration, constant or a function of time.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
-use crate::mpm::{Effect, Gravity};
+use crate::mpm::input::EffectInput;
 use crate::suite::scene::numbers::{LoadNumbers, of_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -51,10 +51,8 @@ impl SceneLoad for GravityLoad {
     fn rows(&self) -> Vec<(String, String)> {
         vec![("gravity".to_owned(), value_with_unit(&self.0, "m/s2"))]
     }
-}
 
-impl<const D: usize> BuildEffect<D> for GravityLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        Ok(Box::new(Gravity(of_time(&self.0))))
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        EffectInput::Gravity(of_time(&self.0))
     }
 }

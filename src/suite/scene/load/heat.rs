@@ -1,18 +1,18 @@
 //! Heat conduction.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
-use crate::mpm::{Effect, Heat, HeatSource, Particles, Side, ThermalBoundary, Vector};
+use crate::mpm::Side;
+use crate::mpm::input::{EffectInput, FaceInput, HeatInput, HeatSourceAt};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{SuitePath, coordinates_and_time};
 use crate::suite::scene::SceneFace;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::boundary::thermal::{
     HeatCondition, Insulated, PeriodicTemperature, SceneHeat, ThermalFace, ThermalSpec,
-    build as build_condition,
 };
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::by_face;
@@ -125,56 +125,83 @@ impl SceneLoad for SceneHeat {
     fn disturbs_rest(&self) -> bool {
         false
     }
-}
 
-impl<const D: usize> BuildEffect<D> for SceneHeat {
-    /// Builds the heat conduction, and initialises the particle temperatures.
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let start = initial::<D>(site.heat, self.initial.as_ref());
-        let heat = Heat::new(self.conductivity, self.capacity, site.particles, |x0| {
-            let TemperatureDerivatives { value, grad, .. } = start(x0.as_slice());
-            (value, Vector::from_fn(|axis, _| grad[axis]))
-        });
-        let heat = heat.with_faces(build_faces(&self.faces, site));
+    fn input(&self, site: &BodySite<'_>) -> EffectInput {
         let made = site.heat.filter(|problem| problem.manufactured);
-        let source = match (made, &self.source) {
-            (Some(made), _) => manufactured(made, site.particles),
-            (None, Some(formula)) => stated(formula),
-            (None, None) => return Ok(Box::new(heat)),
+        let source: Option<Box<dyn HeatSourceAt>> = match (made, &self.source) {
+            (Some(made), _) => {
+                Some(Box::new(ManufacturedSource { problem: made.clone(), forcing: None }))
+            }
+            (None, Some(formula)) => {
+                Some(Box::new(StatedSource { formula: formula.clone(), labels: Vec::new() }))
+            }
+            (None, None) => None,
         };
-        Ok(Box::new(heat.with_source(source)))
+        let condition = |face: &ThermalFace| {
+            let side = if face.high { Side::High } else { Side::Low };
+            Some((FaceInput { axis: face.axis, side }, face.condition.input()?))
+        };
+        EffectInput::Heat(HeatInput {
+            conductivity: self.conductivity,
+            capacity: self.capacity,
+            initial: Box::new(initial(self, site.heat)),
+            source,
+            faces: self.faces.iter().filter_map(condition).collect(),
+        })
     }
 }
 
-/// Returns the initial temperature: from the scene if stated there, otherwise from the exact
-/// solution.
-fn initial<const D: usize>(
+/// Returns the initial temperature (K) and its gradient (K/m): from the scene if stated there,
+/// otherwise from the exact solution.
+fn initial(
+    heat: &SceneHeat,
     problem: Option<&Conduction>,
-    stated: Option<&Formula>,
-) -> impl Fn(&[f64]) -> TemperatureDerivatives + use<D> {
-    let stated = stated.map(|formula| Temperature::new(formula.clone(), D));
-    let field = stated.or_else(|| Some(problem?.temperature.clone()));
+) -> impl Fn(&[f64]) -> (f64, [f64; 3]) + use<> {
+    let stated = heat.initial.clone();
+    let exact = problem.map(|problem| problem.temperature.clone());
     move |label| {
-        field
-            .as_ref()
-            .map_or_else(TemperatureDerivatives::default, |field| field.derivatives(label, 0.0))
+        let stated = stated.as_ref().map(|formula| Temperature::new(formula.clone(), label.len()));
+        let now = stated.as_ref().or(exact.as_ref()).map(|field| field.derivatives(label, 0.0));
+        let TemperatureDerivatives { value, grad, .. } = now.unwrap_or_default();
+        (value, grad)
     }
 }
 
-fn stated<const D: usize>(formula: &Formula) -> HeatSource<D> {
-    let formula = formula.clone();
-    Box::new(move |t, particles, into| {
-        let places = particles.x0.iter().zip(&particles.temperature);
-        for (into, (label, temperature)) in into.iter_mut().zip(places) {
-            *into = source_at(&formula, label.as_slice(), t, *temperature);
-        }
-    })
+/// A heat source given by a formula.
+struct StatedSource {
+    formula: Formula,
+    labels: Vec<Vec<f64>>,
 }
 
-/// Returns the heat source computed from the stated temperature.
-fn manufactured<const D: usize>(made: &Conduction, particles: &Particles<D>) -> HeatSource<D> {
-    let mut forcing = HeatForcing::new(made, particles.x0.iter().map(Vector::as_slice));
-    Box::new(move |t, _, into| forcing.at(t, into))
+impl HeatSourceAt for StatedSource {
+    fn prepare(&mut self, labels: &[&[f64]]) {
+        self.labels = labels.iter().map(|label| label.to_vec()).collect();
+    }
+
+    fn write(&mut self, t: f64, temperature: &[f64], into: &mut [f64]) {
+        for (into, (label, temperature)) in into.iter_mut().zip(self.labels.iter().zip(temperature))
+        {
+            *into = source_at(&self.formula, label, t, *temperature);
+        }
+    }
+}
+
+/// The heat source computed from the exact temperature.
+struct ManufacturedSource {
+    problem: Conduction,
+    forcing: Option<HeatForcing>,
+}
+
+impl HeatSourceAt for ManufacturedSource {
+    fn prepare(&mut self, labels: &[&[f64]]) {
+        self.forcing = Some(HeatForcing::new(&self.problem, labels.iter().copied()));
+    }
+
+    fn write(&mut self, t: f64, _: &[f64], into: &mut [f64]) {
+        if let Some(forcing) = &mut self.forcing {
+            forcing.at(t, into);
+        }
+    }
 }
 
 /// Compiles the conditions on all faces of the body. Faces without a stated condition are
@@ -218,23 +245,4 @@ fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result
     let message = format!("the {name} face {verb}, but heat can enter only at a face of the grid");
     let diagnostic = path.diagnostic_at_key(&message);
     Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
-}
-
-fn build_faces<const D: usize>(
-    faces: &[ThermalFace],
-    site: &BodySite<'_, D>,
-) -> Vec<ThermalBoundary<D>> {
-    let build = |face: &ThermalFace| {
-        let side = if face.high { Side::High } else { Side::Low };
-        let condition = build_condition(&face.condition)?;
-        Some(ThermalBoundary::new(
-            site.grid,
-            site.basis,
-            site.particles,
-            face.axis,
-            side,
-            condition,
-        ))
-    };
-    faces.iter().filter_map(build).collect()
 }

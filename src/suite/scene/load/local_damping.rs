@@ -1,9 +1,10 @@
 //! Local damping: opposes the motion with a share of the unbalanced force.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, StudyFacts};
 use crate::exact::Term;
-use crate::mpm::{Effect, LocalDamping};
+use crate::mpm::LocalDamping;
+use crate::mpm::input::EffectInput;
 use crate::suite::evaluator::shown;
 use crate::suite::scene::numbers::LoadNumbers;
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -75,10 +76,8 @@ impl SceneLoad for LocalDampingLoad {
     fn disturbs_rest(&self) -> bool {
         false
     }
-}
 
-impl<const D: usize> BuildEffect<D> for LocalDampingLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        Ok(Box::new(LocalDamping(self.0)))
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        EffectInput::LocalDamping(LocalDamping(self.0))
     }
 }

@@ -5,7 +5,7 @@ mod contract;
 mod entry;
 
 pub use contract::EffectName;
-pub(crate) use contract::{BodySite, ListedLoad, LoadTarget, build};
+pub(crate) use contract::{BodySite, ListedLoad, LoadTarget};
 pub(crate) use entry::{LoadEntry, LoadKeys, StudyFacts};
 
 use crate::members::each_effect;

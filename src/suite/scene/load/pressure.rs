@@ -1,11 +1,12 @@
 //! A pressure on a face of a box or a rim of a round body. The pressure follows the surface.
 
-use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
+use super::contract::{BodySite, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Circle, Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
-use crate::mpm::{Effect, Placement, Pressure, RimCircle, Side};
+use crate::mpm::input::{EffectInput, FaceInput, PressedPart};
+use crate::mpm::{Placement, RimCircle, Side};
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::face_or_rim;
 use crate::suite::scene::numbers::{LoadNumbers, scalar, with_unit};
@@ -28,7 +29,7 @@ pub(crate) struct PressureSpec {
 }
 
 #[derive(Debug)]
-enum PressedPart {
+enum PressedSite {
     Face(LoadedFace, Placement),
     Rim(Circle),
 }
@@ -45,9 +46,9 @@ impl LoadKeys for PressureSpec {
                 let diagnostic = entry.path.then("at").diagnostic(message);
                 return Err(diagnostic.with_help("remove `at`"));
             }
-            PressedPart::Rim(entry.free_rim(&self.on)?)
+            PressedSite::Rim(entry.free_rim(&self.on)?)
         } else {
-            PressedPart::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
+            PressedSite::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
         };
         let value = entry.scalar(&entry.path.then("value"), &self.value)?;
         Ok(Arc::new(PressureLoad { site, value }))
@@ -65,15 +66,15 @@ impl LoadKeys for PressureSpec {
 /// A pressure (Pa, per current area), a formula of the coordinates and t.
 #[derive(Debug)]
 struct PressureLoad {
-    site: PressedPart,
+    site: PressedSite,
     value: Formula,
 }
 
 impl Term for PressureLoad {
     fn pressed_rim(&self) -> Option<(usize, &Formula)> {
         match &self.site {
-            PressedPart::Face(..) => None,
-            PressedPart::Rim(circle) => Some((circle.number, &self.value)),
+            PressedSite::Face(..) => None,
+            PressedSite::Rim(circle) => Some((circle.number, &self.value)),
         }
     }
 }
@@ -90,8 +91,8 @@ impl Condition for PressureLoad {
 impl SceneLoad for PressureLoad {
     fn target(&self) -> LoadTarget {
         match &self.site {
-            PressedPart::Face(face, _) => LoadTarget::Face(face.number),
-            PressedPart::Rim(circle) => LoadTarget::Rim(circle.number),
+            PressedSite::Face(face, _) => LoadTarget::Face(face.number),
+            PressedSite::Rim(circle) => LoadTarget::Rim(circle.number),
         }
     }
 
@@ -103,8 +104,8 @@ impl SceneLoad for PressureLoad {
         let pressure = with_unit(self.value.source(), "Pa");
         let pressure = format!("pressure = {pressure}, normal to the deformed");
         vec![match &self.site {
-            PressedPart::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
-            PressedPart::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),
+            PressedSite::Face(face, placement) => face.row(&format!("{pressure} face"), *placement),
+            PressedSite::Rim(circle) => (format!("{} rim", circle.name), format!("{pressure} rim")),
         }]
     }
 
@@ -113,8 +114,8 @@ impl SceneLoad for PressureLoad {
     }
 
     fn traction(&self, values: &[f64]) -> Vec<f64> {
-        let PressedPart::Face(face, _) = &self.site else { return Vec::new() };
-        let (normal, side) = face.place();
+        let PressedSite::Face(face, _) = &self.site else { return Vec::new() };
+        let FaceInput { axis: normal, side } = face.place();
         let inwards = if side == Side::High { -1.0 } else { 1.0 };
         let component = |axis| if axis == normal { inwards * self.value.eval(values) } else { 0.0 };
         (0..values.len() - 1).map(component).collect()
@@ -126,20 +127,15 @@ impl SceneLoad for PressureLoad {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))
     }
-}
 
-impl<const D: usize> BuildEffect<D> for PressureLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let value = scalar(&self.value);
-        Ok(Box::new(match &self.site {
-            PressedPart::Face(face, placement) => {
-                let (axis, side) = face.place();
-                Pressure::at(site.particles, axis, side, *placement, value)
-            }
-            PressedPart::Rim(Circle { centre, radius, outwards, .. }) => {
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        let part = match &self.site {
+            PressedSite::Face(face, placement) => PressedPart::Face(face.place(), *placement),
+            PressedSite::Rim(Circle { centre, radius, outwards, .. }) => {
                 let (centre, radius, outwards) = (*centre, *radius, *outwards);
-                Pressure::on_rim(site.particles, &RimCircle { centre, radius, outwards }, value)
+                PressedPart::Rim(RimCircle { centre, radius, outwards })
             }
-        }))
+        };
+        EffectInput::Pressure { part, value: Box::new(scalar(&self.value)) }
     }
 }

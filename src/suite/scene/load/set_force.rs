@@ -1,10 +1,10 @@
 //! A total force on a set of particles.
 
-use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
+use super::contract::{BodySite, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::Term;
 use crate::exact::formula::Formula;
-use crate::mpm::{Effect, SetForce};
+use crate::mpm::input::EffectInput;
 use crate::subject::PlaneState;
 use crate::suite::scene::numbers::{LoadNumbers, of_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -80,11 +80,8 @@ impl SceneLoad for SetForceLoad {
     fn rows(&self) -> Vec<(String, String)> {
         vec![self.set.row(&format!("total force = {}", value_with_unit(&self.value, "N")))]
     }
-}
 
-impl<const D: usize> BuildEffect<D> for SetForceLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let members = self.set.members(site.particles)?;
-        Ok(Box::new(SetForce::on(site.particles, &members, of_time(&self.value))))
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        EffectInput::SetForce(self.set.input(), of_time(&self.value))
     }
 }

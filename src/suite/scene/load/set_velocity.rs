@@ -1,10 +1,10 @@
 //! A prescribed velocity of a set of particles.
 
-use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
+use super::contract::{BodySite, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedSet};
 use crate::exact::formula::Formula;
 use crate::exact::{Region, Term};
-use crate::mpm::{Effect, PrescribedVelocity};
+use crate::mpm::input::EffectInput;
 use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -57,15 +57,9 @@ impl SceneLoad for SetVelocityLoad {
     fn rows(&self) -> Vec<(String, String)> {
         vec![self.set.row(&format!("velocity = {}", value_with_unit(&self.value, "m/s")))]
     }
-}
 
-impl<const D: usize> BuildEffect<D> for SetVelocityLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let members = self.set.members(site.particles)?;
-        Ok(Box::new(PrescribedVelocity::on(
-            site.particles,
-            &members,
-            of_place_and_time(&self.value),
-        )))
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        let value = Box::new(of_place_and_time(&self.value));
+        EffectInput::PrescribedVelocity(self.set.input(), value)
     }
 }

@@ -1,9 +1,9 @@
 //! Thermal expansion: strain due to temperature.
 
-use super::contract::{BodySite, BuildEffect, BuildError, SceneLoad};
+use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::{Expansion, Term};
-use crate::mpm::{Effect, ThermalExpansion};
+use crate::mpm::input::EffectInput;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -95,16 +95,9 @@ impl SceneLoad for ExpansionLoad {
     fn disturbs_rest(&self) -> bool {
         false
     }
-}
 
-impl<const D: usize> BuildEffect<D> for ExpansionLoad {
-    fn build(&self, _: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
         let Self(Expansion { coefficient, reference }, rate_form) = *self;
-        Ok(Box::new(match rate_form {
-            None => ThermalExpansion::of_deformation(coefficient, reference),
-            Some((young, poisson)) => {
-                ThermalExpansion::in_rate_form(coefficient, reference, young, poisson)
-            }
-        }))
+        EffectInput::ThermalExpansion { coefficient, reference, rate_form }
     }
 }

@@ -1,11 +1,12 @@
 //! A traction on a face of a box.
 
-use super::contract::{BodySite, BuildEffect, BuildError, LoadTarget, SceneLoad};
+use super::contract::{BodySite, LoadTarget, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys, LoadedFace};
 use crate::exact::formula::Formula;
 use crate::exact::{Condition, FacePoint, Term, Violation};
 use crate::fem::TimeFunction;
-use crate::mpm::{Effect, Placement, Traction};
+use crate::mpm::Placement;
+use crate::mpm::input::EffectInput;
 #[cfg(feature = "schemas")]
 use crate::suite::scene::face::face_name;
 use crate::suite::scene::numbers::{LoadNumbers, of_place_and_time, value_with_unit};
@@ -87,11 +88,9 @@ impl SceneLoad for TractionLoad {
         let value = self.value.first()?.clone();
         Some(Box::new(move |t| outwards * value.eval(&[x, t])))
     }
-}
 
-impl<const D: usize> BuildEffect<D> for TractionLoad {
-    fn build(&self, site: &mut BodySite<'_, D>) -> Result<Box<dyn Effect<D>>, BuildError> {
-        let ((axis, side), value) = (self.face.place(), of_place_and_time(&self.value));
-        Ok(Box::new(Traction::at(site.particles, axis, side, self.placement, value)))
+    fn input(&self, _: &BodySite<'_>) -> EffectInput {
+        let value = Box::new(of_place_and_time(&self.value));
+        EffectInput::Traction { face: self.face.place(), placement: self.placement, value }
     }
 }

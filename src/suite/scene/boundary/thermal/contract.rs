@@ -1,10 +1,9 @@
 //! Heat conduction in a scene, and thermal conditions on faces: their keys, and the compiled
 //! condition.
 
-use crate::dimension::in_every_dimension;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFace, ThermalCondition};
-use crate::mpm::Thermal;
+use crate::mpm::input::ThermalInput;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
@@ -49,26 +48,13 @@ impl ThermalFace {
     }
 }
 
-/// Converts a thermal condition of a scene to a condition of the solver.
-pub(crate) trait BuildThermal<const D: usize> {
-    /// Returns the condition; `None` if no heat enters.
-    fn build(&self) -> Option<Thermal<D>> {
+/// A thermal condition on one face of the body, with all numbers computed.
+pub(crate) trait HeatCondition: ThermalCondition + 'static {
+    /// Returns the condition for the solver; `None` if no heat enters.
+    fn input(&self) -> Option<ThermalInput> {
         None
     }
-}
 
-in_every_dimension! {
-    /// Implementation of [`BuildThermal`] in every dimension.
-    BuildThermals: BuildThermal
-}
-
-/// A thermal condition on one face of the body, with all numbers computed.
-pub(crate) trait HeatCondition: BuildThermals + ThermalCondition + 'static {
     /// Returns the text for the report row of the face; `None` for a periodic face.
     fn row(&self) -> Option<String>;
-}
-
-pub(crate) fn build<const D: usize>(condition: &Arc<dyn HeatCondition>) -> Option<Thermal<D>> {
-    let condition: Arc<dyn BuildThermals> = condition.clone();
-    condition.in_dimension::<D>()?.build()
 }

@@ -1,10 +1,10 @@
 //! A face that exchanges heat with its surroundings by Newton's law of cooling.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::Thermal;
+use crate::mpm::input::ThermalInput;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -52,11 +52,10 @@ impl HeatCondition for Convection {
         let ambient = with_unit(ambient.source(), "K");
         Some(format!("convection, {coefficient} W/(m2 K), ambient temperature = {ambient}"))
     }
-}
 
-impl<const D: usize> BuildThermal<D> for Convection {
-    fn build(&self) -> Option<Thermal<D>> {
+    fn input(&self) -> Option<ThermalInput> {
         let (coefficient, ambient) = (self.coefficient, scalar(&self.ambient));
-        Some(Thermal::Inflow(Box::new(move |x, t, value| coefficient * (ambient(x, t) - value))))
+        let flow = move |x: &[f64], t, value| coefficient * (ambient(x, t) - value);
+        Some(ThermalInput::Inflow(Box::new(flow)))
     }
 }

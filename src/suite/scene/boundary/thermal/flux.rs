@@ -1,10 +1,10 @@
 //! A face with a prescribed heat flux.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::Thermal;
+use crate::mpm::input::ThermalInput;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -37,11 +37,9 @@ impl HeatCondition for GivenFlux {
     fn row(&self) -> Option<String> {
         Some(format!("heat flux = {} into the body", with_unit(self.0.source(), "W/m2")))
     }
-}
 
-impl<const D: usize> BuildThermal<D> for GivenFlux {
-    fn build(&self) -> Option<Thermal<D>> {
+    fn input(&self) -> Option<ThermalInput> {
         let value = scalar(&self.0);
-        Some(Thermal::Inflow(Box::new(move |x, t, _| value(x, t))))
+        Some(ThermalInput::Inflow(Box::new(move |x, t, _| value(x, t))))
     }
 }

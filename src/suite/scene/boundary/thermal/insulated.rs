@@ -1,6 +1,6 @@
 //! Faces without heat flux from outside: insulated faces and periodic faces.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
 use crate::suite::scene::boundary::FaceEntry;
@@ -33,8 +33,6 @@ impl HeatCondition for Insulated {
     }
 }
 
-impl<const D: usize> BuildThermal<D> for Insulated {}
-
 /// A face with the temperature and heat flux of the opposite face.
 #[derive(Debug)]
 pub(crate) struct PeriodicTemperature;
@@ -50,5 +48,3 @@ impl HeatCondition for PeriodicTemperature {
         None
     }
 }
-
-impl<const D: usize> BuildThermal<D> for PeriodicTemperature {}

@@ -8,7 +8,7 @@ mod insulated;
 mod temperature;
 
 pub use contract::SceneHeat;
-pub(crate) use contract::{HeatCondition, ThermalFace, ThermalKeys, build};
+pub(crate) use contract::{HeatCondition, ThermalFace, ThermalKeys};
 pub(crate) use insulated::{Insulated, PeriodicTemperature};
 
 use super::conditions;

@@ -1,10 +1,10 @@
 //! A face with a prescribed temperature.
 
-use super::contract::{BuildThermal, HeatCondition, ThermalKeys};
+use super::contract::{HeatCondition, ThermalKeys};
 use crate::exact::Violation;
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFacePoint, ThermalCondition};
-use crate::mpm::Thermal;
+use crate::mpm::input::ThermalInput;
 use crate::suite::scene::boundary::FaceEntry;
 use crate::suite::scene::numbers::{scalar, with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -36,10 +36,8 @@ impl HeatCondition for GivenTemperature {
     fn row(&self) -> Option<String> {
         Some(format!("temperature = {}", with_unit(self.0.source(), "K")))
     }
-}
 
-impl<const D: usize> BuildThermal<D> for GivenTemperature {
-    fn build(&self) -> Option<Thermal<D>> {
-        Some(Thermal::Temperature(scalar(&self.0)))
+    fn input(&self) -> Option<ThermalInput> {
+        Some(ThermalInput::Temperature(Box::new(scalar(&self.0))))
     }
 }
