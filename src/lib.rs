@@ -121,7 +121,6 @@ pub mod prelude;
 pub mod testing;
 
 mod dimension;
-mod members;
 mod named;
 mod nearest;
 mod vtk;

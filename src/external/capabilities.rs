@@ -1,6 +1,5 @@
 //! Capabilities of solvers, requirements of problems, and the names that both use.
 
-use crate::members::{each_effect, each_material};
 use crate::nearest::nearest;
 use serde::{Deserialize, Serialize};
 
@@ -224,27 +223,39 @@ impl ProblemNeeds {
 /// `linear_elastic`.
 pub(crate) const SMALL_STRAIN: &str = "small_strain";
 
-/// Declares the names of the materials, from the lines of [`each_material`](crate::members).
-macro_rules! laws {
-    ($($name:literal => $file:ident::$law:ident {$($parameters:tt)*}
-        $(, truth $truth_file:ident::$truth:ident)?;)+
-    ) => {
-        const LAWS: &[&str] = &[$($name,)+ SMALL_STRAIN];
-    };
-}
+/// Names of the laws in suites.
+const LAWS: &[&str] = &[
+    "linear_elastic",
+    "jaumann",
+    "green_naghdi",
+    "neo_hookean",
+    "hencky",
+    "corotated",
+    "j2",
+    "drucker_prager",
+    "mohr_coulomb",
+    "cam_clay",
+    "newtonian",
+    "linear_fluid",
+    "polytropic",
+    "rigid",
+    SMALL_STRAIN,
+];
 
-each_material!(laws);
-
-/// Declares the names of the loads and effects, from the lines of [`each_effect`](crate::members).
-macro_rules! loads {
-    ($($(#[$meta:meta])* $member:ident = $name:literal => $file:ident::$spec:ident
-        $(, effect $effect_file:ident::$effect:ident)? $(, needs [$($need:ident),+])?;)+
-    ) => {
-        const LOADS: &[&str] = &[$($name),+];
-    };
-}
-
-each_effect!(loads);
+/// Names of the loads and effects in suites.
+const LOADS: &[&str] = &[
+    "gravity",
+    "body_force",
+    "damping",
+    "local_damping",
+    "artificial_viscosity",
+    "traction",
+    "pressure",
+    "force",
+    "velocity",
+    "heat",
+    "thermal_expansion",
+];
 
 const CONDITIONS: &[&str] = &["free", "fixed", "roller", "periodic", "friction", "velocity"];
 
@@ -362,6 +373,15 @@ mod tests {
         assert_eq!(able.lacking(&of("linear_elastic", true)), [""; 0]);
         assert_eq!(able.lacking(&of("linear_elastic", false)), ["laws: linear_elastic"]);
         assert_eq!(able.lacking(&of("hencky", true)), ["laws: hencky"]);
+    }
+
+    #[test]
+    fn known_names_are_those_of_suites() {
+        let materials = crate::mpm::MaterialPlan::every(|_| 0.5);
+        let laws = materials.iter().map(crate::mpm::MaterialPlan::name).chain([SMALL_STRAIN]);
+        assert!(laws.eq(LAWS.iter().copied()));
+        let loads = crate::suite::EffectName::ALL.iter().map(|load| load.name());
+        assert!(loads.eq(LOADS.iter().copied()));
     }
 
     #[test]

@@ -22,7 +22,6 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
     ImportRule { module: "named", may: &[], why: "every part is built on it" },
     ImportRule { module: "nearest", may: &[], why: "every part that suggests names uses it" },
     ImportRule { module: "dimension", may: &[], why: "every part is built on it" },
-    ImportRule { module: "members", may: &[], why: "both modules of a family use it" },
     ImportRule {
         module: "subject",
         may: &["named"],
@@ -30,7 +29,7 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
     },
     ImportRule {
         module: "mpm",
-        may: &["subject", "named", "dimension", "members"],
+        may: &["subject", "named", "dimension"],
         why: "a solver that knows how it is judged is no longer the solver that users run",
     },
     ImportRule {
@@ -41,12 +40,12 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
     ImportRule { module: "vtk", may: &["subject"], why: "a file shows fields of any solver" },
     ImportRule {
         module: "external",
-        may: &["subject", "named", "nearest", "members", "vtk"],
+        may: &["subject", "named", "nearest", "vtk"],
         why: "an external solver receives a problem, and must not see how it is judged",
     },
     ImportRule {
         module: "exact",
-        may: &["subject", "named", "nearest", "dimension", "members"],
+        may: &["subject", "named", "nearest", "dimension"],
         why: "an exact solution that uses a solver can only agree with it",
     },
     ImportRule {
@@ -71,7 +70,6 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
             "named",
             "nearest",
             "dimension",
-            "members",
         ],
         why: "it describes runs, and must be usable without the code that runs them",
     },
@@ -96,7 +94,6 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
             "subject",
             "named",
             "dimension",
-            "members",
         ],
         why: "a load or condition has its keys and its checked value in one file",
     },

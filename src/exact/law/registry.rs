@@ -1,39 +1,36 @@
 //! Assigns laws of exact solutions to materials.
 
-/// Declares `Equation` with a variant for each line of [`each_material`](crate::members) that has
-/// a law.
+/// Declares `Equation` with a variant for each law. A line
+///
+/// `"hencky" => hencky::HenckyLaw["young", "poisson"];`
+///
+/// gives the name of the material in suites, the file and type of its law, and the keys of the
+/// material parameters in the argument order of `new`.
 macro_rules! laws {
-    (@new $law:ident, $value:ident, {
-        $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
-    }) => {
-        $law::new($($value($crate::members::key(stringify!($field)))?),*)
-    };
-    ($($material:literal => $solver_file:ident::$solver:ident $parameters:tt
-        $(, truth $file:ident::$law:ident)?;)+
-    ) => {
-        $($(
+    ($($material:literal => $file:ident::$law:ident[$($key:literal),*];)+) => {
+        $(
             mod $file;
             pub use $file::$law;
-        )?)+
+        )+
 
         /// The equation of motion `rho0 u_tt = Div P(grad u) + rho0 b` with one of the laws.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub enum Equation {
-            $($(
+            $(
                 #[doc = concat!("Of a `", $material, "` body.")]
                 $law($law),
-            )?)+
+            )+
         }
 
-        $($(impl From<$law> for Equation {
+        $(impl From<$law> for Equation {
             fn from(law: $law) -> Self {
                 Self::$law(law)
             }
-        })?)+
+        })+
 
         impl Equation {
             /// Names of all laws in suites.
-            pub const NAMES: &[&'static str] = &[$($($law::NAME,)?)+];
+            pub const NAMES: &[&'static str] = &[$($law::NAME,)+];
 
             /// Returns the equation for a material, from the material's name and its parameters by
             /// key; `None` if there is no law for the material.
@@ -42,9 +39,7 @@ macro_rules! laws {
                 parameter: impl Fn(&str) -> Option<f64>,
             ) -> Option<Self> {
                 Some(match material {
-                    $($($material => {
-                        Self::$law($crate::exact::law::laws!(@new $law, parameter, $parameters))
-                    })?)+
+                    $($material => Self::$law($law::new($(parameter($key)?),*)),)+
                     _ => return None,
                 })
             }
@@ -52,20 +47,20 @@ macro_rules! laws {
             /// Returns the name of the law in suites.
             pub fn name(&self) -> &'static str {
                 match self {
-                    $($(Self::$law(_) => $law::NAME,)?)+
+                    $(Self::$law(_) => $law::NAME,)+
                 }
             }
 
             /// Returns the equation of motion as reports print it.
             pub fn text(&self) -> &'static str {
                 match self {
-                    $($(Self::$law(_) => $law::EQUATION,)?)+
+                    $(Self::$law(_) => $law::EQUATION,)+
                 }
             }
 
             pub(super) fn has_history(&self) -> bool {
                 match self {
-                    $($(Self::$law(_) => $law::HAS_HISTORY,)?)+
+                    $(Self::$law(_) => $law::HAS_HISTORY,)+
                 }
             }
 
@@ -74,7 +69,7 @@ macro_rules! laws {
             /// [`Equation::density_factor`].
             pub fn piola<T: Number, const D: usize>(&self, grad: &Tensor<T, D>) -> Tensor<T, D> {
                 match self {
-                    $($(Self::$law(law) => law.piola(grad),)?)+
+                    $(Self::$law(law) => law.piola(grad),)+
                 }
             }
 
@@ -83,7 +78,7 @@ macro_rules! laws {
             /// Returns `None` for a law without energy.
             pub fn energy(&self, grad: &Tensor<f64>) -> Option<f64> {
                 match self {
-                    $($(Self::$law(law) => law.energy(grad),)?)+
+                    $(Self::$law(law) => law.energy(grad),)+
                 }
             }
 
@@ -91,7 +86,7 @@ macro_rules! laws {
             /// reference density like P.
             pub fn modulus(&self) -> f64 {
                 match self {
-                    $($(Self::$law(law) => law.modulus(),)?)+
+                    $(Self::$law(law) => law.modulus(),)+
                 }
             }
 
@@ -99,19 +94,19 @@ macro_rules! laws {
             /// (kg/m3) to those at unit density; 1 if the law does not depend on the density.
             pub fn density_factor<T: Number>(&self, density: T) -> T {
                 match self {
-                    $($(Self::$law(law) => law.density_factor(density),)?)+
+                    $(Self::$law(law) => law.density_factor(density),)+
                 }
             }
 
             pub(super) fn small_strain_modulus(&self) -> Option<f64> {
                 match self {
-                    $($(Self::$law(law) => law.small_strain_modulus(),)?)+
+                    $(Self::$law(law) => law.small_strain_modulus(),)+
                 }
             }
 
             pub(super) fn free_gradient<T: Number>(&self, grad: &Tensor<T, 2>) -> Option<T> {
                 match self {
-                    $($(Self::$law(law) => law.free_gradient(grad),)?)+
+                    $(Self::$law(law) => law.free_gradient(grad),)+
                 }
             }
 
@@ -121,13 +116,13 @@ macro_rules! laws {
                 initial: &Tensor<T>,
             ) -> Option<Tensor<T>> {
                 match self {
-                    $($(Self::$law(law) => law.piola_from(grad, initial),)?)+
+                    $(Self::$law(law) => law.piola_from(grad, initial),)+
                 }
             }
 
             pub(super) fn flows(&self, grad: f64, initial: &Tensor<f64>) -> bool {
                 match self {
-                    $($(Self::$law(law) => law.flows(grad, initial),)?)+
+                    $(Self::$law(law) => law.flows(grad, initial),)+
                 }
             }
 
@@ -138,7 +133,7 @@ macro_rules! laws {
             /// The reason why the law is not valid, and an alternative for the suite.
             pub fn admits(&self, dimension: usize, at_rest: bool) -> Result<(), [&'static str; 2]> {
                 match self {
-                    $($(Self::$law(law) => law.admits(dimension, at_rest),)?)+
+                    $(Self::$law(law) => law.admits(dimension, at_rest),)+
                 }
             }
         }

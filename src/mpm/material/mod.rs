@@ -1,5 +1,5 @@
-//! Registry of the materials. A new material requires one file and one line in `src/members.rs`. A
-//! new parameter requires one more line at the end of this file.
+//! Registry of the materials. A new material requires one file and one line of `materials!`. A new
+//! parameter requires one more line at the end of this file.
 
 mod axisymmetric;
 #[cfg(test)]
@@ -23,7 +23,6 @@ mod stress_update;
 mod stretch;
 mod tangent;
 
-use crate::members::{each_material, key};
 use crate::subject::PlaneState;
 use axisymmetric::Axisymmetric;
 pub use contract::{Contradiction, Material, MaterialProperties, YieldFunction};
@@ -33,7 +32,33 @@ use registry::materials;
 pub use stress_update::{StressBlock, StressUpdate};
 pub use tangent::StressResponse;
 
-each_material!(materials);
+materials! {
+    "linear_elastic" => linear_elastic::LinearElastic { young: YOUNG, poisson: POISSON };
+    "jaumann" => jaumann::Jaumann { young: YOUNG, poisson: POISSON };
+    "green_naghdi" => green_naghdi::GreenNaghdi { young: YOUNG, poisson: POISSON };
+    "neo_hookean" => neo_hookean::NeoHookean { young: YOUNG, poisson: POISSON };
+    "hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON };
+    "corotated" => corotated::Corotated { young: YOUNG, poisson: POISSON };
+    "j2" => j2::J2 {
+        young: YOUNG, poisson: POISSON, r#yield: YIELD, #[serde(default)] hardening: HARDENING
+    };
+    "drucker_prager" => drucker_prager::DruckerPrager {
+        young: YOUNG, poisson: POISSON, friction: FRICTION, dilation: DILATION, strength: STRENGTH
+    };
+    "mohr_coulomb" => mohr_coulomb::MohrCoulomb {
+        young: YOUNG, poisson: POISSON, friction_angle: FRICTION_ANGLE,
+        dilation_angle: DILATION_ANGLE, cohesion: COHESION
+    };
+    "cam_clay" => cam_clay::CamClay {
+        critical_state_slope: CRITICAL_SLOPE, swelling_slope: SWELLING,
+        compression_slope: COMPRESSION, poisson: POISSON,
+        initial_pressure: INITIAL_PRESSURE, preconsolidation: PRECONSOLIDATION
+    };
+    "newtonian" => newtonian::Newtonian { bulk: BULK, viscosity: VISCOSITY };
+    "linear_fluid" => linear_fluid::LinearFluid { bulk: BULK };
+    "polytropic" => polytropic::Polytropic { stiffness: STIFFNESS, exponent: EXPONENT };
+    "rigid" => rigid::Rigid {};
+}
 
 impl MaterialPlan {
     /// Creates the material for a body with this out-of-plane state; `None` if the law does not

@@ -1,12 +1,22 @@
 //! Registration: one line defines the name of a material and the keys of its parameters.
 
-/// Declares the registry of materials from the lines of [`each_material`](crate::members). The key
-/// of the density is added to the keys of every material. Laws do not receive this key, because
-/// they compute the density from the masses.
+/// Returns the suite key of a field: its name without `r#`, such as `yield` for `r#yield`.
+pub(super) fn key(field: &'static str) -> &'static str {
+    field.trim_start_matches("r#")
+}
+
+/// Declares the registry of materials. A line
+///
+/// `"hencky" => hencky::Hencky { young: YOUNG, poisson: POISSON };`
+///
+/// gives the name of the material in suites, its file and type, and the parameter keys in the
+/// argument order of `new`. `#[serde(default)]` before a key makes it optional, with default zero.
+/// The key of the density is added to the keys of every material. Laws do not receive this key,
+/// because they compute the density from the masses.
 macro_rules! materials {
     ($($name:literal => $file:ident::$member:ident {
         $($(#[$field_meta:meta])* $field:ident: $parameter:ident),* $(,)?
-    } $(, truth $law_file:ident::$law:ident)?;)+) => {
+    };)+) => {
         $(
             mod $file;
             pub use $file::$member;
@@ -69,7 +79,7 @@ macro_rules! materials {
             ) -> Result<MaterialPlan, E> {
                 match self {
                     $(Self::$member { $($field,)* .. } => {
-                        $(let $field = number(key(stringify!($field)), &$parameter, $field)?;)*
+                        $(let $field = number(registry::key(stringify!($field)), &$parameter, $field)?;)*
                         Ok(MaterialPlan::$member { $($field),* })
                     })+
                 }
@@ -102,7 +112,7 @@ macro_rules! materials {
             pub fn keyed_parameters(&self) -> Vec<(&'static str, f64)> {
                 match *self {
                     $(Self::$member { $($field),* } => {
-                        vec![$((key(stringify!($field)), $field)),*]
+                        vec![$((registry::key(stringify!($field)), $field)),*]
                     })+
                 }
             }

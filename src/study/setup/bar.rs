@@ -149,6 +149,16 @@ mod tests {
     }
 
     #[test]
+    fn every_material_that_deforms_has_an_exact_law() {
+        let without: Vec<_> = MaterialPlan::every(|_| 0.5)
+            .into_iter()
+            .filter(|plan| equation_of(plan).is_none())
+            .map(|plan| plan.name())
+            .collect();
+        assert_eq!(without, ["rigid"]);
+    }
+
+    #[test]
     fn mpm_fem_and_truth_mean_the_same_law() {
         let elastic = known(0.0).filter(|(plan, _)| plan.properties().is_elastic());
         elastic.for_each(|(plan, truth)| agree(&plan, &truth));

@@ -1,60 +1,14 @@
 //! Traits of loads. The implementations are in the other files of this folder.
 
+use super::name::EffectName;
 use crate::exact::heat::Conduction;
 use crate::exact::{Condition, Term};
 use crate::fem::TimeFunction;
-use crate::members::each_effect;
 use crate::mpm::input::EffectInput;
-use crate::named::named;
 use crate::suite::scene::boundary::thermal::SceneHeat;
 use crate::suite::scene::numbers::LoadNumbers;
 use std::ops::Deref;
 use std::sync::Arc;
-
-/// Declares the effect names, from the lines of [`each_effect`](crate::members).
-macro_rules! names {
-    ($(
-        $(#[$meta:meta])*
-        $member:ident = $text:literal => $spec_file:ident::$spec:ident
-        $(, effect $file:ident::$effect:ident)?
-        $(, needs [$($need:ident),+])?;
-    )+) => {
-        named! {
-            /// Names of loads and effects in suites. Effects on the same part of a scene are
-            /// applied in the order of this list.
-            pub enum EffectName {
-                $($(#[$meta])* $member = $text,)+
-            }
-        }
-
-        impl EffectName {
-            /// Returns the effects that this effect requires.
-            pub fn needs(self) -> &'static [Self] {
-                match self {
-                    $(Self::$member => &[$($(Self::$need),+)?],)+
-                }
-            }
-        }
-    };
-}
-
-each_effect!(names);
-
-impl EffectName {
-    /// Refuses a list in which an effect lacks another effect that it requires.
-    ///
-    /// # Errors
-    /// The effect whose requirement is missing, and a message with the names of both effects.
-    pub fn combine(listed: &[Self]) -> Result<(), (Self, String)> {
-        for &effect in listed {
-            if let Some(needed) = effect.needs().iter().find(|needed| !listed.contains(needed)) {
-                let (name, needed) = (effect.name(), needed.name());
-                return Err((effect, format!("`{name}` needs `{needed}`, which is not listed")));
-            }
-        }
-        Ok(())
-    }
-}
 
 /// Part of the scene on which a load acts. Solvers apply loads in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,6 +1,7 @@
 //! The keys of a load, and the context in which they are compiled.
 
-use super::contract::{EffectName, LoadTarget, SceneLoad};
+use super::contract::{LoadTarget, SceneLoad};
+use super::name::EffectName;
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::{Circle, Region};
 use crate::mpm::input::{FaceInput, SetInput};

@@ -3,24 +3,26 @@
 
 mod contract;
 mod entry;
+mod name;
 
-pub use contract::EffectName;
 pub(crate) use contract::{BodySite, ListedLoad, LoadTarget};
 pub(crate) use entry::{LoadEntry, LoadKeys, StudyFacts};
+pub use name::EffectName;
 
-use crate::members::each_effect;
 use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::scene::Scene;
 use crate::suite::yaml::Diagnostic;
 
-/// Declares the loads from the lines of [`each_effect`](crate::members). The type of the keys
-/// implements [`LoadKeys`].
+/// Declares the loads and effects of scenes. A line
+///
+/// `Gravity = "gravity" => gravity::GravitySpec;`
+///
+/// gives the member of [`EffectName`], its name in suites, and the file and type of its keys, which
+/// implement [`LoadKeys`].
 macro_rules! loads {
     ($(
         $(#[$meta:meta])*
-        $member:ident = $text:literal => $file:ident::$spec:ident
-        $(, effect $effect_file:ident::$effect:ident)?
-        $(, needs [$($need:ident),+])?;
+        $member:ident = $text:literal => $file:ident::$spec:ident;
     )+) => {
         $(mod $file;)+
 
@@ -61,7 +63,30 @@ macro_rules! loads {
     };
 }
 
-each_effect!(loads);
+loads! {
+    /// A uniform acceleration, constant or a function of time.
+    Gravity = "gravity" => gravity::GravitySpec;
+    /// A force per unit mass that depends on the particle, declared or manufactured.
+    BodyForce = "body_force" => body_force::BodyForceSpec;
+    /// Damping in proportion to mass.
+    Damping = "damping" => damping::DampingSpec;
+    /// A damping force against the motion, proportional to the unbalanced force.
+    LocalDamping = "local_damping" => local_damping::LocalDampingSpec;
+    /// A viscous pressure against compression, which smooths shocks.
+    ArtificialViscosity = "artificial_viscosity" => artificial_viscosity::ViscositySpec;
+    /// A traction on a face of the body, carried by the layer of particles at that face.
+    Traction = "traction" => traction::TractionSpec;
+    /// A pressure on a face of the body, which follows the moving face.
+    Pressure = "pressure" => pressure::PressureSpec;
+    /// A total force on a set of particles.
+    SetForce = "force" => set_force::SetForceSpec;
+    /// A prescribed velocity of a set of particles.
+    PrescribedVelocity = "velocity" => set_velocity::SetVelocitySpec;
+    /// Heat conduction, with a temperature on particles and additional grid fields.
+    Heat = "heat" => heat::HeatSpec;
+    /// Thermal strain.
+    ThermalExpansion = "thermal_expansion" => thermal_expansion::ExpansionSpec;
+}
 
 impl LoadSpec {
     /// Returns the path of entry `number` in `loads`.
