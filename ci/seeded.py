@@ -13,6 +13,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "tests/defects"
+# File of the switches in the copy. All packages depend on its package.
+SWITCHES = "crates/subject/src/seeded.rs"
 THEORY = ["load", "order", "verdict", "bound", "conservation", "energy", "force", "stability"]
 # Marks around the tables of a page.
 BEGIN, END = "<!-- written by ci/{} -->", "<!-- end -->"
@@ -35,17 +37,17 @@ def write_copy(copy, changed, most):
         ["git", "ls-files", "-co", "--exclude-standard", "--", "."], cwd=ROOT, text=True)
     files = [file for file in listed.splitlines() if (ROOT / file).is_file()]
     for old in [path for path in copy.rglob("*") if path.is_file()]:
-        if str(old.relative_to(copy)) not in files + ["src/seeded.rs"]:
+        if str(old.relative_to(copy)) not in files + [SWITCHES]:
             old.unlink()
     for file in files:
         text = changed[file].encode() if file in changed else (ROOT / file).read_bytes()
-        if file == "src/lib.rs":
-            text = text.replace(b"pub mod study;", b"#[doc(hidden)]\npub mod seeded;\npub mod study;", 1)
+        if file == "crates/subject/src/lib.rs":
+            text = text.replace(b"mod column;", b"#[doc(hidden)]\npub mod seeded;\nmod column;", 1)
         elif file == "Cargo.toml":
             text += b'\n[[bin]]\nname = "defects"\npath = "tests/defects/driver.rs"\n'
         put(copy / file, text)
     switches = (FOLDER / "seeded.rs").read_text().replace("MOST: usize = 1000", f"MOST: usize = {most + 1}")
-    put(copy / "src/seeded.rs", switches.encode())
+    put(copy / SWITCHES, switches.encode())
 
 
 def cargo(optimisation):

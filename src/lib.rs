@@ -104,25 +104,16 @@
 //! assert_eq!(found.verdict, Verdict::Converging, "{}", found.reason);
 //! ```
 
-pub mod study;
-pub mod subject;
+pub use mpm_judge::{exact, verify};
+pub use mpm_solvers::{fem, mpm};
+pub use mpm_subject as subject;
+pub use mpm_subject::nearest;
 
 pub mod external;
-pub mod fem;
-pub mod mpm;
-
-pub mod exact;
-pub mod verify;
-
-pub mod report;
-pub mod suite;
-
 pub mod prelude;
+pub mod report;
+pub mod study;
+pub mod suite;
 pub mod testing;
 
-mod dimension;
-mod named;
-mod nearest;
 mod vtk;
-
-pub use nearest::nearest;

@@ -1,6 +1,6 @@
 //! Capabilities of solvers, requirements of problems, and the names that both use.
 
-use crate::nearest::nearest;
+use mpm_subject::nearest;
 use serde::{Deserialize, Serialize};
 
 /// Declares the capabilities that a solver either has or lacks. Each line has the name of the

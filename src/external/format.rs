@@ -1,9 +1,9 @@
 //! Converts a problem to a file, for manual inspection or a viewer.
 
 use super::problem::LevelProblem;
-use crate::named::named;
 use crate::subject::StateField;
 use crate::vtk::{TensorRank, points};
+use mpm_subject::named;
 use serde_json::json;
 use std::io::{self, Cursor, Write};
 use zip::ZipWriter;

@@ -6,6 +6,7 @@
 
 use crate::markdown::{Block, Document, Span};
 use crate::rules::Breach;
+use crate::source::SOURCES;
 use std::collections::BTreeSet;
 
 /// Paths that are not in the repository and that documents may name, each with its reason.
@@ -15,8 +16,13 @@ const MADE_LATER: &[(&str, &str)] = &[
 ];
 
 /// Folders with the keys of JSON documents: reports, messages, and numbers of loads.
-const KEYS_IN: &[&str] =
-    &["src/report/", "src/verify/", "src/external/", "src/mpm/material/", "src/suite/scene/load/"];
+const KEYS_IN: &[&str] = &[
+    "src/report/",
+    "crates/judge/src/verify/",
+    "src/external/",
+    "crates/solvers/src/mpm/material/",
+    "src/suite/scene/load/",
+];
 
 /// The repository as documents may speak of it.
 pub(crate) struct Repository {
@@ -41,7 +47,7 @@ impl Repository {
         };
         Self {
             files: files.iter().cloned().collect(),
-            words: words_of(&["src/", "tests/", "benches/"]),
+            words: words_of(&["src/", "crates/", "tests/", "benches/"]),
             keys: words_of(KEYS_IN),
             tests: texts.iter().flat_map(|(file, text)| tests(file, text)).collect(),
             manifest: manifest.to_owned(),
@@ -64,7 +70,7 @@ impl Repository {
         let later = MADE_LATER.iter().any(|(made, _)| *made == path.trim_end_matches('/'));
         later
             || self.has(path)
-            || self.has(&format!("src/{path}"))
+            || in_sources(path).iter().any(|path| self.has(path))
             || beside.is_some_and(|p| self.has(&p))
     }
 
@@ -76,17 +82,21 @@ impl Repository {
     fn is_ours(&self, path: &str) -> bool {
         let first = path.split('/').next().unwrap_or_default();
         let folder = |at: &str| self.files.iter().any(|file| file.starts_with(&format!("{at}/")));
-        !first.is_empty() && (folder(first) || folder(&format!("src/{first}")))
+        !first.is_empty() && (folder(first) || in_sources(first).iter().any(|at| folder(at)))
     }
 
     /// Whether `a::b::Name` resolves to a module of `src/` and a word of its code.
     fn resolves(&self, path: &str) -> bool {
         let mut parts: Vec<&str> = path.split("::").collect();
-        if matches!(parts[0], "crate" | "mpm_verify") {
+        if matches!(parts[0], "crate" | "mpm_verify" | "mpm_judge" | "mpm_solvers" | "mpm_subject")
+        {
             parts.remove(0);
         }
-        let mut folder = "src".to_owned();
-        let mut rest = parts.as_slice();
+        SOURCES.iter().any(|folder| self.resolves_in(folder, &parts))
+    }
+
+    fn resolves_in(&self, folder: &str, parts: &[&str]) -> bool {
+        let (mut folder, mut rest) = (folder.to_owned(), parts);
         while let Some((part, after)) = rest.split_first() {
             let below = format!("{folder}/{part}");
             if !self.has(&below) && !self.has(&format!("{below}.rs")) {
@@ -98,12 +108,16 @@ impl Repository {
         rest.len() < parts.len() && rest.iter().all(|part| self.words.contains(*part))
     }
 
-    /// Whether `src/` has a module of this name at its top.
+    /// Whether a package has a module of this name at its top.
     fn is_part(&self, name: &str) -> bool {
         matches!(name, "crate" | "mpm_verify")
-            || self.has(&format!("src/{name}"))
-            || self.has(&format!("src/{name}.rs"))
+            || in_sources(name).iter().any(|at| self.has(at) || self.has(&format!("{at}.rs")))
     }
+}
+
+/// The paths that `path` may stand for, one in each package.
+fn in_sources(path: &str) -> [String; 4] {
+    SOURCES.map(|folder| format!("{folder}/{path}"))
 }
 
 /// `wanted` may contain `*`, or be a word in capitals, which matches any text.
@@ -136,8 +150,15 @@ fn join(from: &str, path: &str) -> Option<String> {
 /// Paths of the tests in a formatted file. Only the line that ends a module is a brace at the
 /// indentation of the module.
 fn tests(file: &str, text: &str) -> Vec<String> {
-    let path = file.replacen("src/", "tests/unit/", 1);
-    let Some(path) = path.strip_prefix("tests/") else { return Vec::new() };
+    let path = match file.split_once("src/") {
+        Some(("", inner)) => format!("lib/{inner}"),
+        Some(("crates/judge/", inner)) => format!("judge/{inner}"),
+        Some((_, inner)) => format!("solvers/{inner}"),
+        None => match file.split_once("tests/") {
+            Some((_, inner)) => inner.to_owned(),
+            None => return Vec::new(),
+        },
+    };
     let path = path.trim_end_matches(".rs").trim_end_matches("/mod").trim_end_matches("/main");
     let mut modules = vec![path.replace('/', "::")];
     let (mut found, mut is_test) = (Vec::new(), false);
@@ -272,7 +293,8 @@ fn unknown_in(block: &Block, has: &Repository) -> Vec<(usize, String)> {
         "text" => lines
             .flat_map(|(at, line)| {
                 let words = line.split_whitespace().map(|word| word.trim_end_matches(','));
-                let paths = words.filter(|word| word.starts_with("src/"));
+                let paths =
+                    words.filter(|word| word.starts_with("src/") || word.starts_with("crates/"));
                 let paths = paths.flat_map(alternatives).filter(|path| !has.has(path));
                 let names = line.split_whitespace().filter(|word| {
                     word.contains("::") && has.is_part(word.split("::").next().unwrap_or_default())
@@ -340,8 +362,8 @@ fn script(path: &str, has: &Repository) -> Option<String> {
 const CARGO: &str = "run test bench build check doc fmt clippy install insta fuzz publish add";
 
 /// Flags of `cargo run`, `test`, `bench` and `check` that documents may name.
-const CARGO_FLAGS: &str = "--release --lib --bench --test --locked --all-targets --all --no-deps \
-    --document-private-items --fuzz-dir --no-run --features --no-default-features --quiet --dev --path";
+const CARGO_FLAGS: &str = "--release --lib --bench --example --test --locked --all-targets --all \
+    --no-deps --document-private-items --fuzz-dir --no-run --features --no-default-features --quiet --dev --path";
 
 fn cargo(words: &[&str], has: &Repository) -> Option<String> {
     let words: Vec<&str> = words.iter().copied().filter(|word| !word.starts_with('+')).collect();

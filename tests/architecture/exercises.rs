@@ -31,17 +31,20 @@ pub(crate) fn stale(pages: &[Document]) -> Vec<String> {
     stale
 }
 
-/// Maximum number of files of `src` that a new member of each family adds or changes.
+/// Maximum number of source files that a new member of each family adds or changes.
 const MOST_FILES: [(&str, usize); 6] =
     [("basis", 2), ("transfer", 2), ("material", 5), ("effect", 6), ("quantity", 2), ("figure", 1)];
 
-/// Places in `src` that a page adds a file to, or changes.
+/// Places in the sources that a page adds a file to, or changes.
 fn places(page: &Document) -> BTreeSet<String> {
     let prose = page.prose();
     let after = |start: &'static str| prose.split(start).skip(1);
     let named =
         after("belongs in `").chain(after("In `")).filter_map(|text| text.split('`').next());
-    named.filter(|place| place.starts_with("src/")).map(str::to_owned).collect()
+    named
+        .filter(|place| place.starts_with("src/") || place.starts_with("crates/"))
+        .map(str::to_owned)
+        .collect()
 }
 
 /// Reports families without a page, places that do not exist, and pages whose member touches more

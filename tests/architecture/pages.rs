@@ -134,9 +134,10 @@ pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
 pub(crate) const JUDGE: &str = "docs/judge.md";
 
 /// Number of rows of a page that quote a constant, and wrong rows:
-/// `| \`src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
+/// `| \`crates/judge/src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
 pub(crate) fn constants<'a>(page: &'a str, files: &[(String, String)]) -> (usize, Vec<&'a str>) {
-    let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| `src/")).collect();
+    let rows: Vec<&str> =
+        page.lines().filter(|line| line.starts_with("| `crates/judge/src/")).collect();
     let is_right = |row: &&str| {
         let [file, name, value] = [1, 3, 5].map(|at| row.split('`').nth(at).unwrap_or_default());
         let text = files.iter().find(|(known, _)| known == file).map_or("", |(_, text)| text);

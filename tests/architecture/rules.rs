@@ -19,82 +19,50 @@ pub(crate) struct ImportRule {
 
 /// `study` may import every module: it builds and runs all that suites describe.
 pub(crate) const IMPORT_RULES: &[ImportRule] = &[
-    ImportRule { module: "named", may: &[], why: "every part is built on it" },
-    ImportRule { module: "nearest", may: &[], why: "every part that suggests names uses it" },
-    ImportRule { module: "dimension", may: &[], why: "every part is built on it" },
-    ImportRule {
-        module: "subject",
-        may: &["named"],
-        why: "it is the contract between judge and solver",
-    },
     ImportRule {
         module: "mpm",
-        may: &["subject", "named", "dimension"],
-        why: "a solver that knows how it is judged is no longer the solver that users run",
+        may: &["subject"],
+        why: "the solvers are independent of each other; the compiler keeps the judge away",
     },
     ImportRule {
         module: "fem",
-        may: &["subject", "named"],
-        why: "a solver that knows how it is judged is no longer the solver that users run",
+        may: &["subject"],
+        why: "the solvers are independent of each other; the compiler keeps the judge away",
+    },
+    ImportRule {
+        module: "exact",
+        may: &["subject"],
+        why: "an exact solution does not depend on how a solver is judged",
     },
     ImportRule { module: "vtk", may: &["subject"], why: "a file shows fields of any solver" },
     ImportRule {
         module: "external",
-        may: &["subject", "named", "nearest", "vtk"],
+        may: &["subject", "vtk"],
         why: "an external solver receives a problem, and must not see how it is judged",
     },
     ImportRule {
-        module: "exact",
-        may: &["subject", "named", "nearest", "dimension"],
-        why: "an exact solution that uses a solver can only agree with it",
-    },
-    ImportRule {
-        module: "verify",
-        may: &["exact", "subject", "named"],
-        why: "the judge must accept any subject, so it names none",
-    },
-    ImportRule {
         module: "report",
-        may: &["verify", "exact", "subject", "named"],
+        may: &["verify", "exact", "subject"],
         why: "a report shows results and must not be able to change them",
     },
     ImportRule {
         module: "suite",
-        may: &[
-            "mpm",
-            "fem",
-            "exact",
-            "verify",
-            "report",
-            "subject",
-            "named",
-            "nearest",
-            "dimension",
-        ],
+        may: &["mpm", "fem", "exact", "verify", "report", "subject"],
         why: "it describes runs, and must be usable without the code that runs them",
     },
     ImportRule {
         module: "suite::yaml",
-        may: &["named", "nearest"],
+        may: &[],
         why: "it turns text into values with their place, independent of their meaning",
     },
     ImportRule {
         module: "suite::evaluator",
-        may: &["suite::yaml", "exact", "nearest"],
+        may: &["suite::yaml", "exact"],
         why: "numbers and formulas do not depend on the keys that hold them",
     },
     ImportRule {
         module: "suite::scene",
-        may: &[
-            "suite::yaml",
-            "suite::evaluator",
-            "mpm",
-            "fem",
-            "exact",
-            "subject",
-            "named",
-            "dimension",
-        ],
+        may: &["suite::yaml", "suite::evaluator", "mpm", "fem", "exact", "subject"],
         why: "a load or condition has its keys and its checked value in one file",
     },
     ImportRule {
@@ -108,7 +76,6 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
             "exact",
             "verify",
             "subject",
-            "named",
         ],
         why: "it defines the allowed contents of a file, and computes nothing",
     },
@@ -123,7 +90,6 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
             "exact",
             "verify",
             "subject",
-            "named",
         ],
         why: "a checked value does not depend on how it was checked",
     },
@@ -134,7 +100,7 @@ const PLATFORM: &str = "sin cos tan sin_cos asin acos atan atan2 sinh cosh tanh 
     exp exp2 exp_m1 ln ln_1p log log2 log10 powf powi cbrt hypot gamma ln_gamma erf erfc";
 
 /// Folder in which methods of `Number` have the names of those of `f64`, and use `libm`.
-const NUMBERS: &str = "src/exact/formula/";
+const NUMBERS: &str = "crates/judge/src/exact/formula/";
 
 /// Where a rule is broken, and how.
 #[derive(Debug)]
@@ -249,7 +215,7 @@ pub(crate) fn fused(sources: &[Source]) -> Vec<Breach> {
     let names = ["mul_add", "mul_add_precise", "fma"];
     names
         .iter()
-        .flat_map(|name| mentions(sources, &[&[name]], "src/mpm/foundation/simd/"))
+        .flat_map(|name| mentions(sources, &[&[name]], "crates/solvers/src/mpm/foundation/simd/"))
         .collect()
 }
 

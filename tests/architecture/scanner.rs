@@ -25,10 +25,13 @@ fn places(breaches: &[Breach]) -> Vec<String> {
 #[test]
 fn cycle_and_forbidden_import_are_found() {
     let edges = edges(&sources(&[
-        ("src/mpm/mod.rs", "mod grid; pub use grid::Grid;"),
-        ("src/mpm/grid.rs", "// crate::suite::A\nuse crate::verify::Claim;\npub struct Grid;"),
+        ("crates/solvers/src/mpm/mod.rs", "mod grid; pub use grid::Grid;"),
         (
-            "src/verify/mod.rs",
+            "crates/solvers/src/mpm/grid.rs",
+            "// crate::suite::A\nuse crate::exact::Claim;\npub struct Grid;",
+        ),
+        (
+            "crates/judge/src/exact/mod.rs",
             "const A: &str = \"crate::suite::A\";\nuse crate::mpm::Grid;\npub struct Claim;",
         ),
         ("src/suite/mod.rs", "pub struct A;"),
@@ -36,7 +39,10 @@ fn cycle_and_forbidden_import_are_found() {
     assert_eq!(cycles(&edges).iter().map(Vec::len).collect::<Vec<_>>(), [2]);
     let breaches = IMPORT_RULES.iter().flat_map(|rule| rules::forbidden_imports(rule, &edges));
     let breaches: Vec<Breach> = breaches.collect();
-    assert_eq!(places(&breaches), ["src/mpm/grid.rs:2", "src/verify/mod.rs:2"]);
+    assert_eq!(
+        places(&breaches),
+        ["crates/solvers/src/mpm/grid.rs:2", "crates/judge/src/exact/mod.rs:2"]
+    );
 }
 
 #[test]
@@ -44,19 +50,25 @@ fn breaches_of_code_rules_are_found() {
     let long = "fn f() {}\n".repeat(rules::MOST_LINES + 1);
     let planted = sources(&[
         ("src/long.rs", &long),
-        ("src/mpm/utils.rs", "mod inner { fn f(x: f64) { x.mul_add(x.sin(), x) } }"),
+        ("crates/solvers/src/mpm/utils.rs", "mod inner { fn f(x: f64) { x.mul_add(x.sin(), x) } }"),
         ("src/a.rs", "struct Row; fn f() { map(f64::exp) }"),
         ("src/b.rs", "#[cfg(test)]\nmod tests { use serde_yaml::Value; }\nenum Row {}"),
     ]);
-    let utils = ["src/mpm/utils.rs:1"];
+    let utils = ["crates/solvers/src/mpm/utils.rs:1"];
     assert_eq!(places(&rules::long(&planted, &[])), ["src/long.rs:501"]);
     assert_eq!(places(&rules::nameless(&planted)), utils);
     assert_eq!(places(&rules::nested(&planted)), utils);
     assert_eq!(places(&rules::fused(&planted)), utils);
-    assert_eq!(places(&rules::platform_calls(&planted)), ["src/a.rs:1", "src/mpm/utils.rs:1"]);
+    assert_eq!(
+        places(&rules::platform_calls(&planted)),
+        ["crates/solvers/src/mpm/utils.rs:1", "src/a.rs:1"]
+    );
     assert!(rules::mentions(&planted, &[&["serde_yaml"]], "src/suite/").is_empty(), "only tests");
     assert_eq!(places(&words::twice(&planted, &[])), ["src/b.rs:3"]);
-    let tests = with_tests(&owned(&[("src/fem/tests/time.rs", "fn f() { Solver::new(setup); }")]));
+    let tests = with_tests(&owned(&[(
+        "crates/solvers/src/fem/tests/time.rs",
+        "fn f() { Solver::new(setup); }",
+    )]));
     assert_eq!(rules::tests_with(&tests, &[&["Solver", "::", "new"]]).len(), 1);
 }
 
@@ -71,11 +83,15 @@ fn unclear_prose_is_found() {
 
 #[test]
 fn stale_names_in_documents_are_found() {
-    let files = ["README.md", "docs/page.md", "src/mpm/grid.rs", "ci/check"].map(str::to_owned);
-    let texts = owned(&[("src/mpm/grid.rs", "pub struct Grid; impl Grid { fn locate() {} }")]);
+    let files = ["README.md", "docs/page.md", "crates/solvers/src/mpm/grid.rs", "ci/check"]
+        .map(str::to_owned);
+    let texts = owned(&[(
+        "crates/solvers/src/mpm/grid.rs",
+        "pub struct Grid; impl Grid { fn locate() {} }",
+    )]);
     let has = Repository::new(&files, &texts, "[[bench]]\nname = \"transfer\"\n");
     for (text, count) in [
-        ("see [the grid](../src/mpm/gird.rs)", 1),
+        ("see [the grid](../crates/solvers/src/mpm/gird.rs)", 1),
         ("see [it](#two)", 1),
         ("in `mpm/gird.rs`", 1),
         ("by `mpm::grid::Gird`", 1),
@@ -83,7 +99,7 @@ fn stale_names_in_documents_are_found() {
         ("```console\ncargo bench --bench trasnfer\n```", 1),
         ("```json\n{\"verdict\": 1}}\n```", 1),
         (
-            "[a](../src/mpm/grid.rs) `mpm/grid.rs` `Grid::locate` `h/(c + |v|)`\n```console\nbash ci/check\n```",
+            "[a](../crates/solvers/src/mpm/grid.rs) `mpm/grid.rs` `Grid::locate` `h/(c + |v|)`\n```console\nbash ci/check\n```",
             0,
         ),
     ] {

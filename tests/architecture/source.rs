@@ -1,4 +1,4 @@
-//! The files under `src/`, and their code without tests.
+//! The source files of all packages, and their code without tests.
 
 use crate::token::{Token, tokens};
 use std::collections::BTreeSet;
@@ -25,9 +25,18 @@ pub(crate) struct Source {
     pub(crate) lines: usize,
 }
 
-/// Reads the crate: every file of `src/` except those that are compiled for tests only.
-pub(crate) fn of_crate() -> Vec<Source> {
-    of_files(&texts("src", ".rs"))
+/// Folders with the sources of the packages.
+pub(crate) const SOURCES: [&str; 4] =
+    ["src", "crates/judge/src", "crates/solvers/src", "crates/subject/src"];
+
+/// Reads every source file of all packages except those that are compiled for tests only.
+pub(crate) fn of_packages() -> Vec<Source> {
+    of_files(&of_sources())
+}
+
+/// Paths and texts of the source files of all packages.
+pub(crate) fn of_sources() -> Vec<(String, String)> {
+    SOURCES.iter().flat_map(|folder| texts(folder, ".rs")).collect()
 }
 
 /// Paths (relative to the root of the repository) and texts of the files below `folder` (`""` for
@@ -105,9 +114,20 @@ fn source(file: &str, text: &str, for_tests: &mut BTreeSet<Module>) -> Source {
 }
 
 fn module(file: &str) -> Module {
-    let path = file.trim_start_matches("src/").trim_end_matches(".rs");
+    let path = file.trim_end_matches(".rs");
     let path = path.strip_suffix("/mod").unwrap_or(path);
-    if path == "lib" { Module::new() } else { path.split('/').map(str::to_owned).collect() }
+    // Modules have the same paths as in the root package, which re-exports them.
+    let path = match path.strip_prefix("crates/subject/src/") {
+        Some("lib") => "subject".to_owned(),
+        Some(inner) => format!("subject/{inner}"),
+        None => SOURCES
+            .iter()
+            .find_map(|folder| path.strip_prefix(folder)?.strip_prefix('/'))
+            .unwrap_or(path)
+            .to_owned(),
+    };
+    let is_root = path == "lib" && !file.starts_with("crates/");
+    if is_root { Module::new() } else { path.split('/').map(str::to_owned).collect() }
 }
 
 /// Range of the first item under `#[cfg(test)]`, from its attribute to its `;` or `}`.

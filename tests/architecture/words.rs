@@ -13,7 +13,7 @@ pub(crate) const PLAIN_FILES: &[(&str, &str)] =
     &[("verification", ".yaml"), ("verification", ".md")];
 
 /// Folders whose comments have none of the `UNCLEAR_PHRASES` and `UNCLEAR_BEGINNINGS`.
-pub(crate) const PLAIN_SOURCES: &[&str] = &["src", "benches", "tests", "examples"];
+pub(crate) const PLAIN_SOURCES: &[&str] = &["src", "crates", "benches", "tests", "examples"];
 
 /// Beginnings of comments that point at a neighbouring item or name no limit, each with a better
 /// one.

@@ -10,7 +10,7 @@ use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::kernel::contract::{G2pRequest, Kernel, P2gRequest};
-use crate::subject::Column;
+use mpm_subject::Column;
 
 /// Affine FLIP.
 #[derive(Debug, Clone)]

@@ -35,7 +35,7 @@ pub(super) const VOLUME_RATIO: Declaration = Declaration {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::subject::Samples;
+    use mpm_subject::Samples;
 
     #[test]
     fn volume_ratio_is_the_determinant_in_space() {

@@ -1,9 +1,9 @@
-"""Independent implementation of the solver in src/mpm, written from the equations of the method.
+"""Independent implementation of the solver in crates/solvers/src/mpm, written from the equations of the method.
 
     python3 tests/second_opinion/mpm.py [PROBLEM ...]
 
 runs the problems of problems.py and writes a file of numbers for each into this folder.
-tests/it/mpm/second_opinion.rs compares the solver with these files. Basis functions are matrices of all
+crates/solvers/tests/solver/mpm/second_opinion.rs compares the solver with these files. Basis functions are matrices of all
 particles by all nodes, so that a step is a few products: slow, and short enough for comparison with the papers.
 
 FLIP with a lumped mass matrix: Sulsky, Chen & Schreyer (1994); Wobbes & Tielen (2015). GIMP:

@@ -1,1 +1,1 @@
-//! A package needs a library or a program.
+//! Empty: the package has only tests.

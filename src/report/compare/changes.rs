@@ -1,6 +1,6 @@
 //! Changes between two runs.
 
-use crate::named::named;
+use mpm_subject::named;
 
 named! {
     /// Kinds of changes of a case, the most important first.

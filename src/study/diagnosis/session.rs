@@ -4,7 +4,9 @@ use crate::external::SolverFactory;
 use crate::study::kind::{RunContext, Study};
 use crate::study::preflight::estimate_of;
 use crate::suite::compile::suite::with_changes;
-use crate::suite::grammar::{BoxSpec, ConvergenceSpec, MethodSpec, SchemeKey, StepSpec};
+use crate::suite::grammar::{
+    BoxSpec, ConvergenceSpec, MethodSpec, SchemeKey, StepSpec, TransferSpec,
+};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
@@ -154,7 +156,7 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
     };
     Some(MethodSpec::Mpm {
         basis: basis.into(),
-        transfer: Some(transfer.into()),
+        transfer: Some(TransferSpec(transfer).into()),
         scheme: SchemeKey::from(scheme).into(),
         start: Some(start.into()),
         mass: Some(mass.into()),

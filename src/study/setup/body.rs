@@ -215,7 +215,7 @@ fn mass(scene: &Scene) -> Option<MassAt<'_>> {
     }
     let holds = |label: &[f64]| scene.outline.as_ref().is_none_or(|o| o.holds(label));
     let cells = CellQuadrature::new(scene.dimension());
-    Some(Box::new(move |x0, half| scene.density.mass(&cells, x0, half, holds)))
+    Some(Box::new(move |x0, half| scene.density.mass(&cells, x0, half, &holds)))
 }
 
 /// Returns the function that shifts and perturbs particle positions (m), for a given spacing (m).

@@ -3,11 +3,11 @@
 mod names;
 
 use crate::exact::formula::{Expr, Formula, FormulaError, Scope};
-use crate::nearest::nearest;
 use crate::suite::yaml::{
     Diagnostic, InPlaceOfNumber, NumberOr, NumberText, OneOrMany, Ordered, Path, Place, Source,
     Step,
 };
+use mpm_subject::nearest;
 use serde::Deserialize;
 use std::cell::RefCell;
 use std::collections::BTreeSet;

@@ -5,9 +5,9 @@ use super::{
     MethodSpec, SceneSpec, StepSpec, StudyName,
 };
 use crate::fem::{Element, Mass};
-use crate::named::named;
 use crate::suite::yaml::{NumberText, OneOrMany};
 use crate::verify::{NormName, Quantity};
+use mpm_subject::named;
 use serde::Deserialize;
 
 study_spec! {

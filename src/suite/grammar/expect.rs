@@ -1,10 +1,11 @@
 //! Keys of an expectation in a convergence study, and of acknowledged warnings.
 
-use crate::named::named;
 use crate::suite::yaml::{NumberText, OneOrMany};
 #[cfg(feature = "schemas")]
 use crate::verify::Verdict;
-use crate::verify::{CaseFigure, FloorCause, each_case_figure};
+use crate::verify::{CaseFigure, FloorCause};
+use mpm_judge::each_case_figure;
+use mpm_subject::named;
 use serde::Deserialize;
 
 /// Declares [`ExpectSpec`], with one key for each measured quantity that can be bounded.

@@ -23,7 +23,7 @@ pub(crate) enum MethodSpec {
         /// Basis functions.
         basis: OneOrMany<BasisName>,
         /// Velocity transfer between particles and grid. Not allowed with `quasi_static`.
-        transfer: Option<OneOrMany<TransferChoice>>,
+        transfer: Option<OneOrMany<TransferSpec>>,
         /// Time scheme: when stresses are updated, or quasi-static load steps.
         scheme: OneOrMany<SchemeKey>,
         /// Time at which the initial velocity applies; default: `at_zero`.
@@ -117,14 +117,18 @@ impl MethodSpec {
     }
 }
 
-impl<'de> Deserialize<'de> for TransferChoice {
+/// A transfer: its name, or a series with its number of terms.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TransferSpec(pub(crate) TransferChoice);
+
+impl<'de> Deserialize<'de> for TransferSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(NameOrParameter)
+        deserializer.deserialize_any(NameOrParameter).map(Self)
     }
 }
 
 #[cfg(feature = "schemas")]
-impl schemars::JsonSchema for TransferChoice {
+impl schemars::JsonSchema for TransferSpec {
     fn inline_schema() -> bool {
         true
     }

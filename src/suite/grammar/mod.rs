@@ -63,7 +63,7 @@ pub use expect::WarningName;
 pub(crate) use expect::{AcknowledgeSpec, AnyMethodSpec, CrossingsName, DriftSpec, ExpectSpec};
 pub(crate) use gradient::{FunctionalSpec, GradientExpectSpec, GradientSpec};
 pub(crate) use internal_force::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
-pub(crate) use method::{MethodSpec, SchemeKey, StepSpec};
+pub(crate) use method::{MethodSpec, SchemeKey, StepSpec, TransferSpec};
 pub(crate) use scene::{
     AnnulusSpec, BodySpec, BoxSpec, OneBodySpec, QuadrilateralSpec, RoundSpec, SceneSpec, SetSpec,
     StressSpec,

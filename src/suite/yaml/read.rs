@@ -4,7 +4,7 @@
 use super::phrase::{expected, found, listed};
 use super::syntax::tab;
 use super::{Diagnostic, Source};
-use crate::nearest::nearest;
+use mpm_subject::nearest;
 use serde::Serialize;
 use serde::de::{DeserializeOwned, Error};
 

@@ -1,7 +1,7 @@
 //! Findings, and the report of all examinations as text.
 
-use crate::named::named;
 use crate::report::text::prose::{hanging, paragraph_lines, row};
+use mpm_subject::named;
 use serde::Serialize;
 
 named! {

@@ -2,9 +2,9 @@
 
 #![no_main]
 
-#[path = "../../it/fuzz_input/scene.rs"]
+#[path = "../../../crates/solvers/tests/solver/conservation/hostile/scene.rs"]
 mod scene;
-#[path = "../../it/fuzz_input/step_input.rs"]
+#[path = "../../../crates/solvers/tests/solver/conservation/hostile/step_input.rs"]
 mod step_input;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| step_input::step(bytes));

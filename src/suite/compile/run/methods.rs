@@ -157,7 +157,7 @@ fn combinations(
                     mass: rest.one_of(mass.as_ref(), MassName::Lumped),
                     start: rest.one_of(start.as_ref(), Start::AtZero),
                     scheme: rest.next(&scheme),
-                    transfer: rest.next(transfer.as_slice()),
+                    transfer: rest.next(transfer.as_slice()).0,
                     basis: rest.next(basis.as_slice()),
                 };
                 push(method, said(3));

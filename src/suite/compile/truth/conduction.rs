@@ -175,7 +175,7 @@ fn refuse_methods_without_heat(
                     return Err(path.then("mpm").then("frame").diagnostic(message));
                 }
                 let transfers = transfer.as_ref().map_or(&[][..], OneOrMany::as_slice);
-                if transfers.iter().any(|transfer| transfer.kind() == TransferKind::Cells) {
+                if transfers.iter().any(|transfer| transfer.0.kind() == TransferKind::Cells) {
                     let message = "a transfer that integrates over cells does not support heat, \
                                    which is summed over particles";
                     return Err(path.then("mpm").then("transfer").diagnostic(message));

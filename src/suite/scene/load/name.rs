@@ -1,6 +1,6 @@
 //! Names of loads and effects.
 
-use crate::named::named;
+use mpm_subject::named;
 
 named! {
     /// Names of loads and effects in suites. Effects on the same part of a scene are applied in the

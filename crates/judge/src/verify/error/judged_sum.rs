@@ -1,0 +1,99 @@
+//! Compares a sum over the body, such as its energy or momentum, with the exact value.
+
+use super::declaration::{ComputedSum, SumDeclaration, moments};
+use crate::exact::{BodySum, Problem, SumRegion};
+use crate::verify::{Norms, Quantity};
+use mpm_subject::Subject;
+
+/// A sum over the body, such as its energy or momentum, that is compared with the exact value.
+#[derive(Debug)]
+pub struct JudgedSum {
+    of: Quantity,
+    exact: BodySum,
+    /// Exact second moments of the reference configuration (kg m2). A ratio of second moments is
+    /// the current value divided by this one.
+    reference: [f64; 3],
+    /// Axis of the face whose reaction is judged, and whether it is the high face of this axis;
+    /// `None` for the reaction of all faces.
+    face: Option<(usize, bool)>,
+}
+
+impl JudgedSum {
+    /// Prepares the comparison of the quantity `of`, which must be a sum over the body of
+    /// `problem`. `walls` are the indices of the faces whose force is judged as the reaction.
+    ///
+    /// # Errors
+    /// Reason why the exact value is unknown, as a phrase that follows the name of the quantity.
+    pub fn new(of: Quantity, problem: &Problem, walls: &[usize]) -> Result<Self, String> {
+        let SumDeclaration { computed, density, .. } = of.sum().ok_or("is a field")?;
+        let region = match computed {
+            ComputedSum::OfTotals(_) | ComputedSum::OfMoments(_) => SumRegion::Body,
+            ComputedSum::Reaction => SumRegion::Faces(walls.to_vec()),
+        };
+        let sum =
+            |density| BodySum::new(problem, &region, density).map_err(|error| error.to_string());
+        let exact = sum(density)?;
+        let reference = match computed {
+            ComputedSum::OfMoments(_) => {
+                sum(|point| moments(point.reference_second_moment()))?.at(problem.until)
+            }
+            ComputedSum::OfTotals(_) | ComputedSum::Reaction => [0.0; 3],
+        };
+        let face = match walls {
+            [one] => problem.faces.get(*one).map(|face| (face.axis, face.high)),
+            _ => None,
+        };
+        Ok(Self { of, exact, reference, face })
+    }
+
+    /// Returns the scale of errors: the largest size of the exact sum during the run.
+    pub fn size(&self) -> f64 {
+        let size = self.exact.size();
+        match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfMoments(_)) => (size / self.reference.iter().sum::<f64>()).sqrt(),
+            _ => size,
+        }
+    }
+
+    /// Returns the difference from the exact sum at time `t` (s); NaN if the solver does not report
+    /// the sum.
+    pub(super) fn error(&self, subject: &dyn Subject, t: f64) -> [f64; 3] {
+        let found = match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfTotals(value)) => {
+                subject.totals().and_then(|totals| value(&totals)).map(|value| (t, value))
+            }
+            Some(ComputedSum::OfMoments(value)) => subject
+                .totals()
+                .map(|totals| (t, value(totals.second_moment, totals.reference_second_moment))),
+            Some(ComputedSum::Reaction) => {
+                subject.reaction(self.face).map(|reaction| (reaction.time, reaction.force))
+            }
+            None => None,
+        };
+        let Some((t, value)) = found else { return [f64::NAN; 3] };
+        let exact = match self.of.sum().map(|sum| sum.computed) {
+            Some(ComputedSum::OfMoments(value)) => value(self.exact.at(t), self.reference),
+            _ => self.exact.at(t),
+        };
+        std::array::from_fn(|i| value[i] - exact[i])
+    }
+}
+
+/// Computes norms over instants of equal weight.
+pub(super) fn over_instants(errors: &[[f64; 3]]) -> Norms {
+    Norms::of(errors.as_flattened(), 3, &vec![1.0; errors.len()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_error_of_an_instant_is_the_length_of_its_vector() {
+        let Norms { rms, l1, l2, linf, .. } = over_instants(&[[3.0, 0.0, 4.0], [0.0, -5.0, 0.0]]);
+        for norm in [rms, l1, l2, linf] {
+            assert_relative_eq!(norm, 5.0, max_relative = 1e-15);
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! The results of a suite: the input of all reports.
+
+use crate::verify::{
+    CaseJudgement, Convergence, Gating, GradientStudy, InternalForce, SpectrumStudy,
+    StabilityStudy, StudyResults, Verdict,
+};
+use mpm_subject::{Profile, SubjectError};
+use std::sync::Arc;
+
+/// Results of one suite.
+#[derive(Debug, Clone)]
+pub struct SuiteOutcome {
+    /// Name of the suite.
+    pub suite: String,
+    /// Name of the folder of the suite file.
+    pub group: String,
+    /// One-line title of the suite.
+    pub title: String,
+    /// Literature reference for the problem.
+    pub source: String,
+    /// Introduction by the suite's author.
+    pub about: String,
+    /// The problem as rows of name and value: parameters, scene, exact solution, time step.
+    pub statement: Vec<(String, String)>,
+    /// Hash of the problem, independent of the notation of the statement.
+    pub meaning: u64,
+    /// One outcome for each case, in suite order.
+    pub cases: Vec<CaseOutcome>,
+}
+
+impl SuiteOutcome {
+    /// Appends the cases of `other` to `joined`. `other` is a run of the same suite with another
+    /// solver.
+    pub fn join(joined: &mut Option<Self>, other: Self) {
+        match joined {
+            None => *joined = Some(other),
+            Some(joined) => joined.cases.extend(other.cases),
+        }
+    }
+
+    /// Whether every case passed.
+    pub fn passed(&self) -> bool {
+        self.cases.iter().all(CaseOutcome::passed)
+    }
+
+    /// Returns the results of one kind of study with the names of their cases. `of` is an accessor,
+    /// such as [`CaseOutcome::stability`].
+    pub fn results<'a, R: 'a>(
+        &'a self,
+        of: fn(&'a CaseOutcome) -> Option<&'a R>,
+    ) -> impl Iterator<Item = (&'a str, &'a R)> {
+        self.cases.iter().filter_map(move |case| Some((case.case.as_str(), of(case)?)))
+    }
+}
+
+/// Result of one case.
+#[derive(Debug, Clone)]
+pub struct CaseOutcome {
+    /// Name of the case, unique in its suite.
+    pub case: String,
+    /// Kind of solver, such as `mpm`, `fem` or `external`.
+    pub subject: &'static str,
+    /// Settings of the method: basis, transfer, mass matrix, start, kind of reference.
+    pub settings: Vec<(String, String)>,
+    /// Loads, passes and memory of a step on the coarsest level, if the solver reports a profile.
+    pub profile: Option<Profile>,
+    /// Expectation in one line; `None` if the suite only explores and expects nothing.
+    pub expected: Option<String>,
+    /// Reason for the expectation, from the suite; empty if nothing is expected.
+    pub because: String,
+    /// Verdict, as text.
+    pub verdict: String,
+    /// Explanation of the verdict, with the measured values that led to it.
+    pub reason: String,
+    /// Unmet expectations; empty if the case passed.
+    pub unmet: Vec<String>,
+    /// Missing capabilities of the solver; empty if the case applies.
+    pub lacks: Vec<String>,
+    /// Reason why `run --gate` has no requirement for the case; `None` if it has one.
+    pub exemption: Option<Exemption>,
+    /// Results of the study. `None` if the case could not be set up; `reason` then has the
+    /// explanation.
+    pub study: Option<StudyResults>,
+}
+
+/// Reason why `run --gate` has no requirement for a case. The explanation is in
+/// [`CaseOutcome::reason`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exemption {
+    /// The suite cannot test the requirement.
+    NotGated,
+    /// The author of the solver excepts the case, so it has not run.
+    Excepted,
+}
+
+impl CaseOutcome {
+    /// Creates the outcome of a case that has not run, without an expectation.
+    pub fn new(case: &str, subject: &'static str, settings: Vec<(String, String)>) -> Self {
+        Self {
+            case: case.to_owned(),
+            subject,
+            settings,
+            profile: None,
+            expected: None,
+            because: String::new(),
+            verdict: String::new(),
+            reason: String::new(),
+            unmet: Vec::new(),
+            lacks: Vec::new(),
+            exemption: None,
+            study: None,
+        }
+    }
+
+    /// Whether all expectations are met.
+    pub fn passed(&self) -> bool {
+        self.unmet.is_empty()
+    }
+
+    /// Whether the case has been tested: it applies to the solver, and `run --gate` does not exempt
+    /// it.
+    pub fn is_tested(&self) -> bool {
+        self.lacks.is_empty() && self.exemption.is_none()
+    }
+
+    /// Returns the value of the method's setting `name`.
+    pub fn setting(&self, name: &str) -> Option<&str> {
+        self.settings.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+    }
+
+    /// Whether the method fails at the problem. Such a failure may be expected.
+    pub fn fails(&self) -> bool {
+        self.study.as_ref().is_some_and(StudyResults::fails)
+    }
+
+    /// All values of [`CaseOutcome::result`].
+    pub const RESULTS: [&'static str; 6] =
+        ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
+
+    /// Returns the result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a`
+    /// if the solver lacks a capability. With `run --gate` also `not gated` and `excepted`.
+    pub fn result(&self) -> &'static str {
+        if !self.lacks.is_empty() {
+            return "n/a";
+        }
+        match self.exemption {
+            Some(Exemption::NotGated) => return "not gated",
+            Some(Exemption::Excepted) => return "excepted",
+            None => {}
+        }
+        match (self.passed(), &self.expected) {
+            (false, _) => "FAIL",
+            (true, Some(_)) => "pass",
+            (true, None) => "explored",
+        }
+    }
+
+    /// Converts the outcome to that of a case that does not apply to its solver. `lacks` are the
+    /// missing capabilities; `verb` introduces them in the reason.
+    #[must_use]
+    pub fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
+        let verdict = "not applicable".to_owned();
+        let reason = format!("the solver {verb} {}", lacks.join(", "));
+        Self { verdict, reason, lacks, ..self }
+    }
+
+    /// Converts the outcome to that of a case that an external solver rejected. The case is not
+    /// applicable if the solver does not support the problem, and fails if the solver failed.
+    #[must_use]
+    pub fn not_run(self, error: &SubjectError) -> Self {
+        match error {
+            SubjectError::Unsupported(reason) => {
+                self.not_applicable(vec![reason.clone()], "refuses the problem:")
+            }
+            SubjectError::Failed(_) => self.could_not_run(error),
+        }
+    }
+
+    /// Converts the outcome to that of a case whose solver failed.
+    #[must_use]
+    pub fn could_not_run(self, error: &SubjectError) -> Self {
+        let unmet = vec![format!("the case could not be run: {error}")];
+        let (verdict, reason) = (Verdict::Failed.to_string(), error.to_string());
+        Self { verdict, reason, unmet, ..self }
+    }
+
+    /// Converts the outcome to that of a case that `run --gate` does not judge, for `reason`.
+    #[must_use]
+    pub(crate) fn not_gated(self, reason: &str) -> Self {
+        let reason = format!("{reason}; {}", self.reason);
+        Self { reason, exemption: Some(Exemption::NotGated), ..self }
+    }
+
+    /// Completes the outcome by calling `run`. The case does not run if `gating` excepts it, or if
+    /// the solver lacks capabilities (`lacks`).
+    #[must_use]
+    pub fn after(
+        self,
+        gating: Option<&Gating>,
+        lacks: Vec<String>,
+        run: impl FnOnce(Self) -> Self,
+    ) -> Self {
+        if let Some(Gating::Excepted(reason)) = gating {
+            return self.excepted(reason.clone());
+        }
+        if !lacks.is_empty() {
+            return self.not_applicable(lacks, "lacks");
+        }
+        let outcome = run(self);
+        match gating {
+            Some(Gating::NotGated(reason)) if outcome.lacks.is_empty() => outcome.not_gated(reason),
+            _ => outcome,
+        }
+    }
+
+    /// Completes the outcome with the judgement of a case.
+    #[must_use]
+    pub fn judged(self, judgement: CaseJudgement) -> Self {
+        let CaseJudgement { verdict, reason, unmet, exemption, study } = judgement;
+        let outcome = Self {
+            verdict,
+            reason,
+            unmet,
+            study: Some(StudyResults::Convergence(Arc::new(study))),
+            ..self
+        };
+        match exemption {
+            Some(reason) => outcome.not_gated(&reason),
+            None => outcome,
+        }
+    }
+
+    /// Converts the outcome to that of a case that the author of its solver excludes from
+    /// `run --gate`.
+    #[must_use]
+    pub fn excepted(self, reason: String) -> Self {
+        let (verdict, exemption) = ("not run".to_owned(), Some(Exemption::Excepted));
+        Self { verdict, reason, exemption, expected: None, ..self }
+    }
+
+    /// Returns the expectation and its reason in one line.
+    pub fn expectation(&self) -> String {
+        match &self.expected {
+            _ if self.exemption.is_some() => format!("nothing: {}", self.reason),
+            Some(expected) => format!("{expected}; reason: {}", self.because),
+            None => "nothing: neither the suite nor a gate has an expectation for it".to_owned(),
+        }
+    }
+
+    /// Returns the convergence study; `None` for other kinds of study.
+    pub fn convergence(&self) -> Option<&Convergence> {
+        let StudyResults::Convergence(study) = self.study.as_ref()? else { return None };
+        Some(study)
+    }
+
+    /// Returns the internal-force study; `None` for other kinds of study.
+    pub fn internal_force(&self) -> Option<&InternalForce> {
+        let StudyResults::InternalForce(study) = self.study.as_ref()? else { return None };
+        Some(study)
+    }
+
+    /// Returns the stability study; `None` for other kinds of study.
+    pub fn stability(&self) -> Option<&StabilityStudy> {
+        let StudyResults::Stability(study) = self.study.as_ref()? else { return None };
+        Some(study)
+    }
+
+    /// Returns the gradient study; `None` for other kinds of study.
+    pub fn gradient(&self) -> Option<&GradientStudy> {
+        let StudyResults::Gradient(study) = self.study.as_ref()? else { return None };
+        Some(study)
+    }
+
+    /// Returns the spectrum study; `None` for other kinds of study.
+    pub fn spectrum(&self) -> Option<&SpectrumStudy> {
+        let StudyResults::Spectrum(study) = self.study.as_ref()? else { return None };
+        Some(study)
+    }
+}

@@ -1,0 +1,395 @@
+//! Runs a solver and observes whether the energy grows.
+//!
+//! The energy is the kinetic energy plus `V |sigma|^2 / (2 M)`, where M is the stiffness against
+//! uniaxial strain. The second term is the strain energy in 1-D at small strain; otherwise it only
+//! measures the size of the stress, which is sufficient to detect growth. The energy is divided by
+//! its initial value, or by the energy of a unit strain if the body starts at rest.
+
+use crate::verify::conservation::{Balance, ConservationError, Conserved};
+use crate::verify::error::norm::largest_length;
+use crate::verify::{Scales, Stability, Trial, larger};
+use mpm_subject::{Failure, Samples, Subject};
+
+/// Number of initial steps that are all checked; later, every [`EVERY`]th step is checked. Fast
+/// growth appears in the first steps, and slow growth needs no frequent checks.
+const FIRST: u64 = 64;
+const EVERY: u64 = 16;
+
+/// Whether the state is checked after a step.
+pub fn is_looked_at(step: u64, steps: u64) -> bool {
+    step <= FIRST || step.is_multiple_of(EVERY) || step == steps
+}
+
+/// Runs `subject` for `steps` steps, whose lengths (s) cycle through `dt`. Stops if the run is
+/// unstable or fails.
+pub fn trial(subject: &mut dyn Subject, dt: &[f64], steps: u64, scales: &Scales) -> Trial {
+    let mut monitor = TrialMonitor::new(subject, *scales);
+    let mut lengths = dt.iter().cycle();
+    for step in 1..=steps {
+        let dt = *lengths.next().unwrap_or(&f64::NAN);
+        monitor.time += dt;
+        if let Err(failure) = subject.step(dt) {
+            return monitor.failed(subject, step, &failure);
+        }
+        if is_looked_at(step, steps) {
+            monitor.look(subject);
+            if !(monitor.energy <= scales.unstable_above) {
+                return monitor.grown(subject, step);
+            }
+        }
+    }
+    let verdict = if monitor.energy <= scales.stable_below {
+        Stability::Stable
+    } else {
+        Stability::BoundedGrowth
+    };
+    monitor.ended(subject, verdict, None, steps)
+}
+
+struct TrialMonitor {
+    scales: Scales,
+    time: f64,
+    samples: Samples,
+    balance: Option<Balance>,
+    reference: f64,
+    kinetic_start: f64,
+    energy: f64,
+    last: f64,
+    speed: f64,
+    /// Largest kinetic energy so far (J).
+    kinetic: f64,
+    /// Current and largest kinetic energy in the null space (J).
+    null: f64,
+    null_most: f64,
+}
+
+impl TrialMonitor {
+    fn new(subject: &dyn Subject, scales: Scales) -> Self {
+        let mut samples = Samples::default();
+        subject.sample(&mut samples);
+        let kinetic_start = kinetic(subject, scales.centred);
+        let start = kinetic_start + stored(&samples, scales.modulus);
+        let reference = if start > 0.0 {
+            start
+        } else {
+            0.5 * scales.modulus * samples.weight.iter().sum::<f64>()
+        };
+        let mut monitor = Self {
+            scales,
+            time: 0.0,
+            samples,
+            balance: subject.totals().map(Balance::start),
+            reference,
+            kinetic_start,
+            energy: 0.0,
+            last: 0.0,
+            speed: 0.0,
+            kinetic: 0.0,
+            null: f64::NAN,
+            null_most: 0.0,
+        };
+        monitor.look(subject);
+        monitor
+    }
+
+    fn look(&mut self, subject: &dyn Subject) {
+        subject.sample(&mut self.samples);
+        let moving = kinetic(subject, self.scales.centred);
+        self.kinetic = larger(self.kinetic, moving);
+        self.last = (moving + stored(&self.samples, self.scales.modulus)) / self.reference;
+        if self.scales.null_space {
+            self.null = subject.null_space_energy().unwrap_or(f64::NAN);
+        }
+        self.null_most = larger(self.null_most, self.null);
+        self.energy = larger(self.energy, self.last);
+        let fastest = largest_length(&self.samples.velocity, self.samples.dimension);
+        self.speed = larger(self.speed, fastest / self.scales.speed);
+        if let Some(balance) = &mut self.balance {
+            balance.look(subject.totals().as_ref());
+        }
+    }
+
+    /// Creates the result of a run that exceeded the energy bound. An energy that is not finite is
+    /// a failure, not growth.
+    fn grown(self, subject: &dyn Subject, step: u64) -> Trial {
+        let t = self.time;
+        if !self.last.is_finite() {
+            let why = format!("the energy is not finite (step {step}, t = {t:.4e} s)");
+            return self.ended(subject, Stability::Failed, Some(why), step);
+        }
+        let why = format!(
+            "the energy is {:.1e} times its initial value (step {step}, t = {t:.4e} s)",
+            self.energy
+        );
+        self.ended(subject, Stability::Unstable, Some(why), step)
+    }
+
+    fn failed(self, subject: &dyn Subject, step: u64, failure: &Failure) -> Trial {
+        let why = format!("{failure} (step {step}, t = {:.4e} s)", self.time);
+        self.ended(subject, Stability::Failed, Some(why), step)
+    }
+
+    fn ended(
+        self,
+        subject: &dyn Subject,
+        verdict: Stability,
+        why: Option<String>,
+        steps: u64,
+    ) -> Trial {
+        let drift = self.balance.as_ref().map_or(ConservationError::NONE, Balance::drift);
+        let d = self.samples.dimension;
+        Trial {
+            verdict,
+            why,
+            steps,
+            energy: self.energy,
+            energy_kept: self.last,
+            kinetic_kept: kinetic(subject, self.scales.centred) / self.kinetic_start,
+            momentum: drift.of(Conserved::Momentum),
+            angular_momentum: drift.of(Conserved::AngularMomentum),
+            least_j: subject.counters().min_j,
+            speed: self.speed,
+            null_share: self.null / self.kinetic,
+            largest_null_share: self.null_most / self.kinetic,
+            stress_spread: stress_spread(&self.samples),
+            checkerboard: checkerboard(&self.samples),
+            stress: largest_length(&self.samples.stress, d * d) / self.scales.modulus,
+            displacement: largest_length(&self.samples.displacement, d),
+            ledger: subject.energy_balance(),
+        }
+    }
+}
+
+/// Computes the kinetic energy (J). `centred` excludes the energy of the centre of mass.
+fn kinetic(subject: &dyn Subject, centred: bool) -> f64 {
+    let Some(totals) = subject.totals() else { return 0.0 };
+    let square: f64 = totals.momentum.iter().map(|p| p * p).sum();
+    let common = if centred { square / (2.0 * totals.mass) } else { 0.0 };
+    // Rounding may make the difference negative. NaN remains NaN.
+    let rest = totals.kinetic_energy - common;
+    if rest < 0.0 { 0.0 } else { rest }
+}
+
+/// Computes `sum V0 |sigma|^2 / (2 M)` (J).
+fn stored(samples: &Samples, modulus: f64) -> f64 {
+    let d = samples.dimension.max(1);
+    let squares = samples.stress.chunks_exact(d * d).map(|s| s.iter().map(|s| s * s).sum::<f64>());
+    squares.zip(&samples.weight).map(|(square, weight)| weight * square).sum::<f64>()
+        / (2.0 * modulus)
+}
+
+/// Maximum number of particles for a neighbour search. The search computes the distances of all
+/// pairs.
+const MOST: usize = 4096;
+
+/// Maximum distance between neighbours along an axis, in units of the shortest distance.
+const NEAR: f64 = 1.2;
+
+/// Computes the mean normal stress of each particle (Pa); `None` without stresses.
+fn pressures(samples: &Samples) -> Option<Vec<f64>> {
+    let (n, d) = (samples.len(), samples.dimension.max(1));
+    let mean =
+        |p: usize| (0..d).map(|i| samples.stress[(p * d + i) * d + i]).sum::<f64>() / d as f64;
+    (samples.stress.len() == n * d * d).then(|| (0..n).map(mean).collect())
+}
+
+/// Computes the difference between the largest and the smallest mean normal stress, relative to the
+/// largest magnitude; NaN without stresses.
+pub(super) fn stress_spread(samples: &Samples) -> f64 {
+    let pressures = pressures(samples).unwrap_or_default();
+    let high = pressures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = pressures.iter().copied().fold(f64::INFINITY, f64::min);
+    (high - low) / high.abs().max(low.abs())
+}
+
+/// Computes the RMS difference between the mean normal stress of a particle and that of its
+/// neighbours, relative to the RMS of the mean normal stress. NaN without stresses or neighbours,
+/// or with too many particles.
+pub(super) fn checkerboard(samples: &Samples) -> f64 {
+    let (n, d) = (samples.len(), samples.dimension.max(1));
+    let Some(pressure) = pressures(samples).filter(|_| (2..=MOST).contains(&n)) else {
+        return f64::NAN;
+    };
+    let label = |p: usize| &samples.label[p * d..(p + 1) * d];
+    let square = |p: usize, q: usize| {
+        label(p).iter().zip(label(q)).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
+    };
+    let others = |p: usize| (0..n).filter(move |q| *q != p);
+    let shortest = (1..n).map(|q| square(0, q)).fold(f64::INFINITY, f64::min) * NEAR * NEAR;
+    let (mut apart, mut size, mut count) = (0.0, 0.0, 0_u32);
+    for p in 0..n {
+        let near: Vec<usize> = others(p).filter(|q| square(p, *q) <= shortest).collect();
+        if near.is_empty() {
+            continue;
+        }
+        let around = near.iter().map(|q| pressure[*q]).sum::<f64>() / near.len() as f64;
+        apart += (pressure[p] - around) * (pressure[p] - around);
+        size += pressure[p] * pressure[p];
+        count += 1;
+    }
+    if count == 0 { f64::NAN } else { (apart / size).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::{
+        Critical, Prediction, RunFigure, StabilityExpectation, StabilityLimit, StabilityRow,
+        StabilityStudy,
+    };
+    use approx::assert_relative_eq;
+    use mpm_subject::{RunCounters, Totals};
+
+    /// A solver with one point of mass 2 under a stress of 1, and a given kinetic energy (J) for
+    /// each step.
+    struct Scripted {
+        kinetic: Vec<f64>,
+        step: usize,
+    }
+
+    impl Subject for Scripted {
+        fn step(&mut self, _: f64) -> Result<(), Failure> {
+            self.step += 1;
+            Ok(())
+        }
+
+        fn sample(&self, samples: &mut Samples) {
+            samples.restart(1);
+            samples.push(&[0.0], &[0.0], &[0.0], 1.0);
+            samples.stress.push(1.0);
+        }
+
+        fn counters(&self) -> RunCounters {
+            RunCounters::new(0)
+        }
+
+        fn totals(&self) -> Option<Totals> {
+            let kinetic_energy = self.kinetic[self.step];
+            let momentum = [4.0, 0.0, 0.0];
+            Some(Totals { mass: 2.0, momentum, kinetic_energy, ..Totals::default() })
+        }
+    }
+
+    /// Runs a scripted solver. With a modulus of 1/2 the stress stores 1 J.
+    fn watched(kinetic: &[f64], centred: bool) -> Trial {
+        let mut subject = Scripted { kinetic: kinetic.to_vec(), step: 0 };
+        let scales = Scales {
+            speed: 1.0,
+            modulus: 0.5,
+            stable_below: 2.0,
+            unstable_above: 100.0,
+            centred,
+            null_space: false,
+        };
+        trial(&mut subject, &[1.0], kinetic.len() as u64 - 1, &scales)
+    }
+
+    #[test]
+    fn the_largest_energy_of_a_run_decides() {
+        let found = watched(&[3.0, 11.0, 1.0], false);
+        assert_eq!(found.verdict, Stability::BoundedGrowth);
+        let figures = [
+            (RunFigure::Energy, 3.0),
+            (RunFigure::EnergyKept, 0.5),
+            (RunFigure::KineticKept, 1.0 / 3.0),
+        ];
+        for (figure, expected) in figures {
+            assert_relative_eq!(figure.of(&found), expected, max_relative = 1e-14);
+        }
+        assert_eq!(watched(&[3.0, 5.0, 1.0], false).verdict, Stability::Stable);
+    }
+
+    /// A body of 2 kg with a momentum of 4 kg m/s has an energy of 4 J. This energy does not belong
+    /// to the motion relative to the centre of mass.
+    #[test]
+    fn a_common_motion_is_left_out_where_it_is_asked() {
+        assert_relative_eq!(watched(&[5.0, 9.0], true).energy, 3.0, max_relative = 1e-14);
+        assert_relative_eq!(watched(&[5.0, 9.0], false).energy, 10.0 / 6.0, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn bounded_growth_is_neither_stable_nor_unstable() {
+        let trial = watched(&[3.0, 11.0, 1.0], false);
+        for share in [0.9, 1.1] {
+            let prediction = Prediction { limit: StabilityLimit::At(1.0), leaves: None };
+            let critical = Critical {
+                predicted: Some(prediction),
+                confirmed: vec![(share, trial.clone())],
+                observed: None,
+            };
+            let row =
+                StabilityRow { value: 1.0, trial: None, critical: Some(critical), refused: None };
+            assert_eq!(StabilityExpectation::default().unmet(&row).len(), 1, "{share}");
+        }
+    }
+
+    #[test]
+    fn one_row_that_is_not_stable_fails_a_study() {
+        let row = |kinetic: &[f64]| StabilityRow {
+            value: 1.0,
+            trial: Some(watched(kinetic, false)),
+            critical: None,
+            refused: None,
+        };
+        let study = |rows| StabilityStudy {
+            swept: "C".to_owned(),
+            sought: None,
+            figures: Vec::new(),
+            rows,
+        };
+        let (stable, grown) = (row(&[3.0, 4.0]), row(&[3.0, 11.0]));
+        assert!(!study(vec![stable.clone(), stable.clone()]).fails());
+        assert!(study(vec![stable.clone(), grown]).fails());
+        assert!(study(vec![StabilityRow { trial: None, ..stable }]).fails());
+    }
+
+    #[test]
+    fn the_fastest_counts_whatever_its_direction() {
+        assert_eq!(largest_length(&[1.0, -1.0, 3.0, -4.0, 0.0, 4.5], 2), 5.0);
+        assert_eq!(largest_length(&[], 0), 0.0);
+        assert!(largest_length(&[1.0, f64::NAN, 2.0], 1).is_nan());
+    }
+
+    fn row(stress: &[f64]) -> Samples {
+        let n = stress.len();
+        Samples {
+            dimension: 1,
+            label: (0..n).map(|p| p as f64).collect(),
+            weight: vec![1.0; n],
+            stress: stress.to_vec(),
+            ..Samples::default()
+        }
+    }
+
+    #[test]
+    fn a_sign_that_changes_from_particle_to_particle_counts_twice() {
+        assert_relative_eq!(checkerboard(&row(&[1.0, -1.0, 1.0, -1.0, 1.0])), 2.0);
+    }
+
+    #[test]
+    fn uniform_stress_has_no_checkerboard() {
+        assert_relative_eq!(checkerboard(&row(&[3.0; 4])), 0.0);
+        assert!(checkerboard(&row(&[0.0; 4])).is_nan());
+        assert!(checkerboard(&row(&[])).is_nan());
+    }
+
+    /// The third particle has no neighbours, and counts neither in the differences nor in the mean
+    /// size.
+    #[test]
+    fn checkerboard_ignores_particles_without_neighbours() {
+        let apart = Samples { label: vec![0.0, 1.0, 9.0], ..row(&[1.0, 3.0, 2.0]) };
+        assert_relative_eq!(checkerboard(&apart), (8.0_f64 / 10.0).sqrt());
+    }
+
+    #[test]
+    fn a_particle_is_held_against_the_mean_of_its_neighbours() {
+        let found = checkerboard(&row(&[1.0, 4.0, 3.0]));
+        assert_relative_eq!(found, ((9.0 + 4.0 + 1.0) / 26.0_f64).sqrt());
+    }
+
+    #[test]
+    fn stress_spread_is_relative_to_the_largest_magnitude() {
+        assert_relative_eq!(stress_spread(&row(&[1.0, -4.0, 2.0])), 1.5);
+        assert_relative_eq!(stress_spread(&row(&[8.0, 2.0])), 0.75);
+    }
+}
