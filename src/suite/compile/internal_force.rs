@@ -5,16 +5,12 @@
 //! computes the internal force on the node.
 
 use super::expect::assign;
-use crate::mpm::{BasisName, Block, Grid, Kernel, Matrix, Particles, Vector, kernel};
+use crate::mpm::{BasisName, StressedCells, force_at_node};
 use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ForceExpectSpec, ForceMethodSpec, InternalForceSpec};
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::Diagnostic;
 use crate::verify::ForceRow;
-
-/// Number of full cells on each side of the node: enough to keep wide basis functions away from the
-/// ends of the periodic axis.
-const SIDE: usize = 4;
 
 /// Maximum number of particles, summed over all positions of the moving particle. This limits the
 /// run time to about a second.
@@ -102,36 +98,13 @@ fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
     let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
     let right = plan.ppc + u64::from(position >= 0.0);
     let left = 2 * plan.ppc - right;
+    let ForcePlan { cell, volume, stress, .. } = *plan;
+    let cells = StressedCells { cell, ppc: plan.ppc as usize, volume, stress };
     ForceRow {
         position,
         left,
         right,
-        force: force(plan, case.basis, position),
+        force: force_at_node(case.basis, &cells, position),
         predicted: plan.prediction.eval(&[left as f64, right as f64]),
     }
-}
-
-fn force(plan: &ForcePlan, basis: BasisName, position: f64) -> f64 {
-    let h = plan.cell;
-    let kernel = kernel::<1>(basis);
-    let (from, to) = (Vector::<1>::new(-h * SIDE as f64), Vector::<1>::new(h * SIDE as f64));
-    let mut grid = kernel.grid(from, h, [2 * SIDE], [true]);
-    let block = Block { from, to, density: 1.0 };
-    let mut particles = Particles::fill(&block, h, plan.ppc as usize);
-    particles.vol.fill(plan.volume);
-    particles.sigma.fill(Matrix::<1>::new(plan.stress));
-    // The last particle of the left half is the moving particle.
-    particles.x[SIDE * plan.ppc as usize - 1][0] = position * h;
-    kernel.p2g_internal_force(&particles, &mut grid);
-    let node = node_at(kernel.as_ref(), &mut grid, h);
-    grid.force[node][0]
-}
-
-/// Returns the node with the largest weight for a particle at x = 0. Of two equal nodes, returns
-/// the right one.
-fn node_at(kernel: &dyn Kernel<1>, grid: &mut Grid<1>, h: f64) -> usize {
-    let (from, to) = (Vector::<1>::new(-0.5 * h), Vector::<1>::new(0.5 * h));
-    let alone = Particles::fill(&Block { from, to, density: 1.0 }, h, 1);
-    kernel.p2g_mass(&alone, grid);
-    (0..grid.nodes()).max_by(|a, b| grid.mass[*a].total_cmp(&grid.mass[*b])).unwrap_or(0)
 }

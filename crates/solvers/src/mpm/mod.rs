@@ -40,6 +40,7 @@ mod seeding;
 mod step;
 mod transfer;
 
+pub use analysis::crossing_force::{StressedCells, force_at_node};
 pub use analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer};
 pub use analysis::energy_ledger::kinetic_energy;
 pub use analysis::stable_time_step::simplest_with_same_response;

@@ -70,7 +70,7 @@ pub(super) fn refuse_plane(
     material: &MaterialPlan,
     plane: PlaneState,
 ) -> Result<(), Diagnostic> {
-    if material.in_plane::<2>(plane).is_some() {
+    if material.supports(plane) {
         return Ok(());
     }
     let name = material.name();

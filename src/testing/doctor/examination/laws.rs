@@ -7,7 +7,7 @@
 //! body, which starts with the same F because of its initial displacement `(F - I) (X - C)`.
 
 use super::stress::{impulses, inside, require_whole_body};
-use crate::mpm::{det_of_rows, inverse};
+use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
     AffineField, Course, displacement, minus, shown, shown_list, transposed, velocity,
 };
@@ -448,7 +448,7 @@ fn of_jaumann_rate(scene: &BoxScene, f: &[f64]) -> Option<Vec<f64>> {
     let mut sigma = Matrix3::zeros();
     for part in 0..PARTS {
         let middle = identity + (part as f64 + 0.5) * change;
-        let step = change * inverse(&middle)?;
+        let step = change * middle.try_inverse()?;
         let strain = 0.5 * (step + step.transpose());
         let spin = step - strain;
         let law = lambda * strain.trace() * identity + 2.0 * mu * strain;

@@ -1,8 +1,8 @@
 //! A body, and its particles.
 
+use super::GridInput;
 use super::effect::EffectInput;
 use super::state::InitialState;
-use super::{GridInput, SceneInput};
 use crate::mpm::basis::BasisName;
 use crate::mpm::effect::Effect;
 use crate::mpm::foundation::algebra::{Matrix, Vector};
@@ -241,11 +241,5 @@ impl BodyInput<'_> {
     ) -> Result<Vec<Box<dyn Effect<D>>>, SubjectError> {
         let effects = std::mem::take(&mut self.effects).into_iter();
         effects.map(|effect| effect.build(grid, basis, particles)).collect()
-    }
-}
-
-impl SceneInput<'_> {
-    pub(super) fn dimension(&self) -> usize {
-        self.grid.dimension()
     }
 }

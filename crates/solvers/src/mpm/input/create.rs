@@ -29,7 +29,7 @@ pub fn subject(
     scene: SceneInput<'_>,
     method: MethodInput,
 ) -> Result<Box<dyn Subject>, SubjectError> {
-    with_dimension!(scene.dimension(), D => match method {
+    with_dimension!(scene.grid.dimension(), D => match method {
         MethodInput::Dynamic(method) => dynamic::<D>(scene, method),
         MethodInput::QuasiStatic { basis, load_steps } => {
             Ok(Box::new(quasi_static::<D>(scene, basis, load_steps)?))
@@ -53,7 +53,7 @@ pub fn profile(scene: SceneInput<'_>, method: MethodInput, dt: f64) -> Option<Pr
         let visits = take_visits(&subject);
         Some(Profile { passes: subject.passes(), visits, ..profile(&subject) })
     }
-    with_dimension!(scene.dimension(), D => match method {
+    with_dimension!(scene.grid.dimension(), D => match method {
         MethodInput::QuasiStatic { basis, .. } => {
             let body = quasi_static::<D>(scene, basis, 2).ok()?;
             of_second_step(body, 1.0, QuasiStatic::take_visits, QuasiStatic::profile)
@@ -83,7 +83,7 @@ pub fn stable_time_step(
     rounds: u32,
 ) -> Result<f64, SubjectError> {
     let h = scene.grid.h;
-    with_dimension!(scene.dimension(), D => {
+    with_dimension!(scene.grid.dimension(), D => {
         let setups = setups::<D>(scene, method)?;
         setups.into_iter().zip(wave_speeds).try_fold(f64::INFINITY, |least, (setup, speed)| {
             let solver = Solver::new(setup)?;
@@ -103,7 +103,7 @@ pub fn perturbable(
     method: MpmMethod,
 ) -> Result<Box<dyn Perturbable>, SubjectError> {
     let contact = scene.contact;
-    with_dimension!(scene.dimension(), D => {
+    with_dimension!(scene.grid.dimension(), D => {
         let mut setups = setups::<D>(scene, method)?;
         if setups.len() == 1
             && let Some(one) = setups.pop()
@@ -122,7 +122,7 @@ pub fn with_ledger(
     scene: SceneInput<'_>,
     method: MpmMethod,
 ) -> Result<Box<dyn Perturbable>, SubjectError> {
-    with_dimension!(scene.dimension(), D => {
+    with_dimension!(scene.grid.dimension(), D => {
         let mut setups = setups::<D>(scene, method)?;
         let (Some(one), true) = (setups.pop(), setups.is_empty()) else {
             return Err("an energy ledger is that of one body with an MPM method".into());
@@ -141,7 +141,7 @@ pub fn initial_particles(
     method: MpmMethod,
     disturb: &mut dyn FnMut(&mut dyn Perturbable),
 ) -> Result<Vec<ParticleTable>, SubjectError> {
-    with_dimension!(scene.dimension(), D => {
+    with_dimension!(scene.grid.dimension(), D => {
         let table = |setup: Setup<D>| {
             let mut solver = Solver::new(setup)?;
             disturb(&mut solver);

@@ -71,6 +71,11 @@ impl MaterialPlan {
         }
     }
 
+    /// Whether the law supports this state of two-dimensional bodies.
+    pub fn supports(&self, plane: PlaneState) -> bool {
+        self.in_plane::<2>(plane).is_some()
+    }
+
     /// Returns Young's modulus (Pa) and Poisson's ratio; `None` for a material without these
     /// parameters.
     pub fn elasticity(&self) -> Option<(f64, f64)> {
