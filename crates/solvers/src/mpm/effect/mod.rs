@@ -1,6 +1,7 @@
 //! Registry of the effects: additions to the equations of motion, such as gravity. A new effect
 //! requires one file, its `mod` and `pub use` lines, and a variant of `EffectInput` in `mpm/input`.
-//! A solver has a list of effects. An effect that is not in the list adds no call, column or branch.
+//! A solver has a list of effects. An effect that is not in the list adds no call, column or
+//! branch.
 
 mod artificial_viscosity;
 mod body_force;
