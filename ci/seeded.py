@@ -42,7 +42,8 @@ def write_copy(copy, changed, most):
     for file in files:
         text = changed[file].encode() if file in changed else (ROOT / file).read_bytes()
         if file == "crates/subject/src/lib.rs":
-            text = text.replace(b"mod column;", b"#[doc(hidden)]\npub mod seeded;\nmod column;", 1)
+            switches = b"extern crate self as mpm_subject;\n#[doc(hidden)]\npub mod seeded;\nmod column;"
+            text = text.replace(b"mod column;", switches, 1)
         elif file == "Cargo.toml":
             text += b'\n[[bin]]\nname = "defects"\npath = "tests/defects/driver.rs"\n'
         put(copy / file, text)
