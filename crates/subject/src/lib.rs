@@ -1,11 +1,12 @@
 //! Interface between the verifier and a solver under test.
 //!
-//! A [`Subject`] is a solver under test at one refinement level: the MPM or FEM solver of this
-//! crate, or an external solver. The trait is object-safe and uses only slices of `f64`, so that it
-//! can wrap a solver in another language.
+//! A [`Subject`] is a solver under test at one refinement level: the MPM or FEM solver of
+//! `mpm-solvers`, or an external solver. The trait is object-safe and uses only slices of `f64`, so
+//! that it can wrap a solver in another language.
 //!
-//! The module also defines sums over a body, wall reactions, the rules for the name and the claimed
-//! order of a solver, and the out-of-plane state of a two-dimensional body.
+//! The crate also defines samples, counters and failures, sums over a body, wall reactions, the
+//! rules for the name and the claimed order of a solver, and the out-of-plane state of a
+//! two-dimensional body.
 
 mod column;
 mod dimension;

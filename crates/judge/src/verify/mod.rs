@@ -9,6 +9,7 @@
 //! | `window` | the asymptotic levels |
 //! | `error_trend` | floor, divergence, oscillation |
 //! | [`judge`](judge()) | the decision sequence, and the verdict |
+//! | `verdict/reason`, [`verdict/name`](Verdict) | sentences and names of verdicts in reports |
 //! | [`case`](judge_case) | judgement of a case: all results that a report shows |
 //! | [`judge_plan`](JudgePlan), [`rerun`](Reruns) | inputs of a judgement, and repeated levels |
 //! | [`floor`](Floor) | the cause of an error floor |

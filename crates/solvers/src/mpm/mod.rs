@@ -22,6 +22,7 @@
 //! step          set-up, schedule and passes of a solver
 //! multibody, quasi_static    several solvers on one grid; a solver without dynamics
 //! analysis      analyses of a solver
+//! input         solvers created from data
 //! ```
 
 mod analysis;

@@ -14,13 +14,13 @@ use mpm_subject::named;
 const LEAST_FALL: f64 = 0.25;
 
 named! {
-/// Cause of an error floor.
+    /// Cause of an error floor.
     pub enum FloorCause {
-/// Error of the time step.
+        /// Error of the time step.
         Time = "time",
-/// Error of the cell size.
+        /// Error of the cell size.
         Space = "space",
-/// Error of the particle spacing.
+        /// Error of the particle spacing.
         Particles = "particles",
         /// None of the refined axes: an error of the model, the method or the reference, or
         /// round-off.

@@ -81,7 +81,7 @@ pub struct CellLattice {
     pub centres: Vec<Vec<f64>>,
     /// Half-lengths of a cell (m).
     pub half: Vec<f64>,
-    /// Number of cells along the first axis.
+    /// Number of cells along the first axis, from which the neighbours of a cell follow.
     pub along: usize,
 }
 
@@ -103,8 +103,7 @@ pub struct FragmentInput {
     pub place: [f64; 2],
     /// Volume (m2).
     pub volume: f64,
-    /// Half-edge vectors of a parallelogram with this volume (m): rows of the matrix that has them
-    /// as columns.
+    /// Half-edge vectors a and b of a parallelogram with this volume (m): `[a_x, b_x, a_y, b_y]`.
     pub domain: [f64; 4],
 }
 

@@ -1,5 +1,6 @@
-//! Loads and effects of a body. A new effect requires a variant of [`EffectInput`], and the line in
-//! [`EffectInput::build`] that creates the effect.
+//! Loads and effects of a body. A new effect requires a file in `mpm/effect`, a variant of
+//! [`EffectInput`], and the arm of [`EffectInput::build`] that creates the effect. The whole list
+//! of files is in `docs/exercises/effect.md`.
 
 use super::wall::{FaceInput, ThermalInput, vector_field};
 use super::{ScalarAt, VectorAt, VectorOfTime};

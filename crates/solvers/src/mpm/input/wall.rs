@@ -9,7 +9,7 @@ use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::particles::Particles;
 use std::sync::Arc;
 
-/// A face of a box: the axis of its normal, and the end of this axis.
+/// A face of the grid or of a box-shaped body: the axis of its normal, and the end of this axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FaceInput {
     /// Axis of the normal.
@@ -54,7 +54,9 @@ impl WallInput {
         match &self.condition {
             WallCondition::Fixed => Box::new(Fixed::face(grid, axis, side)),
             WallCondition::Roller => Box::new(Roller::face(grid, axis, side)),
-            WallCondition::Friction(share) => Box::new(Friction::face(grid, axis, side, *share)),
+            WallCondition::Friction(coefficient) => {
+                Box::new(Friction::face(grid, axis, side, *coefficient))
+            }
             WallCondition::Velocity(value) => {
                 let value = value.clone();
                 let value = vector_field(move |x: &[f64], t, v: &mut [f64]| value(x, t, v));
