@@ -81,7 +81,7 @@ impl<'a> Body<'a> {
         let on_set = |load: &ListedLoad| matches!(load.target(), LoadTarget::Set(_));
         let loads = &self.own.loads;
         let (whole, sets) = loads.split_at(loads.partition_point(|load| !on_set(load)));
-        let site = BodySite { heat: self.heat };
+        let site = BodySite { dimension: self.scene.dimension(), heat: self.heat };
         let made = self.manufactured.map(|problem| {
             let force = ManufacturedForce { problem: problem.clone(), forcing: None };
             EffectInput::BodyForce(Box::new(force))
@@ -122,7 +122,7 @@ pub(crate) fn plan_input(
 /// The suite is not a convergence study.
 pub fn effects(suite: &Suite) -> Result<Vec<EffectInput>, SubjectError> {
     let plan = suite.convergence().ok_or("the suite is not a convergence study")?;
-    let site = BodySite { heat: plan.heat_problem() };
+    let site = BodySite { dimension: plan.scene.dimension(), heat: plan.heat_problem() };
     Ok(plan.scene.loads.iter().map(|load| load.input(&site)).collect())
 }
 

@@ -33,6 +33,7 @@ impl LoadTarget {
 
 /// A body for which effects are created.
 pub(crate) struct BodySite<'a> {
+    pub(crate) dimension: usize,
     /// The heat problem that the exact temperature solves.
     pub(crate) heat: Option<&'a Conduction>,
 }

@@ -6,7 +6,7 @@ use crate::exact::Term;
 use crate::exact::formula::{Expr, Formula};
 use crate::exact::heat::{Conduction, HeatForcing, Temperature, TemperatureDerivatives, source_at};
 use crate::mpm::Side;
-use crate::mpm::input::{EffectInput, FaceInput, HeatInput, HeatSourceAt};
+use crate::mpm::input::{EffectInput, FaceInput, HeatInput, HeatSourceAt, TemperatureAt};
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{SuitePath, coordinates_and_time};
 use crate::suite::scene::SceneFace;
@@ -144,7 +144,7 @@ impl SceneLoad for SceneHeat {
         EffectInput::Heat(HeatInput {
             conductivity: self.conductivity,
             capacity: self.capacity,
-            initial: Box::new(initial(self, site.heat)),
+            initial: initial(self, site),
             source,
             faces: self.faces.iter().filter_map(condition).collect(),
         })
@@ -153,18 +153,14 @@ impl SceneLoad for SceneHeat {
 
 /// Returns the initial temperature (K) and its gradient (K/m): from the scene if stated there,
 /// otherwise from the exact solution.
-fn initial(
-    heat: &SceneHeat,
-    problem: Option<&Conduction>,
-) -> impl Fn(&[f64]) -> (f64, [f64; 3]) + use<> {
-    let stated = heat.initial.clone();
-    let exact = problem.map(|problem| problem.temperature.clone());
-    move |label| {
-        let stated = stated.as_ref().map(|formula| Temperature::new(formula.clone(), label.len()));
-        let now = stated.as_ref().or(exact.as_ref()).map(|field| field.derivatives(label, 0.0));
+fn initial(heat: &SceneHeat, site: &BodySite<'_>) -> TemperatureAt {
+    let stated = heat.initial.clone().map(|formula| Temperature::new(formula, site.dimension));
+    let field = stated.or_else(|| Some(site.heat?.temperature.clone()));
+    Box::new(move |label| {
+        let now = field.as_ref().map(|field| field.derivatives(label, 0.0));
         let TemperatureDerivatives { value, grad, .. } = now.unwrap_or_default();
         (value, grad)
-    }
+    })
 }
 
 /// A heat source given by a formula.
