@@ -22,12 +22,12 @@ pub(crate) const IMPORT_RULES: &[ImportRule] = &[
     ImportRule {
         module: "mpm",
         may: &["subject"],
-        why: "the solvers are independent of each other; the compiler keeps the judge away",
+        why: "the solvers are independent of each other; packages separate them from the judge",
     },
     ImportRule {
         module: "fem",
         may: &["subject"],
-        why: "the solvers are independent of each other; the compiler keeps the judge away",
+        why: "the solvers are independent of each other; packages separate them from the judge",
     },
     ImportRule {
         module: "exact",
