@@ -144,9 +144,12 @@ impl Graph<'_> {
 
 /// The shortest cycle through each module that is on one, each cycle once.
 pub(crate) fn cycles(edges: &[Edge]) -> Vec<Vec<&Edge>> {
-    let starts: BTreeSet<&Module> = edges.iter().map(|edge| &edge.from).collect();
+    let mut leaving: BTreeMap<&Module, Vec<&Edge>> = BTreeMap::new();
+    for edge in edges {
+        leaving.entry(&edge.from).or_default().push(edge);
+    }
     let mut seen = BTreeSet::new();
-    let shortest = starts.into_iter().filter_map(|start| cycle(edges, start));
+    let shortest = leaving.keys().filter_map(|start| cycle(&leaving, start));
     shortest
         .filter(|cycle| {
             seen.insert(cycle.iter().map(|edge| edge.from.clone()).collect::<BTreeSet<_>>())
@@ -155,13 +158,16 @@ pub(crate) fn cycles(edges: &[Edge]) -> Vec<Vec<&Edge>> {
 }
 
 /// The shortest way from `start` back to it.
-fn cycle<'a>(edges: &'a [Edge], start: &Module) -> Option<Vec<&'a Edge>> {
+fn cycle<'a>(
+    leaving: &BTreeMap<&'a Module, Vec<&'a Edge>>,
+    start: &Module,
+) -> Option<Vec<&'a Edge>> {
     let mut reached: BTreeMap<&Module, &Edge> = BTreeMap::new();
     let mut waiting = VecDeque::from([start]);
     while let Some(module) = waiting.pop_front() {
-        for edge in edges.iter().filter(|edge| edge.from == *module) {
+        for edge in leaving.get(module).into_iter().flatten() {
             if !reached.contains_key(&edge.to) {
-                reached.insert(&edge.to, edge);
+                reached.insert(&edge.to, *edge);
                 waiting.push_back(&edge.to);
             }
         }

@@ -43,7 +43,7 @@ fn hold(rule: &str, why: &str, breaches: &[Breach]) {
 
 #[test]
 fn module_imports_have_no_cycles() {
-    let edges = graph::edges(&source::of_packages());
+    let edges = graph::edges(&source::OF_PACKAGES);
     let cycles = graph::cycles(&edges);
     let written: Vec<String> = cycles.iter().map(|cycle| in_words(cycle)).collect();
     assert!(
@@ -65,7 +65,7 @@ fn in_words(cycle: &[&graph::Edge]) -> String {
 
 #[test]
 fn modules_import_only_allowed_modules() {
-    let edges = graph::edges(&source::of_packages());
+    let edges = graph::edges(&source::OF_PACKAGES);
     for import_rule in rules::IMPORT_RULES {
         let rule = match import_rule.may {
             [] => format!("`{}` imports no other part of the crate", import_rule.module),
@@ -77,7 +77,7 @@ fn modules_import_only_allowed_modules() {
 
 #[test]
 fn rules_and_exceptions_concern_existing_files() {
-    let sources = source::of_packages();
+    let sources = &*source::OF_PACKAGES;
     for import_rule in rules::IMPORT_RULES {
         let inside = sources.iter().any(|source| rules::is_in(&source.module, import_rule.module));
         assert!(
@@ -96,11 +96,11 @@ fn rules_and_exceptions_concern_existing_files() {
 #[test]
 fn only_one_file_lists_all_dimensions() {
     let (sources, all): (_, [&[&str]; 3]) =
-        (source::of_packages(), [&["<", "1", ">"], &["<", "2", ">"], &["<", "3", ">"]]);
+        (&source::OF_PACKAGES, [&["<", "1", ">"], &["<", "2", ">"], &["<", "3", ">"]]);
     hold(
         "only crates/subject/src/dimension.rs has `<1>`, `<2>` and `<3>` together",
         "all else is written once for any dimension, so that no dimension is forgotten",
-        &rules::mentions(&sources, &all, "crates/subject/src/dimension.rs"),
+        &rules::mentions(sources, &all, "crates/subject/src/dimension.rs"),
     );
 }
 
@@ -110,7 +110,7 @@ fn only_the_yaml_module_names_the_yaml_libraries() {
         hold(
             "only src/suite/yaml/ names the YAML libraries",
             "every text passes the same checks, and another library would change one folder",
-            &rules::mentions(&source::of_packages(), &[&[library]], "src/suite/yaml/"),
+            &rules::mentions(&source::OF_PACKAGES, &[&[library]], "src/suite/yaml/"),
         );
     }
 }
@@ -122,7 +122,7 @@ fn unit_tests_run_no_solver() {
     hold(
         "unit tests step no solver and load no suite: such tests are in tests/it or crates/solvers/tests",
         "unit tests are compiled without optimisation, and would take ten times as long",
-        &rules::tests_with(&source::with_tests(&source::of_sources()), &unwanted),
+        &rules::tests_with(&source::ALL, &unwanted),
     );
 }
 
@@ -131,7 +131,7 @@ fn files_are_short() {
     hold(
         "a file has at most 500 lines, not counting its tests",
         "a file holds one idea; one that grows beyond has two",
-        &rules::long(&source::of_packages(), &rules::LONGER),
+        &rules::long(&source::OF_PACKAGES, &rules::LONGER),
     );
 }
 
@@ -140,7 +140,7 @@ fn modules_have_names() {
     hold(
         "no module is called utils, helpers, misc or common",
         "a name that fits everything attracts everything",
-        &rules::nameless(&source::of_packages()),
+        &rules::nameless(&source::OF_PACKAGES),
     );
 }
 
@@ -149,24 +149,24 @@ fn modules_are_files() {
     hold(
         "no module but `tests` stands inside a file",
         "the rules about imports follow modules from file to file and would not see it",
-        &rules::nested(&source::of_packages()),
+        &rules::nested(&source::OF_PACKAGES),
     );
 }
 
 #[test]
 fn code_that_depends_on_the_platform_is_refused() {
-    let sources = source::of_packages();
+    let sources = &*source::OF_PACKAGES;
     hold(
         "transcendental functions and powers come from `libm`: `libm::sin(x)`, not `x.sin()`",
         "the standard library takes them from the platform, whose last bits differ between \
          machines; sqrt is exact by IEEE 754 and may be a method",
-        &rules::platform_calls(&sources),
+        &rules::platform_calls(sources),
     );
     hold(
         "products and sums are fused by `plus_product` of `mpm/foundation/simd`, in loops over nodes",
         "it rounds once where the formula as written rounds twice, on every processor; elsewhere a \
          fused operation may be a call, and a change between the two changes stored results",
-        &rules::fused(&sources),
+        &rules::fused(sources),
     );
 }
 
@@ -186,7 +186,7 @@ fn no_two_types_have_one_name() {
     hold(
         "no two source files define a type of the same name",
         "who reads the name would have to look up which of them is meant",
-        &words::twice(&source::of_packages(), words::TWICE),
+        &words::twice(&source::OF_PACKAGES, words::TWICE),
     );
 }
 

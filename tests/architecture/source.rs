@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// Names from the crate's root down; the root (`lib.rs`) has none.
 pub(crate) type Module = Vec<String>;
 
 /// One file, which is one module; a `mod.rs` is the module of its folder.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Source {
     /// Path from the root of the repository, with `/`.
     pub(crate) file: String,
@@ -29,13 +30,15 @@ pub(crate) struct Source {
 pub(crate) const SOURCES: [&str; 4] =
     ["src", "crates/judge/src", "crates/solvers/src", "crates/subject/src"];
 
-/// Reads every source file of all packages except those that are compiled for tests only.
-pub(crate) fn of_packages() -> Vec<Source> {
-    of_files(&of_sources())
-}
+/// Every source file of all packages, including those that are compiled for tests only.
+pub(crate) static ALL: LazyLock<Vec<Source>> = LazyLock::new(|| with_tests(&of_sources()));
+
+/// Every source file of all packages except those that are compiled for tests only.
+pub(crate) static OF_PACKAGES: LazyLock<Vec<Source>> =
+    LazyLock::new(|| ALL.iter().filter(|source| !source.for_tests).cloned().collect());
 
 /// Paths and texts of the source files of all packages.
-pub(crate) fn of_sources() -> Vec<(String, String)> {
+fn of_sources() -> Vec<(String, String)> {
     SOURCES.iter().flat_map(|folder| texts(folder, ".rs")).collect()
 }
 
