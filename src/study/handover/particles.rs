@@ -7,6 +7,7 @@ use crate::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferName, VolumeName, det_of_rows,
 };
 use crate::study::setup::body::{Body, scene_input};
+use crate::study::setup::initial_state::Initial;
 use crate::subject::{Perturbable, Precision, Start, SubjectError};
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{ConvergencePlan, Scene};
@@ -77,6 +78,10 @@ pub(crate) fn start(
 
 /// Whether a particle of the coarsest level is displaced at the start, or F differs from I.
 pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
+    let displaced = |body: &Scene| Initial::of_body(plan, body).is_displaced();
+    if !plan.scene.each().iter().any(displaced) {
+        return false;
+    }
     let level = plan.refine.levels.first();
     // If a level cannot be passed to a solver, its run reports the reason.
     let start = level.and_then(|level| particles(plan, *level).ok());

@@ -52,9 +52,14 @@ impl Initial {
         now
     }
 
+    /// Whether the body may be displaced or deformed.
+    pub(crate) fn is_displaced(&self) -> bool {
+        self.motion.is_some() || self.displacement.is_some()
+    }
+
     /// Converts the state to functions for the solver.
     pub(crate) fn input(self) -> InitialState<'static> {
-        let is_displaced = self.motion.is_some() || self.displacement.is_some();
+        let is_displaced = self.is_displaced();
         let stress = self.stress.clone();
         InitialState {
             motion: Box::new(move |label| {

@@ -104,7 +104,7 @@ impl Patient<'_> {
         let mut fewest: Option<Vec<String>> = None;
         for kind in dimensions.iter().flat_map(|d| laws.iter().map(|law| (*d, *law))) {
             let scene = scene(kind);
-            let (_, mut needs) = scene.problem()?;
+            let mut needs = scene.needs()?;
             more(&mut needs);
             let lacks = self.solver.lacks(&needs);
             if lacks.is_empty() {
@@ -123,7 +123,7 @@ impl Patient<'_> {
         if let Some(method) = self.built_in {
             return Ok(scene.built_in(method)?);
         }
-        let (problem, _) = scene.problem()?;
+        let problem = scene.problem()?;
         self.run_problem(scene, problem)
     }
 

@@ -354,23 +354,35 @@ impl BoxScene {
         )
     }
 
-    /// Converts the scene to a problem, and to the capabilities that the problem requires of a
-    /// solver. The state is sampled after every step.
-    pub(super) fn problem(&self) -> Result<(LevelProblem, ProblemNeeds), SubjectError> {
-        let in_time = "basis: linear, transfer: flip, scheme: musl";
-        let quasi_static = "basis: linear, scheme: quasi_static";
-        let suite = self.suite(if self.extras.load_steps { quasi_static } else { in_time })?;
+    /// Converts the scene to a problem. The state is sampled after every step.
+    pub(super) fn problem(&self) -> Result<LevelProblem, SubjectError> {
+        let suite = self.handed_over()?;
         let plan = suite.convergence().ok_or("not a convergence study")?;
         let level = plan.refine.levels.first().ok_or("no level")?;
         let case = plan.cases.first().ok_or("no case")?;
         let mut problem = level_problem(&suite.name, plan, case, *level)?;
         problem.instants = (1..=problem.steps).collect();
-        let mut needs = needs(plan);
         if self.law == SMALL_STRAIN {
             problem.replace_by_small_strain();
+        }
+        Ok(problem)
+    }
+
+    /// Returns the capabilities that the scene requires of a solver.
+    pub(super) fn needs(&self) -> Result<ProblemNeeds, SubjectError> {
+        let suite = self.handed_over()?;
+        let mut needs = needs(suite.convergence().ok_or("not a convergence study")?);
+        if self.law == SMALL_STRAIN {
             needs.laws = vec![SMALL_STRAIN];
         }
-        Ok((problem, needs))
+        Ok(needs)
+    }
+
+    /// Creates the suite from which the problem is derived.
+    fn handed_over(&self) -> Result<Suite, SubjectError> {
+        let in_time = "basis: linear, transfer: flip, scheme: musl";
+        let quasi_static = "basis: linear, scheme: quasi_static";
+        self.suite(if self.extras.load_steps { quasi_static } else { in_time })
     }
 
     fn suite(&self, method: &str) -> Result<Suite, SubjectError> {

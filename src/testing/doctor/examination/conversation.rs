@@ -29,7 +29,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         scene.velocity = AffineField::uniform(velocity);
         BoxScene { steps: STEPS, dt: 0.05, ..scene }
     })?;
-    let (problem, _) = scene.problem()?;
+    let problem = scene.problem()?;
     let stepwise = complete(patient.run_problem(&scene, problem.clone())?)?;
     let second = patient.run_problem(&scene, problem.clone())?;
     let mut finding =
@@ -130,7 +130,7 @@ fn grouped_under_acceleration(
     };
     let is_manufactured = is_able(false, &|needs| needs.manufactured = true);
     let scene = accelerated(!is_manufactured && is_able(true, &|_| ()));
-    let (mut problem, _) = scene.problem()?;
+    let mut problem = scene.problem()?;
     if is_manufactured {
         ramp(&mut problem);
     }

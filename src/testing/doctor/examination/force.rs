@@ -128,7 +128,7 @@ fn run(
     checks_places: bool,
     force: ForceAlong,
 ) -> Result<Course, Hindrance> {
-    let (mut problem, _) = scene.problem()?;
+    let mut problem = scene.problem()?;
     let force = AskedForce { asked: asked.clone(), force };
     problem.body_force = Some(Arc::new(force));
     if !checks_places {

@@ -313,7 +313,7 @@ fn law_at(scene: &BoxScene, f: &[f64]) -> Result<Vec<f64>, Hindrance> {
         velocity: AffineField::default(),
         ..scene.clone()
     };
-    let (problem, _) = deformed.problem()?;
+    let problem = deformed.problem()?;
     Ok(problem.particles.stress[..d * d].to_vec())
 }
 

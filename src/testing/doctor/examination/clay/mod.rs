@@ -46,7 +46,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     })?;
     let scenes = PATHS.map(|(_, gradient)| path((first.dimension, first.law), &gradient));
     let end = |k: usize| {
-        let (mut problem, _) = scenes[k].problem()?;
+        let mut problem = scenes[k].problem()?;
         // Only the last of the many states is needed.
         problem.instants = vec![STEPS];
         PathEnd::measure(PATHS[k].0, &scenes[k], &patient.run_problem(&scenes[k], problem)?)

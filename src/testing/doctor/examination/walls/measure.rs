@@ -109,7 +109,7 @@ pub(super) fn walls_across(
     scenes.extend(moves_along.then(|| broad(kind, axis, c)));
     let gravity = std::array::from_fn::<f64, 3, _>(|i| if i == axis { GRAVITY } else { 0.0 });
     let falling = BoxScene { gravity: Some(gravity[..d].to_vec()), ..plain.clone() };
-    let (_, needs) = falling.problem()?;
+    let needs = falling.needs()?;
     let falls = patient.solver.lacks(&needs).is_empty();
     scenes.extend(falls.then(|| falling.clone()));
     let courses = patient.run_all(&scenes)?;
