@@ -24,10 +24,7 @@ pub(crate) use capabilities::SMALL_STRAIN;
 pub(crate) use capabilities::everything;
 pub use capabilities::{Capabilities, ProblemNeeds};
 pub(crate) use fields::owned;
-pub use fields::{
-    BodyForceField, FieldError, FieldName, FieldPlaces, HandedNumber, HandedValues,
-    PlacedBodyForce, ProblemFields,
-};
+pub use fields::{BodyForceField, FieldName, FieldPlaces, ProblemFields};
 #[cfg(feature = "external-programs")]
 pub use format::ProblemFormat;
 pub use gradient::{Gradient, GradientError, GradientRequest};
@@ -36,7 +33,14 @@ pub use problem::{
     ProblemMaterial, ProblemParticles, ProblemRegion,
 };
 #[cfg(feature = "external-programs")]
-pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema, read_answers};
+#[doc(hidden)]
+pub use program::read_answers;
+#[cfg(feature = "external-programs")]
+pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema};
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::fields::{FieldError, HandedNumber, HandedValues, PlacedBodyForce};
 
 /// Creates an external solver for any level of a suite.
 pub trait SolverFactory: Sync {

@@ -26,21 +26,32 @@ pub(crate) mod text;
 
 #[cfg(feature = "cli")]
 pub use csv::csv;
-pub use figure::Figure;
-pub use figure::cost::cost_figures;
-pub use json::diagnosis_json;
 pub use json::schema::report_schema;
-pub use json::timed_json;
+
 #[cfg(feature = "cli")]
-pub use junit::{RunTimes, junit};
+#[doc(hidden)]
+pub use junit::RunTimes;
+#[cfg(feature = "cli")]
+pub use junit::junit;
 pub use latex::latex;
-pub use suite::json::{json, profile as profile_json};
-pub use suite::overview::{glance, overview};
+pub use suite::json::json;
+pub use suite::overview::overview;
 pub use suite::svg;
 pub use suite::text::{case, summary, text};
 pub use text::cost::{cost, timed};
 pub use text::diagnosis::diagnosis;
 pub use text::drift;
-pub use text::profile::{difference, profile, profiles};
+pub use text::profile::{difference, profile};
 pub use text::proposal::proposals;
-pub use text::prose::indented;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    figure::Figure,
+    figure::cost::cost_figures,
+    json::{diagnosis_json, timed_json},
+    suite::json::profile as profile_json,
+    suite::overview::glance,
+    text::profile::profiles,
+    text::prose::indented,
+};

@@ -35,14 +35,23 @@ pub(crate) mod stability;
 pub(crate) mod time_series;
 
 pub use cache::ResultCache;
-pub use convergence::time_steps::{PlannedLevel, TimeStep, planned_levels, time_steps};
 pub use diagnosis::diagnose;
-pub use exact_motion::{Linearisation, linearisation};
-pub use handover::{exact_state, lacking, level_problem, needs, under, under_on};
-pub use kind::{Progress, StepWarning, profile, statement};
-pub use preflight::{Estimate, estimate, estimates, preflight, unit_seconds};
+pub use exact_motion::linearisation;
+pub use handover::{exact_state, lacking, level_problem, needs, under};
+pub use kind::profile;
+pub use preflight::{estimate, estimates, preflight};
 pub use runner::Runner;
 pub use runner::{Shard, ShardError};
 pub use setup::body::effects;
 pub use setup::dispatch::subject;
-pub use time_series::{SeriesError, SeriesFile};
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    convergence::time_steps::{PlannedLevel, TimeStep, planned_levels, time_steps},
+    exact_motion::Linearisation,
+    handover::under_on,
+    kind::{Progress, StepWarning, statement},
+    preflight::{Estimate, unit_seconds},
+    time_series::{SeriesError, SeriesFile},
+};

@@ -22,14 +22,22 @@ pub mod yaml;
 
 #[cfg(feature = "schemas")]
 pub use compile::schema::suite_schema;
-pub use grammar::{CrossingLevels, EquationName, NormName, WarningName};
-pub use model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
-pub use model::method::{AnyMethod, ExternalMethod, GateTerms, Method};
-pub use model::refine_plan::{Extent, LevelPlan, RefinePlan};
-pub use model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
-pub use model::stability::{StabilityCase, StabilityPlan};
-pub use model::{
-    Against, Case, ConvergencePlan, ForceCase, ForceExpectation, ForcePlan, ReferencePlan,
-    SameMethod, StudyPlan, Suite,
+pub use model::method::{ExternalMethod, GateTerms, Method};
+pub use model::refine_plan::{Extent, RefinePlan};
+pub use model::spectrum::Wave;
+pub use model::stability::StabilityPlan;
+pub use model::{Against, Case, ConvergencePlan, StudyPlan, Suite};
+pub use scene::Scene;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    grammar::{CrossingLevels, EquationName, NormName, WarningName},
+    model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan},
+    model::method::AnyMethod,
+    model::refine_plan::LevelPlan,
+    model::spectrum::{SpectrumCase, SpectrumPlan},
+    model::stability::StabilityCase,
+    model::{ForceCase, ForceExpectation, ForcePlan, ReferencePlan, SameMethod},
+    scene::{EffectName, SceneFace, SceneHeat},
 };
-pub use scene::{EffectName, Scene, SceneFace, SceneHeat};

@@ -42,15 +42,19 @@ mod tests;
 
 pub use diagnostic::{Diagnostic, Severity};
 pub(crate) use locate::Path;
-pub use locate::Step;
-pub use number::NumberText;
+
 pub(crate) use number::{InPlaceOfNumber, NumberOr};
 pub use one_or_many::OneOrMany;
-pub use ordered::Ordered;
 pub use place::Place;
+pub use read::read;
 pub(crate) use read::{parse, read_again, written};
-pub use read::{read, refuse};
-pub use source::{MAX_BYTES, Source};
+pub use source::Source;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    locate::Step, number::NumberText, ordered::Ordered, read::refuse, source::MAX_BYTES,
+};
 
 /// Maximum number of entries in a list or a map.
 pub const MAX_ENTRIES: usize = 1000;

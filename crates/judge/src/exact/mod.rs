@@ -30,22 +30,34 @@ mod violation;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use check::interface::{Interface, meets};
-pub use check::survey::{Magnitudes, Survey};
-pub use condition::{Condition, Face, FacePoint};
-pub use correction::FirstCorrection;
-pub use density::{Density, NoDensity};
+pub use check::interface::Interface;
+pub use condition::{Condition, FacePoint};
+pub use density::Density;
 pub use expansion::Expansion;
 pub use gauss::CellQuadrature;
-pub use initial_stress::InitialStress;
-pub use law::{Equation, HenckyLaw, NeoHookeanLaw, SmallStrainLaw};
-pub use motion::{Derivatives, Motion, Places, variables};
-pub use outline::{Circle, Cut, Outline, Piece, Polygon, Round, join_small};
-pub use parametric_motion::{ParametricMotion, ParametricState};
+pub use law::{Equation, HenckyLaw, NeoHookeanLaw};
+pub use motion::{Derivatives, Motion};
+pub use outline::{Circle, Outline, Piece, Polygon};
 pub use problem::{Forcing, Linearised, Problem};
-pub use random::Random;
-pub use shared_values::SharedValues;
-pub use sum::{BodySum, SumDensity, SumError, SumPoint, SumRegion};
+pub use sum::BodySum;
 pub use term::{Region, Term};
 pub use truth::Truth;
 pub use violation::Violation;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    check::interface::meets,
+    check::survey::{Magnitudes, Survey},
+    condition::Face,
+    correction::FirstCorrection,
+    density::NoDensity,
+    initial_stress::InitialStress,
+    law::SmallStrainLaw,
+    motion::{Places, variables},
+    outline::{Cut, Round, join_small},
+    parametric_motion::{ParametricMotion, ParametricState},
+    random::Random,
+    shared_values::SharedValues,
+    sum::{SumDensity, SumError, SumPoint, SumRegion},
+};

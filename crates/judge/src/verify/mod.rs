@@ -47,60 +47,77 @@ mod study_results;
 pub mod verdict;
 
 pub use case::{CaseJudgement, judge_case};
-pub use conservation::{ConservationError, Conserved};
+pub use conservation::Conserved;
 pub use convergence::{Convergence, LevelOutcome};
-pub use cost::{
-    Agreement, ConvergingPart, End, Exponent, Machine, MethodCost, Ranked, Ranking, Reach, Sample,
-    TARGETS, TimedSuite, Timing, Workload, by_transfers, pareto_front, rankings,
-};
-pub use error::clock::is_instant;
-pub use error::clock::{Clock, MOST_STEPS, STEP_TOLERANCE, StepKind};
-pub use error::declaration::SumNeed;
-pub use error::judged_box::JudgedBox;
-pub use error::judged_sum::JudgedSum;
-pub use error::norm::ErrorScale;
-pub use error::norm::larger;
-pub use error::norm::{NormName, Norms, RunErrors};
-pub use error::observer::{History, displacement_at};
+pub use cost::{Agreement, pareto_front};
+pub use error::clock::Clock;
+pub use error::norm::Norms;
+pub use error::observer::History;
 pub use error::quantity::Quantity;
-pub use error::run::{Comparison, RunResult, errors, run, run_recorded};
-pub use error::spread::{RunRecord, spread};
-pub use exclusion::{Exclusion, rounding_bound, single_precision_spacing};
-pub use expectation::gate::{Acceptance, GateResult, Gating, Requirement, UnmetRequirement};
+pub use error::run::{Comparison, RunResult, errors, run};
+pub use exclusion::rounding_bound;
+pub use expectation::gate::{GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
-pub use expectation::proposal::{Ground, Proposal, ProposedKey, propose};
-pub use expectation::{Bounds, CaseFindings, Expectation};
-pub use figure::{BoundKind, CaseFigure, FigureNeed, RunFigure};
-pub use gradient::{
-    FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientState, GradientStudy,
-    GradientTerms, LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
-};
-pub use grouping::{distinct, grouped};
-pub use judge_plan::{JudgePlan, LevelRun, LevelSizes};
+pub use expectation::proposal::propose;
+pub use expectation::{Bounds, Expectation};
+pub use figure::{BoundKind, CaseFigure, FigureNeed};
+pub use gradient::GradientStudy;
+pub use judge_plan::{JudgePlan, LevelRun};
 pub use order::fit::Interval;
-pub use order::format_number::{format_number, rounded, tuple};
 pub use order::hypothesis::OrderHypothesis;
 pub use order::level::{Axis, Level, observed_order};
-pub use order::limit_estimate::{
-    EstimateRefusal, LEVELS_OF_ESTIMATE, LimitEstimate, SeriesPoint, estimate_limit,
-};
+pub use order::limit_estimate::{LimitEstimate, SeriesPoint, estimate_limit};
 pub use order::richardson::Richardson;
-pub use order::t_quantile::two_sided_95;
 pub use order::window::FEWEST_LEVELS;
-pub use outcome::{CaseOutcome, Exemption, SuiteOutcome};
-pub use rerun::{Reruns, RoundingSizes};
-pub use spectrum::{
-    AMPLITUDE, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumExpectation, SpectrumRow,
-    SpectrumStudy, WaveFigures, run_wave, steps_of_run,
-};
-pub use stability::is_looked_at;
-pub use stability::{
-    AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, Stability,
-    StabilityExpectation, StabilityLimit, StabilityRow, StabilityStudy, Trial, amplification,
-    spectral_radius, stability_limit, trial,
-};
-pub use study_results::{ForceRow, InternalForce, StudyResults};
-pub use verdict::diagnosis::{Cause, ChangedRun, Diagnosis, Evidence, KnownCause, KnownCauseKind};
-pub use verdict::floor::{Floor, FloorCause, Probe};
+pub use outcome::{CaseOutcome, SuiteOutcome};
+pub use spectrum::SpectrumStudy;
+pub use stability::{Stability, StabilityExpectation, StabilityStudy, amplification};
+pub use study_results::StudyResults;
+pub use verdict::diagnosis::Diagnosis;
 pub use verdict::judge::{Judgement, judge};
 pub use verdict::name::{UnknownVerdict, Verdict};
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    conservation::ConservationError,
+    cost::{
+        ConvergingPart, End, Exponent, Machine, MethodCost, Ranked, Ranking, Reach, Sample,
+        TARGETS, TimedSuite, Timing, Workload, by_transfers, rankings,
+    },
+    error::clock::{MOST_STEPS, STEP_TOLERANCE, StepKind, is_instant},
+    error::declaration::SumNeed,
+    error::judged_box::JudgedBox,
+    error::judged_sum::JudgedSum,
+    error::norm::{ErrorScale, NormName, RunErrors, larger},
+    error::observer::displacement_at,
+    error::run::run_recorded,
+    error::spread::{RunRecord, spread},
+    exclusion::{Exclusion, single_precision_spacing},
+    expectation::CaseFindings,
+    expectation::gate::{Acceptance, UnmetRequirement},
+    expectation::proposal::{Ground, Proposal, ProposedKey},
+    figure::RunFigure,
+    gradient::{
+        FIRST_LEVEL, GradientEntry, GradientEvidence, GradientLevel, GradientState, GradientTerms,
+        LAST_LEVEL, Perturbed, Sweep, SweepPoint, Taylor, ValueCheck,
+    },
+    grouping::{distinct, grouped},
+    judge_plan::LevelSizes,
+    order::format_number::{format_number, rounded, tuple},
+    order::limit_estimate::{EstimateRefusal, LEVELS_OF_ESTIMATE},
+    order::t_quantile::two_sided_95,
+    outcome::Exemption,
+    rerun::{Reruns, RoundingSizes},
+    spectrum::{
+        AMPLITUDE, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumExpectation,
+        SpectrumRow, WaveFigures, run_wave, steps_of_run,
+    },
+    stability::{
+        AmplificationError, Critical, FigureBounds, Prediction, Radius, Scales, StabilityLimit,
+        StabilityRow, Trial, is_looked_at, spectral_radius, stability_limit, trial,
+    },
+    study_results::{ForceRow, InternalForce},
+    verdict::diagnosis::{Cause, ChangedRun, Evidence, KnownCause, KnownCauseKind},
+    verdict::floor::{Floor, FloorCause, Probe},
+};

@@ -41,6 +41,8 @@ mod tests;
 
 pub use bar::Bar;
 pub use mesh::Element;
-pub use setup::{
-    BarLaw, BarLoad, BarSetup, Mass, Sampling, ScalarFunction, SetupError, TimeFunction, pointwise,
-};
+pub use setup::{BarLaw, BarLoad, BarSetup, Mass, Sampling, SetupError, pointwise};
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::setup::{ScalarFunction, TimeFunction};

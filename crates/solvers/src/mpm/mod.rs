@@ -41,44 +41,57 @@ mod seeding;
 mod step;
 mod transfer;
 
-pub use analysis::crossing_force::{StressedCells, force_at_node};
-pub use analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer};
-pub use analysis::energy_ledger::kinetic_energy;
-pub use analysis::stable_time_step::simplest_with_same_response;
-pub use analysis::wave_symbols::{Spline, WaveSymbols};
 pub use basis::*;
-pub use boundary::{Advance, Boundary, Fixed, Friction, Prescribed, Roller, Side, VelocityField};
+pub use boundary::{Boundary, Fixed, Friction, Prescribed, Roller};
 pub use effect::*;
-pub use foundation::algebra::{Matrix, Vector, cofactor, det, det_of_rows, dyad, inverse};
+pub use foundation::algebra::{Matrix, Vector, cofactor, det, inverse};
 pub use foundation::grid::Grid;
-pub use foundation::moments::{Moments, WeightMoments};
-pub use foundation::particles::{Block, FrameName, Particles};
-pub use kernel::contract::{
-    Affine, Divergence, G2pRequest, Kernel, LoopSettings, P2gRequest, ParticleField, Tally,
-};
-pub use kernel::{kernel, kernel_with};
-pub use mass::{Consistent, Lumped, MassMatrix, MassName, mass_matrix};
+pub use foundation::particles::{FrameName, Particles};
+pub use kernel::contract::{Affine, G2pRequest, Kernel, P2gRequest};
+pub use kernel::kernel;
+pub use mass::{Consistent, Lumped, MassMatrix, MassName};
 pub use material::{
-    CamClay, Contradiction, DruckerPrager, ElastoPlastic, GreenNaghdi, Hencky, J2, Jaumann,
-    LinearElastic, LinearFluid, Material, MaterialParameter, MaterialPlan, MaterialProperties,
-    MaterialSpec, MohrCoulomb, NeoHookean, Newtonian, Prestressed, Range, Rigid, StressBlock,
-    StressResponse, StressUpdate,
+    CamClay, DruckerPrager, GreenNaghdi, Hencky, J2, Jaumann, LinearElastic, LinearFluid, Material,
+    MaterialPlan, MaterialProperties, MohrCoulomb, NeoHookean, Newtonian, Prestressed, Range,
+    StressUpdate,
 };
 pub use multibody::Bodies;
 pub use quasi_static::{QuasiStatic, QuasiStaticSetup};
 pub use scheme::{SchemeName, Stage};
-pub use seeding::Fragment;
-pub use seeding::quadrilateral::Quadrilateral;
-pub use step::combination::{
-    CombinationError, combine, combine_across, combine_basis, combine_bodies, combine_precision,
-    combine_volume,
-};
-pub use step::heat_solver::HeatSolver;
-pub use step::initial::complete_start;
+pub use step::combination::{CombinationError, combine};
 pub use step::setup::Setup;
 pub use step::solver::Solver;
 pub use step::volume_average::VolumeName;
 pub use transfer::{
-    Apic, Blend, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind,
-    TransferName, TransferParameter, WithParameter, Xpic, g2p, transfer,
+    Apic, Flip, Fmpm, Mls, Pic, Tls, Tpic, Transfer, TransferChoice, TransferKind, TransferName,
+    Xpic, g2p, transfer,
+};
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    analysis::crossing_force::{StressedCells, force_at_node},
+    analysis::dispersion::{WaveMethod, WaveStep, WaveTransfer},
+    analysis::energy_ledger::kinetic_energy,
+    analysis::stable_time_step::simplest_with_same_response,
+    analysis::wave_symbols::{Spline, WaveSymbols},
+    boundary::{Advance, Side, VelocityField},
+    foundation::algebra::{det_of_rows, dyad},
+    foundation::moments::{Moments, WeightMoments},
+    foundation::particles::Block,
+    kernel::contract::{Divergence, LoopSettings, ParticleField, Tally},
+    kernel::kernel_with,
+    mass::mass_matrix,
+    material::{
+        Contradiction, ElastoPlastic, MaterialParameter, MaterialSpec, Rigid, StressBlock,
+        StressResponse,
+    },
+    seeding::Fragment,
+    seeding::quadrilateral::Quadrilateral,
+    step::combination::{
+        combine_across, combine_basis, combine_bodies, combine_precision, combine_volume,
+    },
+    step::heat_solver::HeatSolver,
+    step::initial::complete_start,
+    transfer::{Blend, TransferParameter, WithParameter},
 };

@@ -63,9 +63,11 @@ pub use ast::Expr;
 pub use bound::Formula;
 pub use builtin::Binary;
 pub use force::FormulaForce;
-pub use hoisted::Hoisted;
-pub use jet::{Jet, Slope};
+pub use jet::Jet;
 pub use lexer::FormulaError;
-pub use number::{Number, NumberBatch};
+pub use number::Number;
 pub use scope::Scope;
-pub use unary::Unary;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{hoisted::Hoisted, jet::Slope, number::NumberBatch, unary::Unary};

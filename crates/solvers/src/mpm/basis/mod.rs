@@ -12,10 +12,19 @@ mod linear;
 mod product;
 mod weights_1d;
 
-pub use cell_locator::{CellLocator, WeightNeeds};
-pub use contract::{Basis, Domain, FourLanes, NodeTerm, NodeWeight, Patch, PatchBatch};
-pub use product::{Product, ProductBatch};
-pub use weights_1d::{Weights1d, Weights1dBatch};
+pub use cell_locator::WeightNeeds;
+pub use contract::{Basis, Domain, NodeWeight, Patch};
+pub use product::Product;
+pub use weights_1d::Weights1d;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    cell_locator::CellLocator,
+    contract::{FourLanes, NodeTerm, PatchBatch},
+    product::ProductBatch,
+    weights_1d::Weights1dBatch,
+};
 
 use super::foundation::algebra::Vector;
 use super::foundation::family::family;

@@ -26,19 +26,29 @@ mod thermal_face;
 mod traction;
 
 pub use artificial_viscosity::ArtificialViscosity;
-pub use body_force::{BodyForce, ForceField};
+pub use body_force::BodyForce;
 pub(super) use contract::strain;
 pub use contract::{BodyOnGrid, Effect};
 pub use damping::Damping;
 pub use gravity::Gravity;
-pub use heat::{Heat, HeatSource};
+pub use heat::Heat;
 pub use hoop::Hoop;
 pub use local_damping::LocalDamping;
 pub use prescribed_velocity::PrescribedVelocity;
-pub use pressure::{Pressure, PressureField};
-pub use rim::RimCircle;
+pub use pressure::Pressure;
 pub use set_force::SetForce;
-pub use surface::Placement;
 pub use thermal_expansion::ThermalExpansion;
-pub use thermal_face::{HeatInflow, ScalarField, Thermal, ThermalBoundary};
-pub use traction::{Traction, TractionField};
+pub use thermal_face::Thermal;
+pub use traction::Traction;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    body_force::ForceField,
+    heat::HeatSource,
+    pressure::PressureField,
+    rim::RimCircle,
+    surface::Placement,
+    thermal_face::{HeatInflow, ScalarField, ThermalBoundary},
+    traction::TractionField,
+};

@@ -9,18 +9,22 @@ mod effect;
 mod state;
 mod wall;
 
-pub use body::{
-    BodyInput, CellLattice, CutLattice, Displace, FragmentInput, LatticeCell, MassAt, ShapeInput,
-    visit_lattice,
-};
+pub use body::{BodyInput, ShapeInput};
 pub use create::{
     initial_particles, initial_stress, perturbable, profile, stable_time_step, subject, with_ledger,
 };
-pub use effect::{
-    EffectInput, ForceAt, HeatInput, HeatSourceAt, InSet, PressedPart, SetInput, TemperatureAt,
+pub use effect::EffectInput;
+pub use state::{InitialState, ParticleTable};
+pub use wall::WallCondition;
+
+// For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::{
+    body::{CellLattice, CutLattice, Displace, FragmentInput, LatticeCell, MassAt, visit_lattice},
+    effect::{ForceAt, HeatInput, HeatSourceAt, InSet, PressedPart, SetInput, TemperatureAt},
+    state::{MotionAt, StateInput, StressAt},
+    wall::{FaceInput, InflowAt, SharedVectorAt, ThermalInput, WallInput},
 };
-pub use state::{InitialState, MotionAt, ParticleTable, StateInput, StressAt};
-pub use wall::{FaceInput, InflowAt, SharedVectorAt, ThermalInput, WallCondition, WallInput};
 
 use super::basis::BasisName;
 use super::foundation::particles::FrameName;
