@@ -35,11 +35,12 @@ use std::process::ExitCode;
     version,
     about,
     override_usage = "mpm-verify [OPTIONS] [SUITE]...\n       mpm-verify <COMMAND>",
-    after_help = "Without a command: `run`, whose options `mpm-verify run --help` lists."
+    after_help = "Without arguments: a first look, on few suites. Suites without a command: `run`, whose \
+                  options `mpm-verify run --help` lists."
 )]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
     #[command(flatten)]
     color: ColorArgs,
 }
@@ -113,7 +114,10 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
     match Cli::try_parse_from(arguments) {
         Ok(cli) => {
             cli.color.write_global();
-            run_command(cli.command)
+            match cli.command {
+                Some(command) => run_command(command),
+                None => run_first(),
+            }
         }
         // `clap` also returns help and version as errors; they go to standard output.
         Err(mut answer) => {
@@ -126,6 +130,15 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
             output::keep(answer.print());
             Ok(if answer.use_stderr() { Status::BadInput } else { Status::Passed })
         }
+    }
+}
+
+/// Runs a few suites, and draws a convergence plot.
+fn run_first() -> Result<Status, CommandError> {
+    let words = ["mpm-verify", "run"].map(str::to_owned).into_iter().chain(select::first_suites());
+    match Cli::try_parse_from(words).map(|cli| cli.command) {
+        Ok(Some(Command::Run(args))) => run::first(args),
+        _ => Ok(Status::BadInput),
     }
 }
 
@@ -160,6 +173,9 @@ fn with_command(words: Vec<OsString>, cli: &clap::Command) -> Result<Vec<OsStrin
     let word = words.get(at).map(|word| word.to_string_lossy());
     let word = word.as_deref().unwrap_or_default();
     let commands: Vec<&str> = cli.get_subcommands().map(clap::Command::get_name).collect();
+    if word.is_empty() && at == words.len() {
+        return Ok(words);
+    }
     if commands.contains(&word) || ["help", "-h", "--help", "-V", "--version"].contains(&word) {
         return Ok(words);
     }

@@ -57,6 +57,18 @@ fn everything() -> Sources {
     }
 }
 
+/// Group of suites for a first look.
+const FIRST: &str = "the-talk";
+
+/// Suite of this group whose convergence plot is drawn.
+pub(super) const PLOTTED: &str = "vibrating-bar";
+
+/// Returns the targets for a first look: one group, or all suites of a project without this group.
+pub(super) fn first_suites() -> Option<String> {
+    let folder = Path::new(FOLDER);
+    (!folder.is_dir() || folder.join(FIRST).is_dir()).then(|| FIRST.to_owned())
+}
+
 /// Returns the names of the suites that `targets` name individually: by file, by name or on
 /// standard input, not by folder, group or pattern. `suites` are all selected suites.
 pub(super) fn named_singly(targets: &[PathBuf], suites: &[Suite]) -> BTreeSet<String> {

@@ -20,10 +20,10 @@ pub struct RunTimes {
 
 /// Converts reports to JUnit XML, with a test suite for each suite and a test case for each case.
 ///
-/// A case that is not applicable, excepted or not gated is skipped with its reason. If its suite is
-/// in `required`, the case fails instead, as with `run --gate`. The text of a failure is the report
-/// of the case. `times` has the durations of `outcomes`, the only part of the document that equal
-/// results do not determine.
+/// A case that is not applicable or that `run --gate` exempts is skipped with its reason. If its
+/// suite is in `required`, the case fails instead, as with `run --gate`. The text of a failure is
+/// the report of the case. `times` has the durations of `outcomes`, the only part of the document
+/// that equal results do not determine.
 ///
 /// # Panics
 /// Never, because writing to memory does not fail.

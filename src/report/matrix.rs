@@ -143,7 +143,7 @@ fn column_of(case: &CaseOutcome) -> usize {
 
 /// Combines several cases into one text: the range of their orders, followed by their other
 /// verdicts.
-fn finding(cases: &[&CaseOutcome]) -> String {
+pub(crate) fn finding(cases: &[&CaseOutcome]) -> String {
     let orders = cases.iter().filter_map(|case| order(case));
     let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {
         [least.min(order), most.max(order)]
@@ -164,11 +164,8 @@ fn order(case: &CaseOutcome) -> Option<f64> {
 
 /// Returns the text shown in place of the order of a case; `None` if the order is shown.
 fn word(case: &CaseOutcome) -> Option<String> {
-    if !case.lacks.is_empty() {
-        return Some("n/a".to_owned());
-    }
-    if case.exemption == Some(Exemption::Excepted) {
-        return Some("excepted".to_owned());
+    if !case.lacks.is_empty() || case.exemption == Some(Exemption::Excepted) {
+        return Some(case.result().name().to_owned());
     }
     let Some(study) = case.convergence() else { return Some(of_other_study(case)) };
     if study.bounded {

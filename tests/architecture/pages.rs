@@ -114,7 +114,7 @@ pub(crate) fn with_tables(page: &str, suites: &[Row]) -> (String, Vec<String>) {
 }
 
 /// Pages that quote reports, in blocks of text that are indented as reports are.
-pub(crate) const QUOTING: [&str; 2] = ["docs/judge.md", "docs/cost.md"];
+pub(crate) const QUOTING: [&str; 1] = ["docs/judge.md"];
 
 /// Lines of wrong quotations in a page. The lines of a correct quotation are in one snapshot, in
 /// this order.

@@ -65,10 +65,10 @@ def test_a_named_suite_that_is_not_applicable_fails(run) -> None:
     arguments = ["--mpm-verify", SOLVER, "--mpm-verify-suites", "thrown-plastic-bar"]
     result = run(*arguments)
     result.assert_outcomes(failed=1)
-    result.stdout.fnmatch_lines(["n/a: the solver lacks laws: j2"])
+    result.stdout.fnmatch_lines(["not applicable: the solver lacks laws: j2"])
     allowed = run(*arguments, "--mpm-verify-allow-not-applicable", "-rs")
     allowed.assert_outcomes(skipped=1)
-    allowed.stdout.fnmatch_lines(["SKIPPED*n/a: the solver lacks laws: j2"])
+    allowed.stdout.fnmatch_lines(["SKIPPED*not applicable: the solver lacks laws: j2"])
 
 
 def test_a_suite_of_a_pattern_that_is_not_applicable_is_skipped(run) -> None:

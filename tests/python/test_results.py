@@ -17,7 +17,7 @@ REPORT = {"suites": [{"suite": "bar", "cases": [
      "result": "pass", "observed_order": {"value": 2.0, "low": 1.9, "high": 2.1},
      "levels": [LEVEL, FINER]},
     {"case": "b", "subject": "external", "verdict": "not applicable", "passed": False,
-     "result": "n/a", "observed_order": None, "levels": []}]}]}
+     "result": "not applicable", "observed_order": None, "levels": []}]}]}
 
 
 def test_a_file_and_its_text_load_alike(tmp_path) -> None:

@@ -82,9 +82,10 @@ pub(super) enum RunFormat {
 }
 
 #[derive(Debug, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(in crate::cli) struct PrintArgs {
-    /// Print every report [default: the reports of up to five named suites; otherwise an overview
-    /// and the cases with unexpected results]
+    /// Print every report [default: the reports of up to five named suites; otherwise one line
+    /// for each suite or group, and the cases with unexpected results]
     #[arg(long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
     /// Print only one line for each case
@@ -93,6 +94,12 @@ pub(in crate::cli) struct PrintArgs {
     /// Print only the cases with unexpected results, and no progress
     #[arg(long, short)]
     pub(super) quiet: bool,
+    /// Also print the matrix of suites and bases
+    #[arg(long, conflicts_with_all = ["brief", "quiet", "reports"])]
+    pub(super) overview: bool,
+    /// Whether to draw a convergence plot.
+    #[arg(skip)]
+    pub(super) plot: bool,
 }
 
 #[derive(Debug, Args)]
@@ -117,7 +124,7 @@ pub(in crate::cli) struct JudgedSolverArgs {
     #[arg(long, value_name = "FILE", requires = "gate")]
     pub(super) solver_config: Option<PathBuf>,
     /// Let `--gate` pass even if suites that are named one by one are not applicable to the solver
-    /// or not gated
+    /// or have no requirement
     #[arg(long, requires = "gate")]
     pub(super) allow_not_applicable: bool,
 }

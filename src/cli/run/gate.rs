@@ -73,7 +73,7 @@ impl SolverGate {
             return true;
         }
         output::complain(&format!(
-            "error: --gate: not applicable or not gated: {}; `--allow-not-applicable` accepts this",
+            "error: --gate: not applicable or explored: {}; `--allow-not-applicable` accepts this",
             Vec::from_iter(untested).join(", ")
         ));
         false

@@ -31,6 +31,12 @@ pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     report(&args.report, |suites| chosen(args, suites))
 }
 
+/// Runs suites for a first look: also draws a convergence plot, and suggests commands.
+pub(super) fn first(mut args: RunArgs) -> Result<Status, CommandError> {
+    args.report.print.plot = true;
+    run(&args)
+}
+
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
@@ -128,7 +134,7 @@ fn report(
     let RunResults { outcomes, of_solvers, times } = run_all(args, &runs, &judging, &bar, printing);
     let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
-    printing.of_all(args, &sources, &outcomes);
+    printing.of_all(args, &outcomes);
     let written =
         args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
     let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
@@ -162,6 +168,7 @@ fn report(
         // `passes` is called even if cases have failed, because it prints the skipped suites.
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
+    printing.verdict(args, &outcomes, times.whole);
     Ok(if passed { Status::Passed } else { Status::Failed })
 }
 

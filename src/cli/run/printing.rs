@@ -2,12 +2,13 @@
 
 use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output::{self, CommandError};
+use crate::cli::select;
 use crate::cli::suite_runs::SuiteRuns;
-use mpm_verify::suite::yaml::Source;
-use mpm_verify::verify::SuiteOutcome;
+use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use mpm_verify::{nearest, report};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::io::IsTerminal;
+use std::time::Duration;
 
 /// Maximum number of individually named suites for which full reports are printed.
 const FEW: usize = 5;
@@ -40,6 +41,16 @@ impl Printing {
         }
     }
 
+    /// Prints what was written and the verdict on the run, the last lines of the text.
+    pub(super) fn verdict(self, args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) {
+        if matches!(self, Self::Reports | Self::Verdicts | Self::Overview) && !outcomes.is_empty() {
+            for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
+                output::print(&format!("wrote {}\n", path.display()));
+            }
+            output::print(&verdict(args, outcomes, time));
+        }
+    }
+
     /// Prints the text for a suite as soon as the suite has finished.
     pub(super) fn of_suite(self, outcome: &SuiteOutcome) {
         if self == Self::Reports {
@@ -47,7 +58,8 @@ impl Printing {
         }
     }
 
-    pub(super) fn of_all(self, args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome]) {
+    /// Prints the results of all suites.
+    pub(super) fn of_all(self, args: &ReportArgs, outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
             Self::Csv => output::print(&report::csv(outcomes)),
@@ -55,12 +67,64 @@ impl Printing {
             _ if outcomes.is_empty() => {}
             Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
             Self::Overview => {
-                output::print(&report::glance(outcomes));
-                output::print(&format!("\n{}{}\n", unexpected(outcomes), place(args, sources)));
+                if args.print.overview {
+                    output::print(&format!("{}\n", report::overview(outcomes)));
+                }
+                let plotted = plotted(outcomes).filter(|_| args.print.plot);
+                if let Some(plot) = plotted.and_then(report::convergence_plot) {
+                    output::print(&format!("{plot}\n"));
+                }
+                output::print(&format!("{}\n", report::glance(outcomes)));
+                output::print(&unexpected(outcomes));
             }
             Self::Unexpected => output::print(&unexpected(outcomes)),
         }
     }
+}
+
+/// Returns the suite whose convergence plot is drawn.
+fn plotted(outcomes: &[SuiteOutcome]) -> Option<&SuiteOutcome> {
+    let preferred = outcomes.iter().find(|outcome| outcome.suite == select::PLOTTED);
+    preferred.or(outcomes.last())
+}
+
+/// Returns the last lines of a run: the counts, and useful commands. The time is omitted if the
+/// output goes to a file, because equal results then give equal bytes.
+fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> String {
+    let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
+    let noun = |count, one| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
+    let time = if std::io::stdout().is_terminal() {
+        format!(" in {:.1} s", time.as_secs_f64())
+    } else {
+        String::new()
+    };
+    let mut text = format!(
+        "{}, {}{time}: {}{}\n",
+        noun(outcomes.len(), "suite"),
+        noun(cases.len(), "case"),
+        report::counts(cases.iter().copied()),
+        if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
+    );
+    let failed = |suite: &SuiteOutcome| {
+        let case = suite.cases.iter().find(|case| !case.passed())?;
+        Some((suite.suite.clone(), case.case.clone()))
+    };
+    let next = match outcomes.iter().find_map(failed) {
+        Some((suite, case)) => {
+            vec![(format!("diagnose {suite} --case {case}"), "find the cause")]
+        }
+        None if args.print.plot => vec![
+            ("run".to_owned(), "all suites"),
+            (format!("run {}", plotted(outcomes).map_or("", |suite| &suite.suite)), "one report"),
+            ("doctor --solver COMMAND".to_owned(), "your own solver"),
+        ],
+        None => Vec::new(),
+    };
+    for (k, (command, use_of)) in next.into_iter().enumerate() {
+        let key = if k == 0 { "next:" } else { "" };
+        text += &format!("{key:5} mpm-verify {command:40} {use_of}\n");
+    }
+    text
 }
 
 /// Formats the reports of all cases with unexpected results, with the suite name above each group.
@@ -73,20 +137,6 @@ fn unexpected(outcomes: &[SuiteOutcome]) -> String {
         }
     }
     text
-}
-
-/// Returns a line that describes where the reports are.
-fn place(args: &ReportArgs, sources: &[Source]) -> String {
-    if let Some(folder) = &args.out {
-        return format!("reports: {}", folder.join("SUITE.txt").display());
-    }
-    let accepted = |source: &Source| Path::new(source.name()).with_extension("snap").is_file();
-    let accepted = if sources.iter().any(accepted) {
-        "accepted snapshots in verification/GROUP/SUITE.snap; for this run, "
-    } else {
-        ""
-    };
-    format!("reports: {accepted}`--reports` prints them, `--out DIR` writes them")
 }
 
 /// Checks the labels of the command line against the cases of the run.

@@ -2,8 +2,8 @@
 
 use super::{Cell, TableColumn, decimals, json_object, number, scientific};
 use crate::verify::{
-    Axis, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome, Quantity,
-    RunErrors, StepKind, observed_order,
+    Axis, CaseOutcome, Conserved, Convergence, Exclusion, History, Interval, Level, LevelOutcome,
+    Quantity, RunErrors, StepKind, observed_order,
 };
 use serde_json::Value;
 
@@ -271,9 +271,22 @@ impl LevelRow<'_> {
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))
     }
 
-    fn counts(&self) -> bool {
+    pub(crate) fn level(&self) -> &LevelOutcome {
+        self.level
+    }
+
+    /// Whether the level counts for the verdict.
+    pub(crate) fn counts(&self) -> bool {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();
         let is_in_window = self.level.exclusion().is_none() && window.contains(&self.index);
         self.level.usable && (is_in_window || self.study.bounded)
     }
+}
+
+/// Returns the finest level that counts for the verdict, or the finest level if none counts. `None`
+/// if the case has no judged error.
+pub(crate) fn finest_counted(case: &CaseOutcome) -> Option<&LevelOutcome> {
+    let study = case.convergence().filter(|study| study.compared)?;
+    let counted = rows(study).filter(LevelRow::counts).last();
+    counted.map(|row| row.level).or(study.levels.last())
 }

@@ -6,7 +6,7 @@ named! {
     /// Kinds of changes of a case, the most important first.
     pub enum Rank {
         /// The case no longer meets its expectations.
-        Broken = "no longer as expected",
+        Broken = "newly failing",
         /// The verdict is worse, but whether the case meets its expectations has not changed.
         WorseVerdict = "worse verdict",
         /// The verdict is different, but neither better nor worse.

@@ -1,50 +1,66 @@
-//! Reads the results of a run from its snapshots: the overview of all cases, and the problems in
-//! the reports of the suites.
+//! Reads the results of a run from its snapshots: the suites in the overview, and the verdicts and
+//! problems in their reports.
 
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
+use crate::report::text::prose::KEYS;
 
 /// Name used as refinement axis if the snapshot contains only the finest level.
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the overview of all suites. `report` returns the report of a suite, given its group
-    /// and name, or `None` if there is no report.
+    /// Reads the suites from the matrix in the overview, and their results from their reports.
+    /// `report` returns the report of a suite, given its group and name, or `None` if there is no
+    /// report.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
-        let mut suites: Vec<SuiteDocument> = Vec::new();
-        let (mut group, mut headings) = ("", Vec::new());
-        for line in overview.lines() {
-            if let Some(name) = line.strip_prefix("== ") {
-                group = name.trim_end_matches(" ==");
+        let (mut suites, mut group) = (Vec::new(), "");
+        let rows = overview.lines().skip_while(|line| !line.starts_with("  suite ")).skip(1);
+        for line in rows.take_while(|line| !line.is_empty()) {
+            if !line.starts_with(' ') {
+                group = line;
                 continue;
             }
-            let cells: Vec<&str> = cells(line);
-            match (group, cells.first()) {
-                ("", _) | (_, None) => headings.clear(),
-                (_, Some(&"case")) => headings = cells,
-                _ if headings.is_empty() => {
-                    let name = line.trim().split(": ").next().unwrap_or_default();
-                    let statement = report(group, name).map(|text| statement(&text));
-                    suites.push(SuiteDocument {
-                        name: name.to_owned(),
-                        statement: statement.unwrap_or_default(),
-                        cases: Vec::new(),
-                        cost: Vec::new(),
-                    });
-                }
-                _ => {
-                    let value = |heading: &str| {
-                        let at = headings.iter().position(|known| *known == heading)?;
-                        cells.get(at).copied().filter(|cell| *cell != "-")
-                    };
-                    if let Some(suite) = suites.last_mut() {
-                        suite.cases.push(case(cells[0], value));
-                    }
-                }
-            }
+            let name = line.split_whitespace().next().unwrap_or_default();
+            let report = report(group, name).unwrap_or_default();
+            suites.push(SuiteDocument {
+                name: name.to_owned(),
+                statement: statement(&report),
+                cases: cases(&report),
+                cost: Vec::new(),
+            });
         }
         Self { suites }
     }
+}
+
+/// Reads the table of verdicts. A row that several cases share is a case for each of them.
+fn cases(report: &str) -> Vec<CaseDocument> {
+    let mut rows = report.lines().skip_while(|line| !line.starts_with("  case ")).map(cells);
+    let headings = rows.next().unwrap_or_default();
+    // A second block of columns begins with the same heading.
+    let rows = rows.take_while(|cells| cells.first().is_some_and(|first| *first != "case"));
+    let read = |cells: Vec<&str>| {
+        let value = |heading: &str| {
+            let at = headings.iter().position(|known| *known == heading)?;
+            cells.get(at).copied().filter(|cell| *cell != "-")
+        };
+        names(cells[0]).into_iter().map(|name| case(&name, value)).collect::<Vec<_>>()
+    };
+    rows.flat_map(read).collect()
+}
+
+/// Expands a name with choices in braces: `mpm-{linear,ugimp}-flip`.
+fn names(text: &str) -> Vec<String> {
+    let choices = text.split_once('{').and_then(|(before, rest)| {
+        let (choices, after) = rest.split_once('}')?;
+        Some((before, choices, after))
+    });
+    let Some((before, choices, after)) = choices else { return vec![text.to_owned()] };
+    let after = names(after);
+    let with = |choice: &str| {
+        after.iter().map(|after| format!("{before}{choice}{after}")).collect::<Vec<_>>()
+    };
+    choices.split(',').flat_map(with).collect()
 }
 
 /// Splits a table line into its cells, which are separated by at least two spaces.
@@ -55,7 +71,7 @@ fn cells(line: &str) -> Vec<&str> {
 fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument {
     let number = |heading| value(heading).and_then(|text| text.parse().ok()).map(JsonNumber);
     // Snapshots of former versions have another heading.
-    let error = value("error, finest level").or_else(|| value("finest error"));
+    let error = value("error").or_else(|| value("error, finest level"));
     let one = JsonNumber(1.0);
     let level = |error: &str| LevelDocument {
         cells: 1,
@@ -70,7 +86,8 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     CaseDocument {
         name: name.to_owned(),
         verdict: value("verdict").unwrap_or_default().to_owned(),
-        passed: value("result") != Some("NOT AS EXPECTED"),
+        // Snapshots of former versions have another word.
+        passed: !matches!(value("result"), Some("FAIL" | "NOT AS EXPECTED")),
         unmet: Vec::new(),
         judge: None,
         axis: Some(FINEST.to_owned()),
@@ -80,28 +97,17 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     }
 }
 
-/// Returns the rows of a report that describe the problem. The row `problem` is split at
-/// semicolons.
+/// Returns the facts in the section `problem` of a report. Reports of former versions have no such
+/// section.
 fn statement(report: &str) -> Vec<(String, String)> {
-    let mut rows: Vec<(String, String)> = Vec::new();
-    for line in report.lines().skip_while(|line| !line.starts_with("  source ")) {
-        let (key, rest) = line.split_at_checked(16).unwrap_or((line, ""));
-        match (key.trim(), rows.last_mut()) {
+    let mut facts: Vec<(String, String)> = Vec::new();
+    let rows = report.lines().skip_while(|line| *line != "  problem").skip(1);
+    for line in rows.take_while(|line| line.starts_with("    ")) {
+        let (key, rest) = line.split_at_checked(KEYS + 2).unwrap_or((line, ""));
+        match (key.trim(), facts.last_mut()) {
             ("", Some((_, value))) => *value = format!("{value} {}", rest.trim()),
-            ("", None) => {}
-            (key, _) => rows.push((key.to_owned(), rest.trim().to_owned())),
+            (key, _) => facts.push((key.to_owned(), rest.trim().to_owned())),
         }
     }
-    let is_stated = |key: &str| ["parameters", "function", "problem"].contains(&key);
-    let part = |part: &str| {
-        // Reports of former versions have no colon after the key.
-        let part = part.replacen(": ", " ", 1);
-        let (key, value) = part.split_once(' ').unwrap_or((part.as_str(), ""));
-        (key.to_owned(), value.to_owned())
-    };
-    let parts = |(key, value): (String, String)| match key.as_str() {
-        "problem" => value.split("; ").map(part).collect(),
-        _ => vec![(key, value)],
-    };
-    rows.into_iter().filter(|(key, _)| is_stated(key)).flat_map(parts).collect()
+    facts
 }

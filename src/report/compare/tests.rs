@@ -227,7 +227,7 @@ fn changes_are_sorted_by_importance() {
     after.insert(0, case("added", 1.0, 1.0));
     let found = compare(&document(&before), &document(&after), TOLERANCE);
     let page = text(&found);
-    let heads = "worse: 1 no longer as expected, 1 worse verdict, 2 less accurate, 2 more expensive, \
+    let heads = "worse: 1 newly failing, 1 worse verdict, 2 less accurate, 2 more expensive, \
                  1 better, 1 new, 1 gone";
     assert_eq!(page.lines().next(), Some(heads));
     let order =

@@ -3,7 +3,7 @@
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
 use crate::verify::{
-    Axis, CaseOutcome, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, Verdict,
+    Axis, CaseResult, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, Verdict,
 };
 use serde_json::{Map, Value, json};
 
@@ -49,6 +49,7 @@ fn case() -> Value {
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
     // Only convergence studies have the verdicts in this list. Other studies, and cases that do not
     // apply, have other verdicts.
+    let results: Vec<_> = CaseResult::ALL.iter().map(|result| result.name()).collect();
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
         ("case", text(), "name of the case"),
@@ -57,7 +58,7 @@ fn case() -> Value {
         ("because", text(), "the reason of the expectation"),
         ("verdict", verdicts, "the verdict; suites write it with `_` for spaces and hyphens"),
         ("expected", or_null(text()), "the expectation; null if nothing is expected"),
-        ("result", json!({"enum": CaseOutcome::RESULTS}), "short name of the result"),
+        ("result", json!({"enum": results}), "short name of the result"),
         ("passed", flag(), "whether the case ran and had the expected result"),
         ("lacks", list(text()), "features that the case needs and its solver lacks"),
         ("reason", text(), "measured values that led to the verdict"),

@@ -20,6 +20,7 @@ pub use tables::SuiteSource;
 use crate::report::figure::plot::style::style_sheet;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
+use crate::report::suite::verdicts::counts;
 use crate::verify::CaseOutcome;
 use html::Html;
 
@@ -72,19 +73,22 @@ fn meta() -> Vec<Html> {
     ]
 }
 
-/// Creates the page header: whether all results are as expected, and a list of the unexpected ones.
+/// Creates the page header: the counts of the results, and a list of the failures.
 fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());
     let noun =
         |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
-    let run = format!("{}, {}", noun(sources.len(), "suite"), noun(all, "case"));
+    let mut run = format!("{}, {}", noun(sources.len(), "suite"), noun(all, "case"));
+    if all > 0 {
+        run += &format!(": {}", counts(cases().map(|(_, case)| case)));
+    }
     let (class, finding) = match (refused, failed) {
-        (0, 0) if all > 0 => ("ok finding", format!("{run}: everything as expected.")),
-        (0, _) => ("bad finding", format!("{run}: {failed} not as expected.")),
+        (0, 0) if all > 0 => ("ok finding", format!("{run}.")),
+        (0, _) => ("bad finding", format!("{run}.")),
         _ => {
             let unread = format!("{} could not be used", noun(refused, "file"));
-            ("bad finding", format!("{run}: {failed} not as expected. {unread}."))
+            ("bad finding", format!("{run}. {unread}."))
         }
     };
     let finding = Html::tag("p", &[("class", class)], finding);
@@ -104,8 +108,8 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
 fn foot() -> Html {
     let commit = commit().map_or_else(String::new, |commit| format!(", commit {commit}"));
     let words = format!(
-        "mpm-verify {}{commit}. An expected failure is as binding as an expected order: FAIL means \
-         that the result of a case differs from the expectation.",
+        "mpm-verify {}{commit}. A known limit is as binding as an expected order: FAIL means that the \
+         result of a case differs from the expectation.",
         env!("CARGO_PKG_VERSION")
     );
     Html::block("footer", &[], &[Html::tag("p", &[("class", "muted")], words)])

@@ -4,6 +4,7 @@
 //! sorted last in both directions.
 
 use super::html::Html;
+use crate::report::columns::level::finest_counted;
 use crate::report::columns::scientific;
 use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
 use crate::verify::{CaseOutcome, SuiteOutcome};
@@ -193,20 +194,23 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
 /// Creates the text of a result. An unexpected result is bold, because colour alone is not
 /// accessible.
 pub(super) fn result(case: &CaseOutcome) -> Html {
-    match (case.result(), case.passed()) {
-        (word, true) => Html::tag("span", &[("class", "ok")], word),
-        (word, false) => Html::tag("b", &[("class", "bad")], word),
+    let word = case.result().name();
+    if case.passed() {
+        Html::tag("span", &[("class", "ok")], word)
+    } else {
+        Html::tag("b", &[("class", "bad")], word)
     }
 }
 
-/// Creates three cells: the order with its interval, the judged error on the finest level, and the
+/// Creates three cells: the order with its interval, the judged error on the finest level that
+/// counts, and the
 /// particle-node transfers on the finest level.
 pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);
     let order = order.map(|o| (o.value, o.shown()));
     let finest = study.and_then(|study| study.levels.last());
-    let error = finest.filter(|_| study.is_some_and(|study| study.compared)).map(|level| {
+    let error = finest_counted(case).map(|level| {
         let failed = level.run.failure.is_some() || !level.error.is_finite();
         let text = if failed { "failed".to_owned() } else { scientific(level.error) };
         (if failed { f64::INFINITY } else { level.error }, text)

@@ -46,7 +46,7 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
         "because": outcome.because,
         "verdict": outcome.verdict,
         "expected": outcome.expected,
-        "result": outcome.result(),
+        "result": outcome.result().name(),
         "passed": outcome.passed()
             && outcome.lacks.is_empty()
             && outcome.exemption != Some(Exemption::Excepted),

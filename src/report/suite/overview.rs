@@ -1,14 +1,14 @@
-//! Overview of all suites: the matrix of problems and methods, and one line for each case.
+//! Overview of all suites: the matrix of problems and methods.
 
 use super::verdicts;
-use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, findings};
+use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, finding, findings};
 use crate::report::text::prose::{paragraph_lines, row, row_of_width};
 use crate::report::text::table::Table;
-use crate::verify::{CaseOutcome, Convergence, SuiteOutcome};
+use crate::verify::{CaseOutcome, CaseResult, Convergence, SuiteOutcome};
 
 /// Column widths in the overview of all suites. The widths are fixed, because the overview is
 /// stored as a snapshot.
-const WIDTHS: [(&str, usize); 16] = [
+const WIDTHS: [(&str, usize); 9] = [
     ("suite", 31),
     ("linear", BASIS),
     ("uGIMP", BASIS),
@@ -18,29 +18,44 @@ const WIDTHS: [(&str, usize); 16] = [
     ("cubic B-spline", BASIS),
     ("FEM", BASIS),
     ("other", BASIS),
-    ("case", 38),
-    ("verdict", 14),
-    ("95 % interval", 14),
-    ("error, finest level", 19),
-    ("floor", 9),
-    ("for 1e-3", 8),
-    ("observed", 66),
 ];
 
 /// Width of a column with the orders and verdicts of one basis.
 const BASIS: usize = 15;
 
-/// Returns a short overview of suites: the result, and the matrix of problems and methods.
+/// Maximum number of suites that [`glance`] lists one by one.
+const MOST_LISTED: usize = 25;
+
+/// Returns one line for each suite, or one for each group if there are many suites.
 pub fn glance(outcomes: &[SuiteOutcome]) -> String {
-    at_a_glance(outcomes, Table::lines)
+    let table = if outcomes.len() > MOST_LISTED {
+        let row = |(group, suites): (&str, Vec<&SuiteOutcome>)| {
+            let cases = || suites.iter().flat_map(|suite| &suite.cases);
+            let (suites, count) = (suites.len().to_string(), cases().count().to_string());
+            vec![group.to_owned(), suites, count, verdicts::counts(cases())]
+        };
+        let headings = ["group", "suites", "cases", "results"].map(str::to_owned);
+        Table::of_cells(headings.into(), groups(outcomes).into_iter().map(row).collect())
+    } else {
+        let row = |suite: &&SuiteOutcome| {
+            let orders = finding(&suite.cases.iter().collect::<Vec<_>>());
+            vec![suite.suite.clone(), orders, verdicts::counts(suite.cases.iter())]
+        };
+        let headings = ["suite", "orders", "results"].map(str::to_owned);
+        let suites = groups(outcomes).into_iter().flat_map(|(_, suites)| suites);
+        Table::of_cells(headings.into(), suites.map(|suite| row(&suite)).collect())
+    };
+    table.flush_left(&["orders", "results"]).lines().join("\n") + "\n"
 }
 
-fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -> String {
-    let mut lines = Vec::new();
+/// Returns an overview of suites: a summary, and one line for each suite, in groups. Columns have
+/// fixed widths, so that a change of a suite changes only one line.
+pub fn overview(outcomes: &[SuiteOutcome]) -> String {
+    let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
-    row(&mut lines, "result", &verdicts::result(&cases));
+    row(&mut lines, "result", &verdicts::counts(cases.iter().copied()));
     for suite in outcomes.iter().filter(|suite| !suite.passed()) {
-        row(&mut lines, "NOT AS EXPECTED", &suite.suite);
+        row(&mut lines, CaseResult::Fail.name(), &suite.suite);
     }
     if let Some(estimates) = estimates(&cases) {
         row(&mut lines, "estimates", &estimates);
@@ -60,24 +75,7 @@ fn at_a_glance(outcomes: &[SuiteOutcome], lines_of: fn(&Table) -> Vec<String>) -
     }
     lines.push(String::new());
     paragraph_lines(&mut lines, LEGEND);
-    grouped(&mut lines, outcomes, lines_of(&matrix(outcomes)));
-    lines.join("\n") + "\n"
-}
-
-/// Returns an overview of suites: a summary, and one line for each case, in groups. Columns have
-/// fixed widths, so that a change of a case changes only one line.
-pub fn overview(outcomes: &[SuiteOutcome]) -> String {
-    let fixed = |table: &Table| table.lines_of_widths(&WIDTHS);
-    let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
-    lines.push(at_a_glance(outcomes, fixed).trim_end().to_owned());
-    for (group, suites) in groups(outcomes) {
-        lines.extend([String::new(), format!("== {group} ==")]);
-        for suite in suites {
-            lines.extend([String::new(), format!("  {}: {}", suite.suite, suite.title)]);
-            let rankings = crate::verify::by_transfers(&suite.cases);
-            lines.extend(fixed(&verdicts::table(&suite.cases, &rankings)));
-        }
-    }
+    grouped(&mut lines, outcomes, matrix(outcomes).lines_of_widths(&WIDTHS));
     lines.join("\n") + "\n"
 }
 

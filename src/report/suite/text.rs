@@ -7,15 +7,14 @@ use super::verdicts;
 use crate::report::columns::TableColumn;
 use crate::report::study::KINDS;
 use crate::report::text::profile::effects;
-use crate::report::text::prose::{paragraph_lines, row};
+use crate::report::text::prose::{paragraph_lines, row, row_of_width, section};
 use crate::report::text::table::{Table, shared};
 use crate::verify::{CaseOutcome, SuiteOutcome, Verdict};
 
 /// Returns the complete report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
     let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
-    let rankings = crate::verify::by_transfers(&outcome.cases);
-    verdicts::head(&mut lines, &outcome.cases, &rankings);
+    verdicts::head(&mut lines, &outcome.cases);
     lines.push(String::new());
     if !outcome.about.is_empty() {
         paragraph_lines(&mut lines, first_sentence(&outcome.about));
@@ -30,29 +29,21 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds the description of the problem: parameters and functions in rows, the rest in one
-/// paragraph.
+/// Adds the description of the problem, one fact in each row.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
     // The judged quantity is omitted, because the heading of the error table contains it.
     let is_told = |(key, value): &&(String, String)| {
         key == "judged" || (key == "crossing levels" && value == "counted")
     };
-    let is_row = |(key, _): &&(String, String)| ["parameters", "function"].contains(&key.as_str());
-    let (rows, others): (Vec<_>, Vec<_>) =
-        statement.iter().filter(|row| !is_told(row)).partition(is_row);
-    for (key, value) in rows {
-        row(lines, key, value);
-    }
-    let others: Vec<String> =
-        others.iter().map(|(key, value)| format!("{}: {value}", key.trim())).collect();
-    row(lines, "problem", &others.join("; "));
+    let facts = statement.iter().filter(|row| !is_told(row));
+    section(lines, "problem", facts.map(|(key, value)| (key.as_str(), value.as_str())));
 }
 
 /// Returns the report of one case, for failing tests.
 pub fn case(outcome: &CaseOutcome) -> String {
     let mut lines = Vec::new();
     let cases = std::slice::from_ref(outcome);
-    verdicts::head(&mut lines, cases, &[]);
+    verdicts::head(&mut lines, cases);
     lines.push(String::new());
     in_common(&mut lines, cases);
     for kind in KINDS {
@@ -66,14 +57,10 @@ fn in_common(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let Some((first, others)) = cases.split_first() else { return };
     let is_common =
         |setting: &&(String, String)| others.iter().all(|case| case.settings.contains(setting));
-    let settings: Vec<String> = first
-        .settings
-        .iter()
-        .filter(is_common)
-        .map(|(key, value)| format!("{key}: {value}"))
-        .collect();
-    if !settings.is_empty() {
-        row(lines, "methods", &settings.join("; "));
+    let mut settings = first.settings.iter().filter(is_common).peekable();
+    if settings.peek().is_some() {
+        let facts = settings.map(|(key, value)| (key.as_str(), value.as_str()));
+        section(lines, "methods", facts);
     }
     let of_case = |case: &'_ CaseOutcome| Some(effects(case.profile.as_ref()?, "none"));
     let cases = cases.iter().filter_map(|case| Some((case.case.as_str(), of_case(case)?)));
@@ -90,18 +77,39 @@ fn first_sentence(text: &str) -> &str {
     text.match_indices(". ").find(ends).map_or(text, |(at, _)| &text[..=at])
 }
 
-/// Returns a table with one line for each case, as printed by `run`.
+/// Returns a table with one line for each case, as printed by `run`. The next line has the
+/// expectation, or the reason why the case was not tested.
 pub fn summary(outcomes: &[SuiteOutcome]) -> String {
     let rows = outcomes.iter().flat_map(|suite| suite.cases.iter().map(move |case| (suite, case)));
-    Table::new(&verdicts(), rows).lines().join("\n") + "\n"
+    let cases: Vec<SuiteCase<'_>> = rows.collect();
+    let mut table = Table::new(&verdicts(), &cases).lines().into_iter();
+    let mut lines: Vec<String> = table.next().into_iter().collect();
+    for (line, (_, case)) in table.zip(cases) {
+        lines.push(line);
+        if let Some(expected) = expected(case) {
+            row_of_width(&mut lines, 4, "", &expected);
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn expected(case: &CaseOutcome) -> Option<String> {
+    match &case.expected {
+        _ if !case.is_tested() => Some(case.reason.clone()),
+        // The cause of a failure is in no column.
+        expected if case.verdict == Verdict::Failed.name() => {
+            Some(format!("expected: {}; {}", expected.as_deref().unwrap_or("nothing"), case.reason))
+        }
+        expected => expected.as_ref().map(|expected| format!("expected: {expected}")),
+    }
 }
 
 type SuiteCase<'a> = (&'a SuiteOutcome, &'a CaseOutcome);
 
-fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
+fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 4] {
     type VerdictColumn<'a> = TableColumn<'a, SuiteCase<'a>>;
     [
-        VerdictColumn::text("", "whether all is as expected", |(_, case)| case.result()),
+        VerdictColumn::text("", "result of the case", |(_, case)| case.result().name()),
         VerdictColumn::text("case", "suite and case", |(suite, case)| {
             format!("{}::{}", suite.suite, case.case)
         })
@@ -110,18 +118,5 @@ fn verdicts<'a>() -> [TableColumn<'a, SuiteCase<'a>>; 5] {
         VerdictColumn::text("order", "observed order", move |(_, case)| {
             case.convergence().and_then(|study| study.judgement.order).map(|order| order.shown())
         }),
-        VerdictColumn::text("expected", "expected", |(_, case)| {
-            Some(match &case.expected {
-                _ if !case.is_tested() => case.reason.clone(),
-                // The cause of a failure is in no other column.
-                expected if case.verdict == Verdict::Failed.name() => {
-                    let expected = expected.as_deref().unwrap_or("nothing");
-                    format!("{expected}; {}", case.reason)
-                }
-                Some(expected) => expected.clone(),
-                None => "nothing".to_owned(),
-            })
-        })
-        .flush_left(),
     ]
 }

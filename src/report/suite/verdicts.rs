@@ -1,39 +1,22 @@
 //! First part of a report: results and expectations of each case.
 
-use crate::report::columns::{TableColumn, decimals, scientific};
+use crate::report::columns::{TableColumn, decimals, level, scientific};
 use crate::report::study::KINDS;
-use crate::report::text::cost::cheapest;
 use crate::report::text::prose::{hanging, row};
 use crate::report::text::table::{Table, together};
-use crate::verify::{CaseOutcome, Ranking, distinct, grouped};
-
-/// Relative error for which the cost of each case is compared.
-const TARGET: f64 = 1e-3;
+use crate::verify::{CaseOutcome, CaseResult, distinct, grouped};
 
 /// Adds verdicts, unmet expectations, expectations with their reasons, and remarks.
-pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[Ranking]) {
-    row(lines, "result", &result(&cases.iter().collect::<Vec<_>>()));
+pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+    row(lines, "result", &counts(cases.iter()));
     for case in cases {
         for unmet in &case.unmet {
-            row(lines, "NOT AS EXPECTED", &format!("{}: {unmet}", case.case));
+            row(lines, CaseResult::Fail.name(), &format!("{}: {unmet}", case.case));
         }
-    }
-    let study = cases.iter().find_map(CaseOutcome::convergence);
-    let all: Vec<(&str, String)> = rankings
-        .iter()
-        .filter_map(|ranking| Some((ranking.problem.as_str(), cheapest(ranking, study)?)))
-        .collect();
-    for (problem, methods) in &all {
-        let of_problem =
-            if all.len() > 1 { format!("of the runs {problem}, ") } else { String::new() };
-        row(lines, "cheapest", &format!("{of_problem}{methods}"));
-    }
-    if !all.is_empty() && cases.iter().any(|case| case.subject == "fem") {
-        row(lines, "", "in FEM, quadrature points count as particles");
     }
     lines.push(String::new());
     let expectations = expectations(cases);
-    let verdicts = Table::new(&columns(rankings, &expectations), cases);
+    let verdicts = Table::new(&columns(&expectations), cases);
     lines.extend(verdicts.without_empty_columns().merged().lines());
     lines.push(String::new());
     for (k, expectation) in expectations.iter().enumerate() {
@@ -42,46 +25,35 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome], rankings: &[R
     remarks(lines, cases);
 }
 
-/// Summarises how many cases have the expected result.
-pub(crate) fn result(cases: &[&CaseOutcome]) -> String {
-    let count = |word: &str| cases.iter().filter(|case| case.result() == word).count();
-    let (expected, failing) =
-        (count("pass"), cases.iter().filter(|case| case.passed() && case.fails()).count());
-    let cases =
-        |count: usize| if count == 1 { "1 case".to_owned() } else { format!("{count} cases") };
-    let failures = |count: usize| match count {
-        1 => "1 expected failure".to_owned(),
-        count => format!("{count} expected failures"),
-    };
-    let first = match (expected, failing) {
-        (0, _) => None,
-        (_, 0) => Some(format!("{} as expected", cases(expected))),
-        (_, _) if failing == expected => Some(failures(expected)),
-        _ => Some(format!("{} as expected ({})", cases(expected), failures(failing))),
-    };
-    let others = [
-        ("FAIL", "NOT AS EXPECTED"),
-        ("explored", "without an expectation"),
-        ("n/a", "not applicable"),
-        ("not gated", "not gated"),
-        ("excepted", "excepted"),
+/// Counts the cases with each result: `52 pass, 9 known limits`.
+pub fn counts<'a>(cases: impl Iterator<Item = &'a CaseOutcome>) -> String {
+    let results: Vec<CaseResult> = cases.map(CaseOutcome::result).collect();
+    let order = [
+        CaseResult::Pass,
+        CaseResult::KnownLimit,
+        CaseResult::Explored,
+        CaseResult::NotApplicable,
+        CaseResult::Fail,
     ];
-    let others = others.map(|(word, words)| (count(word), words)).into_iter();
-    let others = others.filter(|(count, _)| *count > 0);
-    let others = others.map(|(count, words)| format!("{} {words}", cases(count)));
-    first.into_iter().chain(others).collect::<Vec<_>>().join("; ")
-}
-
-pub(crate) fn table(cases: &[CaseOutcome], rankings: &[Ranking]) -> Table {
-    Table::new(&columns(rankings, &[]), cases).without_empty_columns()
+    let count = |result: CaseResult| {
+        let count = results.iter().filter(|known| **known == result).count();
+        let plural = if result == CaseResult::KnownLimit && count != 1 { "s" } else { "" };
+        (count > 0).then(|| format!("{count} {}{plural}", result.name()))
+    };
+    order.into_iter().filter_map(count).collect::<Vec<_>>().join(", ")
 }
 
 type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColumn<'a>; 10] {
+fn columns(expectations: &[String]) -> [CaseColumn<'_>; 9] {
     let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
     [
         CaseColumn::text("case", "case", |case| case.case.clone()).flush_left(),
+        CaseColumn::text("result", "result of the case", |case| case.result().name()).flush_left(),
+        CaseColumn::text("note", "letter of the expectation in the list below", |case| {
+            expectations.iter().position(|known| *known == case.expectation()).map(letter)
+        })
+        .flush_left(),
         CaseColumn::text("verdict", "verdict", |case| case.verdict.clone()).flush_left(),
         CaseColumn::text("order", "observed order", move |case| {
             order(case).map(|order| decimals(2)(order.value))
@@ -90,45 +62,22 @@ fn columns<'a>(rankings: &'a [Ranking], expectations: &'a [String]) -> [CaseColu
             order(case).map(|order| format!("[{:.2}, {:.2}]", order.low, order.high))
         })
         .flush_left(),
-        CaseColumn::text("error, finest level", "judged error on the finest level", |case| {
-            let level = case.convergence().filter(|study| study.compared)?.levels.last()?;
-            let failed = level.run.failure.is_some();
-            Some(if failed { "failed".to_owned() } else { scientific(level.error) })
+        CaseColumn::text("error", "judged error on the finest level that counts", |case| {
+            level::finest_counted(case).map(|level| match level.run.failure {
+                Some(_) => "failed".to_owned(),
+                None => scientific(level.error),
+            })
         }),
         CaseColumn::text("floor", "axis that causes a floor", |case| {
             Some(case.convergence()?.floor.as_ref()?.cause()?.name())
         })
         .flush_left(),
-        CaseColumn::text("for 1e-3", "work divided by that of the cheapest method", |case| {
-            cost(case, rankings).map(|times| format!("{times:.2} x"))
-        }),
         CaseColumn::text("observed", "measured values of other studies", |case| {
-            case.convergence().is_none().then(|| case.reason.clone())
+            let measured = case.reason.split("; ").next().map(str::to_owned);
+            measured.filter(|_| case.convergence().is_none())
         })
         .flush_left(),
-        CaseColumn::text("note", "letter of the expectation in the list below", |case| {
-            expectations.iter().position(|known| *known == case.expectation()).map(letter)
-        })
-        .flush_left(),
-        CaseColumn::text("result", "whether all is as expected", outcome).flush_left(),
     ]
-}
-
-/// Returns the ratio of a case's work for the target error to that of the cheapest case.
-fn cost(case: &CaseOutcome, rankings: &[Ranking]) -> Option<f64> {
-    let of_case = |ranking: &Ranking| {
-        let k = ranking.targets.iter().position(|target| *target == TARGET)?;
-        ranking.rows.iter().find(|row| row.method.name == case.case)?.times[k]
-    };
-    rankings.iter().find_map(of_case)
-}
-
-fn outcome(case: &CaseOutcome) -> &'static str {
-    match case.result() {
-        "FAIL" => "NOT AS EXPECTED",
-        "pass" if case.fails() => "fails as expected",
-        other => other,
-    }
 }
 
 fn expectations(cases: &[CaseOutcome]) -> Vec<String> {

@@ -6,14 +6,14 @@
 
 use super::table::Table;
 use crate::report::columns::{cost as columns, short, timed_level};
-use crate::verify::{Convergence, Machine, Quantity, Ranked, Ranking, Reach, TimedSuite};
+use crate::verify::{Machine, Ranking, Reach, TimedSuite};
 
 const TRANSFERS: &str = "particle-node transfers";
 
 /// Returns the tables of a ranking. `work` is the name of the unit of work.
 pub fn cost(ranking: &Ranking, work: &str) -> String {
     let mut lines = vec![format!("== cost, {} ==", ranking.problem)];
-    lines.push(format!("  {:18}{}", "error", relative(ranking, None)));
+    lines.push(format!("  {:18}{}", "error", relative(ranking)));
     let how = "interpolated between neighbouring levels, never extrapolated";
     lines.push(format!("  {:18}{work}, {how}", "work"));
     let reaches = || ranking.rows.iter().flat_map(|row| &row.reaches);
@@ -34,42 +34,13 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Names the cheapest method for each target that a method reaches, in one line. `study` is one of
-/// the ranked studies.
-pub(crate) fn cheapest(ranking: &Ranking, study: Option<&Convergence>) -> Option<String> {
-    let best = |(k, target): (usize, &f64)| {
-        let reached = |row: &&Ranked| row.times[k].is_some_and(|times| times <= 1.0);
-        let row = ranking.rows.iter().find(reached)?;
-        let (work, level) = match row.reaches[k] {
-            Reach::At { work, .. } => (work, ""),
-            Reach::Already { work, .. } => (work, " on its coarsest level"),
-            Reach::Never => return None,
-        };
-        Some(format!("{target:e}: {}{level}, {} {TRANSFERS}", row.method.name, short(work)))
-    };
-    let best: Vec<String> = ranking.targets.iter().enumerate().filter_map(best).collect();
-    let errors = relative(ranking, study);
-    (!best.is_empty())
-        .then(|| format!("for a relative error of {}; errors are {errors}", best.join("; of ")))
-}
-
-/// Describes the value by which the errors of a ranking are divided. `study` is one of the ranked
-/// studies, if known.
-fn relative(ranking: &Ranking, study: Option<&Convergence>) -> String {
-    let with_unit = |value: String, of: Quantity| {
-        let text = format!("divided by {value} {}", of.unit());
-        text.trim_end().to_owned()
-    };
-    let is_scaled = ranking.size == 1.0;
-    let size = short(ranking.size);
-    match study {
-        Some(Convergence { of, scale: Some(scale), .. }) if is_scaled => {
-            with_unit(of.shown_scale(*scale), *of)
-        }
-        None if is_scaled => "divided by the `scale` of the suite".to_owned(),
-        Some(Convergence { of, .. }) => format!("{}, {}", with_unit(size, *of), of.size_words()),
-        None => format!("divided by {size}, the largest exact value of the judged quantity"),
+/// Describes the value by which the errors of a ranking are divided.
+fn relative(ranking: &Ranking) -> String {
+    if ranking.size == 1.0 {
+        return "divided by the `scale` of the suite".to_owned();
     }
+    let size = short(ranking.size);
+    format!("divided by {size}, the largest exact value of the judged quantity")
 }
 
 /// Returns the report of a timed suite.

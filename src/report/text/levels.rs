@@ -28,7 +28,8 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 /// Lists the levels. Levels that all cases have in common are listed once.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
-        row(lines, "levels", &format!("{levels}{names}"));
+        lines.push(format!("  levels{names}"));
+        lines.extend(levels.split("; ").map(|fact| format!("    {fact}")));
     }
 }
 
@@ -125,7 +126,7 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         // The table of verdicts contains the error.
         return row(lines, "error", &judged);
     }
-    by_level(lines, &judged, studies, &[level::judged(), level::order()]);
+    by_level(lines, &judged, studies, &level::judged(), false);
     let is_excluded = |study: &Convergence| {
         level::rows(study).any(|row| level::judged().cell(&row).text.starts_with('('))
     };
@@ -133,13 +134,15 @@ fn errors(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         lines
             .push("  (in parentheses: errors that are not used to determine the order)".to_owned());
     }
+    by_level(lines, "order between neighbouring levels", studies, &level::order(), true);
 }
 
 fn spreads(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let is_repeated =
         |(_, study): &&NamedStudy<'_>| study.levels.iter().any(|level| level.spread.is_some());
     let repeated: Vec<NamedStudy<'_>> = studies.iter().filter(is_repeated).copied().collect();
-    by_level(lines, "spread between runs, in the norm of the error", &repeated, &[level::spread()]);
+    let heading = "spread between runs, in the norm of the error";
+    by_level(lines, heading, &repeated, &level::spread(), false);
 }
 
 fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
@@ -149,49 +152,33 @@ fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let heading = format!(
         "rms error over time of the velocity near X = {place} m, divided by its largest exact value"
     );
-    by_level(lines, &heading, &observed, &[level::velocity()]);
+    by_level(lines, &heading, &observed, &level::velocity(), false);
 }
 
-/// Adds a table with `columns` for each level, below a heading.
+/// Adds a table with the values of `column` on each level, below a heading. If `is_pair`, a value
+/// belongs to a level and the next coarser one.
 fn by_level<'a>(
     lines: &mut Vec<String>,
     heading: &str,
     studies: &[NamedStudy<'a>],
-    columns: &[LevelColumn<'a>],
+    column: &LevelColumn<'a>,
+    is_pair: bool,
 ) {
     let Some((_, first)) = studies.first() else { return };
-    let mut headings = vec![level::name(first.axis).heading.into_owned()];
-    for (k, column) in columns.iter().enumerate() {
-        let names = level::names(first);
-        if k == 0 {
-            headings.extend(names);
-            continue;
-        }
-        let is_shown = |index: &usize| {
-            studies.iter().any(|(_, study)| {
-                let row = level::rows(study).nth(*index);
-                row.is_some_and(|row| column.cell(&row).text != "-")
-            })
-        };
-        let shown = (0..names.len()).find(is_shown);
-        headings.extend((0..names.len()).map(|index| {
-            let pair = pair_heading(&names, index);
-            if shown == Some(index) { format!("{} {pair}", column.heading) } else { pair }
-        }));
-    }
+    let names = level::names(first);
+    let of_level = |k: usize| if is_pair { pair_heading(&names, k) } else { names[k].clone() };
+    let headings = std::iter::once(level::name(first.axis).heading.into_owned());
+    let headings = headings.chain((0..names.len()).map(of_level)).collect();
     let cells = |(name, study): &NamedStudy<'a>| {
-        let of_column = |column: &LevelColumn<'a>| {
-            level::rows(study).map(|row| column.cell(&row).text).collect::<Vec<_>>()
-        };
-        let cells = columns.iter().flat_map(of_column);
+        let cells = level::rows(study).map(|row| column.cell(&row).text);
         std::iter::once((*name).to_owned()).chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
-    if rows.iter().all(|row| row[1..].iter().all(String::is_empty)) {
-        return;
+    let table = Table::of_cells(headings, rows).without_empty_columns();
+    if table.columns() > 1 {
+        lines.extend([String::new(), format!("  {heading}")]);
+        lines.extend(table.merged().lines());
     }
-    lines.extend([String::new(), format!("  {heading}")]);
-    lines.extend(Table::of_cells(headings, rows).without_empty_columns().merged().lines());
 }
 
 /// Returns the heading of a value that belongs to a level and the next coarser one: both names, or

@@ -4,6 +4,7 @@ pub(crate) mod cost;
 pub(crate) mod diagnosis;
 pub mod drift;
 pub(crate) mod levels;
+pub(crate) mod plot;
 pub(crate) mod profile;
 pub(crate) mod proposal;
 pub(crate) mod prose;

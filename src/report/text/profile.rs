@@ -124,7 +124,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     };
     let rows: BTreeSet<Vec<String>> = cases.iter().filter_map(|case| row(&case)).collect();
     let table = Table::of_cells(headings.map(str::to_owned).to_vec(), rows.into_iter().collect());
-    table.flush_left(&["effects"]).lines()
+    table.flush_left(&["effects"]).wide_lines()
 }
 
 /// Returns the bytes of the columns with an entry for each particle or node, and the bytes of the

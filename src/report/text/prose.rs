@@ -1,6 +1,7 @@
 //! Wraps prose for text reports.
 
-const WIDTH: usize = 100;
+/// Maximum length of a line (characters).
+pub(crate) const WIDTH: usize = 100;
 
 pub(crate) fn paragraph_lines(lines: &mut Vec<String>, paragraph: &str) {
     wrap(lines, WIDTH, paragraph);
@@ -17,6 +18,21 @@ pub fn indented(text: &str) -> String {
 pub(crate) fn row(lines: &mut Vec<String>, key: &str, value: &str) {
     row_of_width(lines, 14, key, value);
 }
+
+/// Adds a heading and one row for each fact, a pair of key and value.
+pub(crate) fn section<'a>(
+    lines: &mut Vec<String>,
+    heading: &str,
+    facts: impl Iterator<Item = (&'a str, &'a str)>,
+) {
+    lines.push(format!("  {heading}"));
+    for (key, value) in facts {
+        row_of_width(lines, KEYS, &format!("  {}", key.trim()), value);
+    }
+}
+
+/// Width of the column of keys in a [`section`].
+pub(crate) const KEYS: usize = 23;
 
 /// Adds a paragraph with a bullet.
 pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {

@@ -1,5 +1,6 @@
 //! Plain aligned tables.
 
+use super::prose::WIDTH;
 use crate::report::columns::TableColumn;
 use crate::verify::{distinct, grouped};
 use std::borrow::Borrow;
@@ -76,12 +77,38 @@ impl Table {
     }
 
     /// Returns the lines of the table, indented by two spaces. Each column is as wide as its widest
-    /// cell.
+    /// cell; columns of results also have a minimum width, so that a changed result changes only
+    /// its own line. A table of more than 100 characters is split into blocks of columns, which
+    /// repeat the first column.
     pub(crate) fn lines(&self) -> Vec<String> {
-        let columns = self.rows[0].len();
-        let width =
-            |c: usize| self.rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
-        self.aligned(&(0..columns).map(width).collect::<Vec<_>>())
+        let width = |c: usize| {
+            let widest = self.rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
+            let cells = self.rows[1..].iter().map(|row| least_width(&row[c])).max();
+            let listed = RESULTS.iter().find(|(heading, _)| *heading == self.rows[0][c]);
+            widest.max(cells.unwrap_or(0)).max(listed.map_or(0, |(_, width)| *width))
+        };
+        let widths: Vec<usize> = (0..self.columns()).map(width).collect();
+        let (mut lines, mut block) = (Vec::new(), vec![0]);
+        let mut used = 2 + widths[0];
+        for column in 1..self.columns() {
+            if used + 2 + widths[column] > WIDTH && block.len() > 1 {
+                lines.extend(self.aligned(&std::mem::replace(&mut block, vec![0]), &widths));
+                lines.push(String::new());
+                used = 2 + widths[0];
+            }
+            block.push(column);
+            used += 2 + widths[column];
+        }
+        lines.extend(self.aligned(&block, &widths));
+        lines
+    }
+
+    /// Returns the lines of the table in one block of any width.
+    pub(crate) fn wide_lines(&self) -> Vec<String> {
+        let columns: Vec<usize> = (0..self.columns()).collect();
+        let width = |c: &usize| self.rows.iter().map(|row| row[*c].chars().count()).max();
+        let widths: Vec<usize> = columns.iter().map(|c| width(c).unwrap_or(0)).collect();
+        self.aligned(&columns, &widths)
     }
 
     /// Returns the lines of the table, with the column widths that `widths` lists by heading. A
@@ -91,19 +118,33 @@ impl Table {
             let listed = widths.iter().find(|(known, _)| known == heading);
             listed.map_or(heading.chars().count(), |(_, width)| *width)
         };
-        self.aligned(&self.rows[0].iter().map(width).collect::<Vec<_>>())
+        let columns: Vec<usize> = (0..self.columns()).collect();
+        self.aligned(&columns, &self.rows[0].iter().map(width).collect::<Vec<_>>())
     }
 
-    fn aligned(&self, widths: &[usize]) -> Vec<String> {
+    fn aligned(&self, columns: &[usize], widths: &[usize]) -> Vec<String> {
         let set = |row: &Vec<String>| {
-            let cells = row.iter().zip(widths).zip(&self.flush_left);
-            let cells = cells.map(|((cell, width), flush_left)| match flush_left {
-                true => format!("{cell:<width$}"),
-                false => format!("{cell:>width$}"),
+            let cells = columns.iter().map(|c| match (&row[*c], widths[*c], self.flush_left[*c]) {
+                (cell, width, true) => format!("{cell:<width$}"),
+                (cell, width, false) => format!("{cell:>width$}"),
             });
             format!("  {}", cells.collect::<Vec<_>>().join("  ")).trim_end().to_owned()
         };
         self.rows.iter().map(set).collect()
+    }
+}
+
+/// Minimum widths of columns with results in words.
+const RESULTS: [(&str, usize); 3] = [("result", 11), ("verdict", 14), ("95 % interval", 14)];
+
+/// Returns the width that a column with this cell has at least: all numbers of its kind fit.
+fn least_width(cell: &str) -> usize {
+    let number = cell.trim_matches(['(', ')']);
+    match number.parse::<f64>() {
+        Ok(_) if number.contains('e') => "(1.000e-06)".len(),
+        Ok(_) if number.contains('.') => "-0.00".len(),
+        Ok(_) if number.len() > 3 => "100000000".len(),
+        _ => 0,
     }
 }
 
@@ -243,7 +284,7 @@ mod tests {
         ];
         let table = Table::new(&columns, [["5", "1.0"], ["160", "0.25"]]);
         let lines = table.without_empty_columns().lines();
-        assert_eq!(lines, ["  cells   rms", "      5   1.0", "    160  0.25"]);
+        assert_eq!(lines, ["  cells    rms", "      5    1.0", "    160   0.25"]);
     }
     #[test]
     fn a_wide_cell_moves_only_its_own_line_between_fixed_widths() {

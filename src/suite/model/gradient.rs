@@ -59,7 +59,7 @@ pub struct GradientCase {
     pub parameter: usize,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(GradientTerms, String)>,
-    /// Role in `run --gate` (required, not gated or excepted), for a solver without an expectation.
+    /// Role in `run --gate` (required, exempt or excepted), for a solver without an expectation.
     pub gating: Option<Gating>,
 }
 

@@ -89,7 +89,7 @@ pub struct Case {
     pub expectation: Option<Expectation>,
     /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Role in `run --gate` (required, not gated or excepted), for an external solver without an
+    /// Role in `run --gate` (required, exempt or excepted), for an external solver without an
     /// expectation.
     pub gating: Option<Gating>,
 }

@@ -54,7 +54,7 @@ pub struct SpectrumCase {
     pub limit: Option<f64>,
     /// Expectation and its reason; `None` if the suite states no expectations.
     pub expected: Option<(SpectrumExpectation, String)>,
-    /// Role in `run --gate` (required, not gated or excepted), for an external solver.
+    /// Role in `run --gate` (required, exempt or excepted), for an external solver.
     pub gating: Option<Gating>,
 }
 

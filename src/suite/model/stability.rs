@@ -103,7 +103,7 @@ pub struct StabilityCase {
     pub method: Method,
     /// Expectations of the suite, or of the gate for an external solver.
     pub expectations: RowExpectations,
-    /// Role in `run --gate` (required, not gated or excepted), for an external solver.
+    /// Role in `run --gate` (required, exempt or excepted), for an external solver.
     pub gating: Option<Gating>,
 }
 

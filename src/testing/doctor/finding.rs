@@ -59,7 +59,7 @@ pub enum ExaminationResult {
         lacks: String,
     },
     /// The examination was skipped because another examination has findings.
-    LeftOut {
+    Skipped {
         /// Name of the examination with findings.
         after: &'static str,
     },
@@ -121,7 +121,7 @@ impl ExaminationResult {
     pub fn findings(&self) -> &[SolverFinding] {
         match self {
             Self::Examined { findings, .. } => findings,
-            Self::NotApplicable { .. } | Self::LeftOut { .. } => &[],
+            Self::NotApplicable { .. } | Self::Skipped { .. } => &[],
         }
     }
 }
@@ -148,7 +148,7 @@ pub fn page(report: &DoctorReport) -> String {
             ExaminationResult::NotApplicable { lacks } => {
                 ("not applicable", "not supported", lacks)
             }
-            ExaminationResult::LeftOut { after } => (
+            ExaminationResult::Skipped { after } => (
                 "skipped",
                 "reason",
                 &format!("`{after}` has a defect that would invalidate this result"),
@@ -216,7 +216,7 @@ fn verdict(report: &DoctorReport) -> String {
         report.examinations.iter().filter(|made| is(&made.result)).count()
     };
     let made = count(|result| matches!(result, ExaminationResult::Examined { .. }));
-    let left_out = count(|result| matches!(result, ExaminationResult::LeftOut { .. }));
+    let skipped = count(|result| matches!(result, ExaminationResult::Skipped { .. }));
     let not = count(|result| matches!(result, ExaminationResult::NotApplicable { .. }));
     let claimed = report.not_examined.len();
     let mut text = match report.defects() {
@@ -225,7 +225,7 @@ fn verdict(report: &DoctorReport) -> String {
     };
     for (number, what) in [
         (not, "not applicable"),
-        (left_out, "skipped until all defects are corrected"),
+        (skipped, "skipped until all defects are corrected"),
         (claimed, "claimed capabilities not examined"),
     ] {
         if number > 0 {

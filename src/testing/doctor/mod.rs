@@ -56,7 +56,7 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
         progress(examination.name);
         let source = masked.iter().find(|name| examination.after.contains(name));
         let result = if let Some(after) = ground(examination, &report) {
-            ExaminationResult::LeftOut { after }
+            ExaminationResult::Skipped { after }
         } else if let Some(name) = source {
             ExaminationResult::NotApplicable { lacks: format!("a result of `{name}`") }
         } else {
@@ -97,7 +97,7 @@ fn silent(first: &ExaminationResult) -> Option<String> {
             "the solver does not support the simplest problem, a body whose faces are all free: \
              {lacks}"
         )),
-        ExaminationResult::LeftOut { .. } => None,
+        ExaminationResult::Skipped { .. } => None,
     }
 }
 
@@ -133,12 +133,12 @@ fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static s
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {
         let findings = made.result.findings();
-        let is_left_out = matches!(made.result, ExaminationResult::LeftOut { .. });
-        is_left_out || findings.iter().any(|finding| finding.weight == FindingWeight::Defect)
+        let is_skipped = matches!(made.result, ExaminationResult::Skipped { .. });
+        is_skipped || findings.iter().any(|finding| finding.weight == FindingWeight::Defect)
     };
     let found = report.examinations.iter().filter(is_ground).find(has_defect)?;
     Some(match found.result {
-        ExaminationResult::LeftOut { after } => after,
+        ExaminationResult::Skipped { after } => after,
         _ => found.examination,
     })
 }

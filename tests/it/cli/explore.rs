@@ -18,7 +18,7 @@ fn suite_without_expectations_reports_results_and_passes() {
         &[
             "explored  short-bar::mpm-linear-flip-musl",
             "  a   nothing: neither the suite nor a gate has an expectation for it",
-            "result        2 cases without an expectation",
+            "result        2 explored",
             "conservation, all levels: largest change since t = 0, divided by the sum of magnitudes \
              over the body\n",
         ],

@@ -22,10 +22,10 @@ mod shards;
 mod steps;
 mod time_series;
 
-pub(crate) use crate::common::folder::{Folder, assert_contains};
+pub(crate) use crate::common::folder::{Folder, assert_contains, without_files};
 use rstest::rstest;
 
-/// Exit status of a run in which all results are as expected.
+/// Exit status of a run without a failure.
 pub(crate) const SOUND: i32 = 0;
 
 /// Exit status if some expectation was not met.

@@ -18,22 +18,48 @@ fn six() -> Folder {
 }
 
 #[test]
-fn bare_command_prints_overview_and_unexpected_results() {
+fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     let folder = six();
-    let found = folder.call(&[]);
+    let found = folder.call(&["run"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
     let results = found.out.lines().filter(|line| line.starts_with("  result  ")).count();
-    assert_eq!(results, 3, "all, and two cases of one suite\n{}", found.out);
+    assert_eq!(results, 2, "two cases of one suite\n{}", found.out);
     assert_contains(
         &found.out,
-        &["bars\n", "bar-1", "ambitious-bar: Short bar\n", "NOT AS EXPECTED", "`--reports`"],
+        &["  bar-1          2.01..2.02  2 pass\n", "ambitious-bar: Short bar\n", "  FAIL "],
     );
-    assert_eq!(folder.call(&["run"]).out, found.out);
-    folder.write("verification/bars/bar-1.snap", "accepted");
-    let accepted = folder.call(&[]).out;
-    assert_contains(&accepted, &["reports: accepted snapshots in verification/GROUP/SUITE.snap; "]);
+    assert!(
+        found.out.ends_with(
+            "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose ambitious-bar --case \
+             mpm-linear-flip-musl find the cause\n"
+        ),
+        "{}",
+        found.out
+    );
     let written = folder.call(&["--out", "results"]).out;
-    assert!(written.ends_with("reports: results/SUITE.txt\n"), "{written}");
+    assert_contains(&written, &["\nwrote results\n6 suites, "]);
+    let matrix = folder.call(&["run", "--overview"]).out;
+    assert_contains(&matrix, &["\n  suite                                     linear", "\nbars\n"]);
+}
+
+/// The commands of the last lines are valid.
+#[test]
+fn without_arguments_a_plot_and_the_next_commands_are_printed() {
+    let folder = Folder::new();
+    let out = folder.accepted(&[]);
+    assert!(out.lines().count() <= 40 && out.lines().all(|line| line.chars().count() <= 100));
+    assert_contains(
+        &out,
+        &[
+            "  vibrating-bar: rms error of displacement at the end (m)\n",
+            "  a  mpm-linear-flip-{musl,usl}: 1.96 [1.91, 2.01]\n",
+            "14 suites, 61 cases: 46 pass, 15 known limits, 0 FAIL\nnext: mpm-verify run ",
+            " mpm-verify run vibrating-bar ",
+        ],
+    );
+    let own = six().call(&[]);
+    assert_eq!(own.code, FAILED, "the suites of the project");
+    assert_contains(&own.out, &["  bar-5: rms error", "6 suites, 12 cases: "]);
 }
 
 #[test]
@@ -155,7 +181,7 @@ fn colours_are_for_terminals_or_on_request() {
     assert_eq!(escape(&folder.call(&words)), (false, false));
     let painted = folder.call(&[&words[..], &["--color", "always", "--out", "results"]].concat());
     assert_eq!(escape(&painted), (true, true));
-    assert_contains(&painted.out, &["\u{1b}[31mNOT AS EXPECTED"]);
+    assert_contains(&painted.out, &["\u{1b}[31mFAIL"]);
     for file in folder.files("results") {
         assert!(!folder.read(&format!("results/{file}")).contains('\u{1b}'), "{file}");
     }

@@ -92,6 +92,11 @@ impl Folder {
     }
 }
 
+/// Removes the lines that name written files.
+pub(crate) fn without_files(out: &str) -> String {
+    out.split_inclusive('\n').filter(|line| !line.starts_with("wrote ")).collect()
+}
+
 /// Asserts that `text` has all of `parts`.
 #[track_caller]
 pub(crate) fn assert_contains(text: &str, parts: &[&str]) {

@@ -117,7 +117,7 @@ fn rows(outcome: &CaseOutcome) -> &[StabilityRow] {
 fn equal_algorithms_have_equal_growth() {
     let ours = Runner::new(&suite(MOVING_BAR)).case(0, &|| ());
     let theirs = judged(MOVING_BAR, &WatchedSolver);
-    assert_eq!((theirs.case.as_str(), theirs.result()), ("watched", "not gated"));
+    assert_eq!((theirs.case.as_str(), theirs.result().name()), ("watched", "explored"));
     let verdicts: Vec<&str> =
         rows(&theirs).iter().map(|row| row.trial.as_ref().unwrap().verdict.name()).collect();
     assert_eq!(verdicts, ["stable", "stable", "unstable"]);
@@ -147,10 +147,13 @@ fn limit_is_found_by_runs() {
 #[test]
 fn solver_without_stress_or_totals_is_not_applicable() {
     let outcome = judged(MOVING_BAR, &OwnSolver);
-    assert_eq!(outcome.result(), "n/a");
+    assert_eq!(outcome.result().name(), "not applicable");
     assert_eq!(outcome.lacks, ["columns: stress"]);
     let outcome = judged(MOVING_BAR, &Silent);
-    assert_eq!((outcome.result(), outcome.verdict.as_str()), ("n/a", "not applicable"));
+    assert_eq!(
+        (outcome.result().name(), outcome.verdict.as_str()),
+        ("not applicable", "not applicable")
+    );
     assert!(outcome.reason.contains("sends no totals"), "{}", outcome.reason);
 }
 

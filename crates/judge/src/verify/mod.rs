@@ -69,7 +69,7 @@ pub use order::level::{Axis, Level, observed_order};
 pub use order::limit_estimate::{LimitEstimate, SeriesPoint, estimate_limit};
 pub use order::richardson::Richardson;
 pub use order::window::FEWEST_LEVELS;
-pub use outcome::{CaseOutcome, SuiteOutcome};
+pub use outcome::{CaseOutcome, CaseResult, SuiteOutcome};
 pub use spectrum::SpectrumStudy;
 pub use stability::{Stability, StabilityExpectation, StabilityStudy, amplification};
 pub use study_results::StudyResults;

@@ -4,7 +4,7 @@ use crate::verify::{
     CaseJudgement, Convergence, Gating, GradientStudy, InternalForce, SpectrumStudy,
     StabilityStudy, StudyResults, Verdict,
 };
-use mpm_subject::{Profile, SubjectError};
+use mpm_subject::{Profile, SubjectError, named};
 use std::sync::Arc;
 
 /// Results of one suite.
@@ -83,6 +83,23 @@ pub struct CaseOutcome {
     pub study: Option<StudyResults>,
 }
 
+named! {
+    /// Result of a case, with its name in all reports.
+    pub enum CaseResult {
+        /// The expectations are met, and the method does not fail.
+        Pass = "pass",
+        /// The method fails as expected, for the stated reason. With `run --gate` also a case that
+        /// the author of the solver excepts.
+        KnownLimit = "known limit",
+        /// An expectation is not met, or the case could not be run.
+        Fail = "FAIL",
+        /// The solver lacks a capability that the problem requires.
+        NotApplicable = "not applicable",
+        /// Nothing is expected: neither the suite nor the gate has a requirement.
+        Explored = "explored",
+    }
+}
+
 /// Reason why `run --gate` has no requirement for a case. The explanation is in
 /// [`CaseOutcome::reason`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -133,25 +150,21 @@ impl CaseOutcome {
         self.study.as_ref().is_some_and(StudyResults::fails)
     }
 
-    /// All values of [`CaseOutcome::result`].
-    pub const RESULTS: [&'static str; 6] =
-        ["pass", "FAIL", "explored", "n/a", "not gated", "excepted"];
-
-    /// Returns the result in one word: `pass`, `FAIL`, `explored` if nothing is expected, or `n/a`
-    /// if the solver lacks a capability. With `run --gate` also `not gated` and `excepted`.
-    pub fn result(&self) -> &'static str {
+    /// Returns the result in one word.
+    pub fn result(&self) -> CaseResult {
         if !self.lacks.is_empty() {
-            return "n/a";
+            return CaseResult::NotApplicable;
         }
         match self.exemption {
-            Some(Exemption::NotGated) => return "not gated",
-            Some(Exemption::Excepted) => return "excepted",
+            Some(Exemption::NotGated) => return CaseResult::Explored,
+            Some(Exemption::Excepted) => return CaseResult::KnownLimit,
             None => {}
         }
         match (self.passed(), &self.expected) {
-            (false, _) => "FAIL",
-            (true, Some(_)) => "pass",
-            (true, None) => "explored",
+            (false, _) => CaseResult::Fail,
+            (true, None) => CaseResult::Explored,
+            (true, Some(_)) if self.fails() => CaseResult::KnownLimit,
+            (true, Some(_)) => CaseResult::Pass,
         }
     }
 
@@ -159,7 +172,7 @@ impl CaseOutcome {
     /// missing capabilities; `verb` introduces them in the reason.
     #[must_use]
     pub fn not_applicable(self, lacks: Vec<String>, verb: &str) -> Self {
-        let verdict = "not applicable".to_owned();
+        let verdict = CaseResult::NotApplicable.name().to_owned();
         let reason = format!("the solver {verb} {}", lacks.join(", "));
         Self { verdict, reason, lacks, ..self }
     }
