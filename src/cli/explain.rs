@@ -72,7 +72,10 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     for (i, case) in suite.case_names().into_iter().enumerate() {
         page += &format!("\n{case}\n");
         page += &match suite.study.expectation(i) {
-            Some((expected, because)) => format!("  expected: {expected}\n  because: {because}\n"),
+            Some((expected, because)) => {
+                report::wrapped_row(9, "expected:", &expected)
+                    + &report::wrapped_row(8, "because:", because)
+            }
             None => "  expected: nothing, so the suite is not a gate\n".to_owned(),
         };
         page += &taken(suite, case, without);
@@ -151,7 +154,7 @@ fn explained(suite: &Suite, without: Option<Dispensable>) -> Value {
 }
 
 fn line(key: &str, value: &str) -> String {
-    format!("  {key:17} {value}\n")
+    report::wrapped_row(17, key, value)
 }
 
 /// Describes the cost of a step of the case, and what a step would save without the effect

@@ -1,8 +1,8 @@
-//! `mpm-verify list` prints suites with their cases; `mpm-verify steps` prints the time step of
+//! `mpm-verify list` prints groups, suites or cases; `mpm-verify steps` prints the time step of
 //! every level.
 
 use super::arguments::{FormatArgs, Targets};
-use super::output::Status;
+use super::output::{self, Status, counted};
 use super::{select, show};
 use clap::Args;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
@@ -11,11 +11,16 @@ use mpm_verify::suite::{Extent, Suite};
 use mpm_verify::verify::{STEP_TOLERANCE, StepKind};
 use serde_json::{Value, json};
 use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::path::Path;
 
 #[derive(Debug, Args)]
 pub(super) struct ListArgs {
     #[command(flatten)]
     targets: Targets,
+    /// Also print the cases of each suite
+    #[arg(long)]
+    cases: bool,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -25,11 +30,42 @@ pub(super) fn list(args: &ListArgs) -> Status {
     if args.format.is_json() {
         return show::json(suites, |source, suite| Ok(listed(source, suite)));
     }
-    show::each(suites, |suite| {
-        let cases = suite.case_names().join("\n  ");
-        format!("{}: {}\n  {cases}\n", suite.name, suite.title)
-    })
+    let is_long = !args.cases && suites.len() > MOST_LISTED;
+    let mut groups: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    let mut count = [0, 0];
+    let code = show::try_each(suites, |source, suite| {
+        let cases = suite.case_names();
+        let group = groups.entry(Source::group_of(Path::new(source.name()))).or_default();
+        for [suites, of_suites] in [group, &mut count] {
+            *suites += 1;
+            *of_suites += cases.len();
+        }
+        let title = format!("{}: {}\n", suite.name, suite.title);
+        Ok(match (is_long, args.cases) {
+            (true, _) => String::new(),
+            (_, true) => format!("{title}  {}\n", cases.join("\n  ")),
+            _ => title,
+        })
+    });
+    if is_long {
+        for (group, [suites, cases]) in &groups {
+            output::print(&format!("{group:32} {suites:>3} suites {cases:>5} cases\n"));
+        }
+    }
+    let [suites, cases] = count;
+    if suites > 0 {
+        let text = format!("{}, {}\n", counted(suites, "suite"), counted(cases, "case"));
+        output::print(&text);
+    }
+    if is_long {
+        let group = groups.keys().next().map_or("", String::as_str);
+        output::print(&format!("next: mpm-verify list {group}\n"));
+    }
+    code
 }
+
+/// Maximum number of suites that are listed one by one.
+const MOST_LISTED: usize = 35;
 
 fn listed(source: &Source, suite: &Suite) -> Value {
     let names = suite.case_names().into_iter();
@@ -94,8 +130,7 @@ fn row(step: &TimeStep) -> String {
     let cells = level.cells;
     let note = if beyond(step) { "  off by more than 1 %" } else { "" };
     format!(
-        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} times the requested {wanted:.4e} s, \
-         {} instants{note}\n",
+        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} x {wanted:.4e} s, {} instants{note}\n",
         clock.steps,
         clock.dt(),
         step.ratio(),

@@ -34,6 +34,7 @@ use std::process::ExitCode;
 #[command(
     version,
     about,
+    max_term_width = 100,
     override_usage = "mpm-verify [OPTIONS] [SUITE]...\n       mpm-verify <COMMAND>",
     after_help = "Without arguments: a first look, on few suites. Suites without a command: `run`, whose \
                   options `mpm-verify run --help` lists."

@@ -15,7 +15,7 @@ pub(super) fn each(suites: Vec<Found>, page: impl Fn(&Suite) -> String) -> Statu
 /// Prints a page for each suite, or the error if the suite cannot be loaded or `page` fails.
 pub(super) fn try_each(
     suites: Vec<Found>,
-    page: impl Fn(&Source, &Suite) -> Result<String, CommandError>,
+    mut page: impl FnMut(&Source, &Suite) -> Result<String, CommandError>,
 ) -> Status {
     let mut code = Status::Passed;
     for found in suites {

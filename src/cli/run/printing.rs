@@ -92,7 +92,6 @@ fn plotted(outcomes: &[SuiteOutcome]) -> Option<&SuiteOutcome> {
 /// output goes to a file, because equal results then give equal bytes.
 fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> String {
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
-    let noun = |count, one| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
     let time = if std::io::stdout().is_terminal() {
         format!(" in {:.1} s", time.as_secs_f64())
     } else {
@@ -100,8 +99,8 @@ fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> Stri
     };
     let mut text = format!(
         "{}, {}{time}: {}{}\n",
-        noun(outcomes.len(), "suite"),
-        noun(cases.len(), "case"),
+        output::counted(outcomes.len(), "suite"),
+        output::counted(cases.len(), "case"),
         report::counts(cases.iter().copied()),
         if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
     );

@@ -4,6 +4,7 @@
 //!
 //! Snapshots give work as the number of particle-node transfers, which is equal on all machines.
 
+use super::prose::wrapped_row;
 use super::table::Table;
 use crate::report::columns::{cost as columns, short, timed_level};
 use crate::verify::{Machine, Ranking, Reach, TimedSuite};
@@ -66,7 +67,7 @@ pub fn timed(timed: &TimedSuite) -> String {
 const SECONDS: &str = "steps only, on one thread, median of interleaved repeats";
 
 fn row(key: &str, value: &str) -> String {
-    format!("  {key:17} {value}\n")
+    wrapped_row(17, key, value)
 }
 
 fn lines(lines: &[String]) -> String {

@@ -49,6 +49,18 @@ pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, va
     }
 }
 
+/// Formats a row with `key` in a first column of width `column`. A value that exceeds the line is
+/// wrapped.
+pub fn wrapped_row(column: usize, key: &str, value: &str) -> String {
+    let row = format!("  {key:column$} {value}");
+    if row.chars().count() <= WIDTH {
+        return row + "\n";
+    }
+    let mut lines = Vec::new();
+    row_of_width(&mut lines, column + 1, key, value);
+    lines.join("\n") + "\n"
+}
+
 pub(crate) fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
     let mut line = String::new();
     for word in prose.split_whitespace() {

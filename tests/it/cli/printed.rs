@@ -62,6 +62,28 @@ fn without_arguments_a_plot_and_the_next_commands_are_printed() {
     assert_contains(&own.out, &["  bar-5: rms error", "6 suites, 12 cases: "]);
 }
 
+/// Longer lines would be wrapped by terminals and code reviews.
+#[rstest]
+#[case(&["--help"])]
+#[case(&["run", "--help"])]
+#[case(&["estimate", "--help"])]
+#[case(&["list"])]
+#[case(&["list", "stability"])]
+#[case(&["check", "vibrating-bar"])]
+#[case(&["explain", "cooks-membrane"])]
+#[case(&["steps", "vibrating-bar"])]
+#[case(&["run", "vibrating-bar", "mms-fixed-bar-large"])]
+#[case(&["run", "--brief", "free-bar*"])]
+#[case(&["diagnose", "vibrating-bar", "--case", "usf"])]
+#[case(&["propose", "vibrating-bar"])]
+#[case(&["cost", "vibrating-bar-crossing"])]
+fn lines_fit_in_100_columns(#[case] words: &[&str]) {
+    let out = Folder::new().call(words).out;
+    assert!(!out.is_empty());
+    let wide: Vec<&str> = out.lines().filter(|line| line.chars().count() > 100).collect();
+    assert!(wide.is_empty(), "{}", wide.join("\n"));
+}
+
 #[test]
 fn reports_are_printed_for_few_named_suites_or_on_request() {
     let folder = six();
