@@ -18,6 +18,7 @@ pub(crate) mod grammar;
 pub(crate) mod model;
 pub mod pattern;
 pub(crate) mod scene;
+pub(crate) mod violation;
 pub mod yaml;
 
 #[cfg(feature = "schemas")]
@@ -40,4 +41,5 @@ pub use self::{
     model::stability::StabilityCase,
     model::{ForceCase, ForceExpectation, ForcePlan, ReferencePlan, SameMethod},
     scene::{EffectName, SceneFace, SceneHeat},
+    violation::violations,
 };

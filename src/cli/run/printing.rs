@@ -4,6 +4,8 @@ use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output::{self, CommandError};
 use crate::cli::select;
 use crate::cli::suite_runs::SuiteRuns;
+use mpm_verify::suite::violations;
+use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use mpm_verify::{nearest, report};
 use std::collections::BTreeSet;
@@ -38,6 +40,18 @@ impl Printing {
             RunFormat::Text if args.print.brief => Self::Verdicts,
             RunFormat::Text if args.print.reports || few_are_named => Self::Reports,
             RunFormat::Text => Self::Overview,
+        }
+    }
+
+    /// Prints the violated expectations with their positions in the files of the suites.
+    pub(super) fn violations(self, sources: &[Source], outcomes: &[SuiteOutcome]) {
+        if matches!(self, Self::Json | Self::Csv | Self::Latex) {
+            return;
+        }
+        for (source, outcome) in sources.iter().zip(outcomes) {
+            for violation in violations(source, outcome) {
+                output::print(&format!("{violation}\n"));
+            }
         }
     }
 

@@ -4,8 +4,8 @@
 use crate::external::SolverFactory;
 use crate::report;
 use crate::study::{Runner, lacking, under};
-use crate::suite::Suite;
 use crate::suite::yaml::Source;
+use crate::suite::{Suite, violations};
 use crate::testing::conformance::examined;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use insta::{Comparator, Settings, Snapshot, assert_snapshot};
@@ -71,13 +71,14 @@ impl Gate {
     fn of_file(&self, file: &Path) -> (Vec<Trial>, Option<Arc<SharedSuite>>) {
         let stem = stem(file);
         let unusable = |why: String| (vec![broken(&format!("{stem}::parse"), why)], None);
-        match Source::read(file).and_then(|source| Suite::load(&source)) {
-            Ok(suite) if suite.name != stem => unusable(format!(
+        let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
+        match Source::read(file).and_then(load) {
+            Ok((_, suite)) if suite.name != stem => unusable(format!(
                 "the file {} contains the suite `{}`: rename one of them",
                 file.display(),
                 suite.name
             )),
-            Ok(suite) => self.of_suite(suite, &self.snapshots_of(file)),
+            Ok((source, suite)) => self.of_suite(source, suite, &self.snapshots_of(file)),
             Err(diagnostic) => unusable(diagnostic.to_string()),
         }
     }
@@ -87,7 +88,12 @@ impl Gate {
         self.snapshots.join(folder.strip_prefix(&self.folder).unwrap_or(Path::new("")))
     }
 
-    fn of_suite(&self, suite: Suite, snapshots: &Path) -> (Vec<Trial>, Option<Arc<SharedSuite>>) {
+    fn of_suite(
+        &self,
+        source: Source,
+        suite: Suite,
+        snapshots: &Path,
+    ) -> (Vec<Trial>, Option<Arc<SharedSuite>>) {
         let suite = match self.solver {
             None => suite,
             Some(solver) => match judged(&suite, solver) {
@@ -99,7 +105,7 @@ impl Gate {
                 }
             },
         };
-        let (trials, suite) = trials(suite, snapshots, self.solver);
+        let (trials, suite) = trials(source, suite, snapshots, self.solver);
         (trials, Some(suite))
     }
 }
@@ -134,6 +140,7 @@ fn conforms(solver: &dyn SolverFactory, suite: &Suite) -> Result<Completion, Fai
 
 /// A suite and its outcomes. Each case runs once, even if several tests need it.
 struct SharedSuite {
+    source: Source,
     suite: &'static Suite,
     runner: Runner<'static>,
     snapshots: PathBuf,
@@ -159,7 +166,10 @@ impl SharedSuite {
         if outcome.passed() {
             return Ok(Completion::Completed);
         }
-        Err(format!("{}\n\n{}", outcome.unmet.join("\n"), report::case(outcome)).into())
+        let suite = self.runner.outcome(vec![outcome.clone()]);
+        let violations = violations(&self.source, &suite);
+        let violations: Vec<String> = violations.iter().map(ToString::to_string).collect();
+        Err(format!("{}\n\n{}", violations.join("\n"), report::case(outcome)).into())
     }
 
     fn outcome(&self) -> &SuiteOutcome {
@@ -190,6 +200,7 @@ fn report(suite: &Arc<SharedSuite>) -> Trial {
 }
 
 fn trials(
+    source: Source,
     suite: Suite,
     snapshots: &Path,
     solver: Option<&'static dyn SolverFactory>,
@@ -199,6 +210,7 @@ fn trials(
     let names = suite.case_names();
     let runner = Runner::new(suite);
     let shared = Arc::new(SharedSuite {
+        source,
         suite,
         runner: match solver {
             Some(solver) => runner.judging(solver),

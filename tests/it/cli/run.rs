@@ -50,6 +50,29 @@ fn unmet_expectation_is_reported_with_the_result() {
     );
 }
 
+/// The entry of a case is found by its pattern and its reason, in lists of patterns too.
+#[test]
+fn violated_expectation_points_at_its_entry() {
+    let (suite, _) = BAR.split_once("expect:").expect("expectations");
+    let expect = "expect:\n  - case: 'mpm-*'\n    because: theory\n    order: [2.9, 3.1]\n  \
+                  - case: ['fem-*']\n    because: theory\n    verdict: divergent\n";
+    let folder = Folder::with("bar.yaml", format!("{suite}{expect}").replace("short", "long"));
+    let found = folder.call(&["run", "bar.yaml", "--brief"]);
+    assert_eq!(found.code, FAILED, "{}", found.errors);
+    let line = suite.lines().count() + 4;
+    let (first, second) = (format!("bar.yaml:{line}:5"), format!("bar.yaml:{}:5", line + 3));
+    assert_contains(
+        &found.out,
+        &[
+            "error: long-bar::mpm-linear-flip-musl: expected the verdict `converging`",
+            &first,
+            "error: long-bar::fem-linear-lumped: expected the verdict `divergent`",
+            &second,
+            "= help: `mpm-verify diagnose long-bar --case fem-linear-lumped` looks for the cause",
+        ],
+    );
+}
+
 #[test]
 fn invalid_file_does_not_suppress_other_reports() {
     let folder = Folder::with("bad.yaml", mistaken());

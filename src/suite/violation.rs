@@ -1,0 +1,61 @@
+//! Positions of violated expectations in the file of a suite.
+
+use super::pattern::fits;
+use super::yaml::{Diagnostic, Source, Step};
+use crate::verify::{CaseOutcome, SuiteOutcome};
+
+/// Returns a diagnostic for each violated expectation. It points at the entry of `expect` (or at
+/// `any_method`, with `run --gate`) that the result violates, or at the file if the requirement
+/// comes from elsewhere.
+pub fn violations(source: &Source, outcome: &SuiteOutcome) -> Vec<Diagnostic> {
+    let failed = outcome.cases.iter().filter(|case| !case.passed());
+    let of_case = |case: &CaseOutcome| {
+        let place = entry(source, case).and_then(|path| {
+            let key = REQUIREMENTS.iter().find_map(|key| source.key_at(&then(&path, *key)));
+            key.or_else(|| source.value_at(&path))
+        });
+        let help = format!(
+            "`mpm-verify diagnose {} --case {}` looks for the cause",
+            outcome.suite, case.case
+        );
+        let diagnostic = |unmet: &String| {
+            let message = format!("{}::{}: {unmet}", outcome.suite, case.case);
+            let diagnostic = match place {
+                Some(place) => source.diagnostic(place, &message).with_label("violated"),
+                None => Diagnostic::about(source.name(), &message),
+            };
+            diagnostic.with_help(&help)
+        };
+        case.unmet.iter().map(diagnostic).collect::<Vec<_>>()
+    };
+    failed.flat_map(of_case).collect()
+}
+
+/// Keys of an entry that can be pointed at, the most important first.
+const REQUIREMENTS: [&str; 6] =
+    ["order", "verdict", "error_below", "drift", "energy_rate", "crossings"];
+
+fn then(path: &[Step], step: impl Into<Step>) -> Vec<Step> {
+    [path, &[step.into()]].concat()
+}
+
+/// Returns the path of the entry whose expectation the case has: its pattern matches the name of
+/// the case, and its reason is that of the case.
+fn entry(source: &Source, case: &CaseOutcome) -> Option<Vec<Step>> {
+    let list = [Step::from("expect")];
+    let entries = (0..).map(|k| then(&list, k)).take_while(|path| source.value_at(path).is_some());
+    let any_method = std::iter::once(vec![Step::from("any_method")]);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let reason = words(&case.because);
+    entries.chain(any_method).find(|path| {
+        let names = then(path, "case");
+        let matches = match source.text_at(&names) {
+            Some(name) => fits(name, &case.case),
+            None if source.value_at(&names).is_none() => true,
+            None => (0..)
+                .map_while(|k| source.text_at(&then(&names, k)))
+                .any(|name| fits(name, &case.case)),
+        };
+        matches && source.text_at(&then(path, "because")).map(words) == Some(reason.clone())
+    })
+}
