@@ -41,5 +41,5 @@ pub use self::{
     model::stability::StabilityCase,
     model::{ForceCase, ForceExpectation, ForcePlan, ReferencePlan, SameMethod},
     scene::{EffectName, SceneFace, SceneHeat},
-    violation::violations,
+    violation::{next_command, violations},
 };

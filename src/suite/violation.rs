@@ -14,10 +14,7 @@ pub fn violations(source: &Source, outcome: &SuiteOutcome) -> Vec<Diagnostic> {
             let key = REQUIREMENTS.iter().find_map(|key| source.key_at(&then(&path, *key)));
             key.or_else(|| source.value_at(&path))
         });
-        let help = format!(
-            "`mpm-verify diagnose {} --case {}` looks for the cause",
-            outcome.suite, case.case
-        );
+        let help = format!("next: mpm-verify {}", next_command(source, outcome, case));
         let diagnostic = |unmet: &String| {
             let message = format!("{}::{}: {unmet}", outcome.suite, case.case);
             let diagnostic = match place {
@@ -29,6 +26,18 @@ pub fn violations(source: &Source, outcome: &SuiteOutcome) -> Vec<Diagnostic> {
         case.unmet.iter().map(diagnostic).collect::<Vec<_>>()
     };
     failed.flat_map(of_case).collect()
+}
+
+/// Returns the arguments of the command that helps with a failed case. Only convergence studies can
+/// be diagnosed.
+pub fn next_command(source: &Source, outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
+    let is_file = std::path::Path::new(source.name()).is_file();
+    let suite = if is_file { source.name() } else { &outcome.suite };
+    match case.convergence() {
+        None => format!("explain {suite}"),
+        Some(_) if case.subject == "external" => format!("diagnose {suite} --solver COMMAND"),
+        Some(_) => format!("diagnose {suite} --case {}", case.case),
+    }
 }
 
 /// Keys of an entry that can be pointed at, the most important first.

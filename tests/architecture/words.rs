@@ -69,6 +69,10 @@ pub(crate) const UNCLEAR_PHRASES: &[(&str, &str)] = &[
     ("does not care", "does not depend on"),
     ("do not care", "do not depend on"),
     ("what is left", "the rest, the remaining error"),
+    ("as expected", "pass, known limit"),
+    ("expected failure", "known limit"),
+    ("unexpected result", "FAIL, failing case"),
+    ("not gated", "explored, or `run --gate` exempts it"),
 ];
 
 /// Names of types that several files may define, each with the reason.

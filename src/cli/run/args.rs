@@ -26,8 +26,8 @@ pub(in crate::cli) struct RunArgs {
     /// count for the order
     #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
-    /// Write particles and grid over time into this folder, as files for ParaView: for cases with
-    /// unexpected results or those that `--case` selects, on the first level that failed or else
+    /// Write particles and grid over time into this folder, as files for ParaView: for failing
+    /// cases or those that `--case` selects, on the first level that failed or else
     /// the finest
     #[arg(long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
@@ -85,13 +85,13 @@ pub(super) enum RunFormat {
 #[allow(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(in crate::cli) struct PrintArgs {
     /// Print every report [default: the reports of up to five named suites; otherwise one line
-    /// for each suite or group, and the cases with unexpected results]
+    /// for each suite or group, and the failing cases]
     #[arg(long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
     /// Print only one line for each case
     #[arg(long, conflicts_with = "quiet")]
     pub(super) brief: bool,
-    /// Print only the cases with unexpected results, and no progress
+    /// Print only the failing cases, and no progress
     #[arg(long, short)]
     pub(super) quiet: bool,
     /// Also print the matrix of suites and bases

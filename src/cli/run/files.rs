@@ -89,7 +89,7 @@ pub(super) fn write_page(
 /// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
-    /// Whether all cases are written, or only those with unexpected results.
+    /// Whether all cases are written, or only those that fail.
     all: bool,
     /// First file that could not be written. No further cases are written then.
     failure: OnceLock<CommandError>,

@@ -169,7 +169,7 @@ fn report(
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
     printing.violations(&sources, &outcomes);
-    printing.verdict(args, &outcomes, times.whole);
+    printing.verdict(args, &sources, &outcomes, times.whole);
     Ok(if passed { Status::Passed } else { Status::Failed })
 }
 

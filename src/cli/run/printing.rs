@@ -4,8 +4,8 @@ use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output::{self, CommandError};
 use crate::cli::select;
 use crate::cli::suite_runs::SuiteRuns;
-use mpm_verify::suite::violations;
 use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::{next_command, violations};
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use mpm_verify::{nearest, report};
 use std::collections::BTreeSet;
@@ -24,9 +24,9 @@ pub(super) enum Printing {
     Reports,
     /// One line for each case.
     Verdicts,
-    /// The overview, and the cases with unexpected results.
+    /// One line for each suite or group, and the failing cases.
     Overview,
-    Unexpected,
+    Failures,
 }
 
 impl Printing {
@@ -36,7 +36,7 @@ impl Printing {
             RunFormat::Json => Self::Json,
             RunFormat::Csv => Self::Csv,
             RunFormat::Latex => Self::Latex,
-            RunFormat::Text if args.print.quiet => Self::Unexpected,
+            RunFormat::Text if args.print.quiet => Self::Failures,
             RunFormat::Text if args.print.brief => Self::Verdicts,
             RunFormat::Text if args.print.reports || few_are_named => Self::Reports,
             RunFormat::Text => Self::Overview,
@@ -56,12 +56,18 @@ impl Printing {
     }
 
     /// Prints what was written and the verdict on the run, the last lines of the text.
-    pub(super) fn verdict(self, args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) {
+    pub(super) fn verdict(
+        self,
+        args: &ReportArgs,
+        sources: &[Source],
+        outcomes: &[SuiteOutcome],
+        time: Duration,
+    ) {
         if matches!(self, Self::Reports | Self::Verdicts | Self::Overview) && !outcomes.is_empty() {
             for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
                 output::print(&format!("wrote {}\n", path.display()));
             }
-            output::print(&verdict(args, outcomes, time));
+            output::print(&verdict(args, sources, outcomes, time));
         }
     }
 
@@ -89,9 +95,9 @@ impl Printing {
                     output::print(&format!("{plot}\n"));
                 }
                 output::print(&format!("{}\n", report::glance(outcomes)));
-                output::print(&unexpected(outcomes));
+                output::print(&failures(outcomes));
             }
-            Self::Unexpected => output::print(&unexpected(outcomes)),
+            Self::Failures => output::print(&failures(outcomes)),
         }
     }
 }
@@ -104,7 +110,12 @@ fn plotted(outcomes: &[SuiteOutcome]) -> Option<&SuiteOutcome> {
 
 /// Returns the last lines of a run: the counts, and useful commands. The time is omitted if the
 /// output goes to a file, because equal results then give equal bytes.
-fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> String {
+fn verdict(
+    args: &ReportArgs,
+    sources: &[Source],
+    outcomes: &[SuiteOutcome],
+    time: Duration,
+) -> String {
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
     let time = if std::io::stdout().is_terminal() {
         format!(" in {:.1} s", time.as_secs_f64())
@@ -118,14 +129,12 @@ fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> Stri
         report::counts(cases.iter().copied()),
         if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
     );
-    let failed = |suite: &SuiteOutcome| {
+    let failed = |(source, suite): (&Source, &SuiteOutcome)| {
         let case = suite.cases.iter().find(|case| !case.passed())?;
-        Some((suite.suite.clone(), case.case.clone()))
+        Some(next_command(source, suite, case))
     };
-    let next = match outcomes.iter().find_map(failed) {
-        Some((suite, case)) => {
-            vec![(format!("diagnose {suite} --case {case}"), "find the cause")]
-        }
+    let next = match sources.iter().zip(outcomes).find_map(failed) {
+        Some(command) => vec![(command, "")],
         None if args.print.plot => vec![
             ("run".to_owned(), "all suites"),
             (format!("run {}", plotted(outcomes).map_or("", |suite| &suite.suite)), "one report"),
@@ -135,13 +144,14 @@ fn verdict(args: &ReportArgs, outcomes: &[SuiteOutcome], time: Duration) -> Stri
     };
     for (k, (command, use_of)) in next.into_iter().enumerate() {
         let key = if k == 0 { "next:" } else { "" };
-        text += &format!("{key:5} mpm-verify {command:40} {use_of}\n");
+        text += format!("{key:5} mpm-verify {command:40} {use_of}").trim_end();
+        text.push('\n');
     }
     text
 }
 
-/// Formats the reports of all cases with unexpected results, with the suite name above each group.
-fn unexpected(outcomes: &[SuiteOutcome]) -> String {
+/// Formats the reports of all failing cases, with the suite name above each group.
+fn failures(outcomes: &[SuiteOutcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes.iter().filter(|outcome| !outcome.passed()) {
         text += &format!("{}: {}\n\n", outcome.suite, outcome.title);

@@ -191,7 +191,7 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
     Html::tag("div", &attributes, content)
 }
 
-/// Creates the text of a result. An unexpected result is bold, because colour alone is not
+/// Creates the text of a result. A failure is bold, because colour alone is not
 /// accessible.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     let word = case.result().name();

@@ -30,8 +30,8 @@ fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     );
     assert!(
         found.out.ends_with(
-            "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose ambitious-bar --case \
-             mpm-linear-flip-musl find the cause\n"
+            "\n6 suites, 12 cases: 10 pass, 2 FAIL\nnext: mpm-verify diagnose \
+             verification/proud/ambitious-bar.yaml --case mpm-linear-flip-musl\n"
         ),
         "{}",
         found.out

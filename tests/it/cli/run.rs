@@ -68,7 +68,7 @@ fn violated_expectation_points_at_its_entry() {
             &first,
             "error: long-bar::fem-linear-lumped: expected the verdict `divergent`",
             &second,
-            "= help: `mpm-verify diagnose long-bar --case fem-linear-lumped` looks for the cause",
+            "= help: next: mpm-verify diagnose bar.yaml --case fem-linear-lumped\n",
         ],
     );
 }

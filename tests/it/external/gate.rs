@@ -83,7 +83,7 @@ fn the_order_has_a_lower_bound(#[case] error: &str, #[case] code: i32, #[case] w
     let found = gate(&folder, &["bar.yaml"], &[]);
     assert_eq!(found.code, code, "{}{}", found.out, found.errors);
     assert!(found.out.contains(words), "{}", found.out);
-    // A case that passes must not count as an expected failure.
+    // A case that passes must not count as a known limit.
     let report = folder.call(&["run", "--gate", "--solver", "sh solver.sh", "bar.yaml"]);
     assert_eq!(report.out.contains("  result        1 pass\n"), code == SOUND, "{}", report.out);
     let is_at_rounding = error.contains("1e-16") || error == "0";

@@ -111,7 +111,7 @@ fn each_solver_has_its_own_gate(folder: Folder) {
     };
     assert_eq!(both("second=sh two.sh").code, SOUND);
     let answer = both("low=sh low.sh");
-    let lines = answer.out.lines().filter(|line| line.contains("short-bar::"));
+    let lines = answer.out.lines().filter(|line| line.contains("  short-bar::"));
     let results: Vec<String> =
         lines.map(|line| line.split_whitespace().take(2).collect::<Vec<_>>().join(" ")).collect();
     assert_eq!(results, ["pass short-bar::first", "FAIL short-bar::low"]);

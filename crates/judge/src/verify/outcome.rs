@@ -88,7 +88,7 @@ named! {
     pub enum CaseResult {
         /// The expectations are met, and the method does not fail.
         Pass = "pass",
-        /// The method fails as expected, for the stated reason. With `run --gate` also a case that
+        /// The method fails, as the suite predicts and explains. With `run --gate` also a case that
         /// the author of the solver excepts.
         KnownLimit = "known limit",
         /// An expectation is not met, or the case could not be run.
