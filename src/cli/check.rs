@@ -4,7 +4,7 @@ use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::output::{CommandError, Status};
 use super::{output, select, solver};
 use clap::Args;
-use mpm_verify::report::indented;
+use mpm_verify::report::{self, indented};
 use mpm_verify::study;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
@@ -270,13 +270,9 @@ impl Counts {
 
     /// Prints the counts in one line on standard error, unless all are zero.
     fn print(self, has_notes: bool) {
-        let counted = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
-        let said = |(count, noun): (usize, &str)| match count {
-            0 => None,
-            1 => Some(format!("1 {noun}")),
-            _ => Some(format!("{count} {noun}s")),
-        };
-        let said: Vec<String> = counted.into_iter().filter_map(said).collect();
+        let counts = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
+        let counts = counts.into_iter().filter(|(count, _)| *count > 0);
+        let said: Vec<String> = counts.map(|(count, noun)| report::counted(count, noun)).collect();
         let hidden = self.notes > 0 && !has_notes;
         let hint =
             if hidden { " (printed with `--notes`, or for suites that are named)" } else { "" };
@@ -287,8 +283,7 @@ impl Counts {
 }
 
 fn sound(suite: &Suite, is_explored: bool) -> String {
-    let cases = suite.case_names().len();
-    let noun = if cases == 1 { "case" } else { "cases" };
+    let cases = report::counted(suite.case_names().len(), "case");
     let gate = if is_explored { "; no expectation, so it is not a gate" } else { "" };
     let cost = study::estimate(suite).map_or(String::new(), |cost| {
         let (seconds, mb) = (rounded(cost.seconds), rounded(cost.bytes / 1e6));
@@ -298,7 +293,7 @@ fn sound(suite: &Suite, is_explored: bool) -> String {
         let (residual, error) = (left.residual, rounded(left.error));
         format!("; linearised: residual {residual:.1e} of the terms of the equations, error about {error:e} m")
     });
-    format!("{}: sound, {cases} {noun}{cost}{linearised}{gate}\n", suite.name)
+    format!("{}: sound, {cases}{cost}{linearised}{gate}\n", suite.name)
 }
 
 /// Rounds an estimate to one significant digit.

@@ -2,9 +2,10 @@
 //! every level.
 
 use super::arguments::{FormatArgs, Targets};
-use super::output::{self, Status, counted};
+use super::output::{self, Status};
 use super::{select, show};
 use clap::Args;
+use mpm_verify::report::counted;
 use mpm_verify::study::{Estimate, TimeStep, estimates, time_steps};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};

@@ -22,11 +22,6 @@ pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
-/// Formats a number with its noun: `1 suite`, `2 suites`.
-pub(super) fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
 /// Returns a message about the first failure to print; `None` without a failure.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)

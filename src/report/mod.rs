@@ -55,5 +55,5 @@ pub use self::{
     suite::verdicts::counts,
     text::plot::convergence_plot,
     text::profile::profiles,
-    text::prose::{indented, wrapped_row},
+    text::prose::{counted, indented, wrapped_row},
 };

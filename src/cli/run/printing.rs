@@ -124,8 +124,8 @@ fn verdict(
     };
     let mut text = format!(
         "{}, {}{time}: {}{}\n",
-        output::counted(outcomes.len(), "suite"),
-        output::counted(cases.len(), "case"),
+        report::counted(outcomes.len(), "suite"),
+        report::counted(cases.len(), "case"),
         report::counts(cases.iter().copied()),
         if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
     );

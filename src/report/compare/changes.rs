@@ -1,5 +1,6 @@
 //! Changes between two runs.
 
+use crate::report::text::prose::counted;
 use mpm_subject::named;
 
 named! {
@@ -155,8 +156,7 @@ impl ReportComparison {
         let targets = |costs_more: bool, words: &str| {
             let of = |target: &&CheapestMove| (target.ratio() < 1.0) != costs_more;
             let count = self.cheapest.iter().filter(of).count();
-            let noun = if count == 1 { "target" } else { "targets" };
-            (count > 0).then(|| format!("{count} {noun} {words}"))
+            (count > 0).then(|| format!("{} {words}", counted(count, "target")))
         };
         parts.extend(targets(true, "more expensive to reach"));
         parts.extend(targets(false, "cheaper to reach"));

@@ -21,6 +21,7 @@ use crate::report::figure::plot::style::style_sheet;
 use crate::report::matrix::by_group;
 use crate::report::suite::json::commit;
 use crate::report::suite::verdicts::counts;
+use crate::report::text::prose::counted;
 use crate::verify::CaseOutcome;
 use html::Html;
 
@@ -77,21 +78,17 @@ fn meta() -> Vec<Html> {
 fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());
-    let noun =
-        |count: usize, one: &str| format!("{count} {one}{}", if count == 1 { "" } else { "s" });
-    let mut run = format!("{}, {}", noun(sources.len(), "suite"), noun(all, "case"));
+    let mut run = format!("{}, {}", counted(sources.len(), "suite"), counted(all, "case"));
     if all > 0 {
         run += &format!(": {}", counts(cases().map(|(_, case)| case)));
     }
-    let (class, finding) = match (refused, failed) {
-        (0, 0) if all > 0 => ("ok finding", format!("{run}.")),
-        (0, _) => ("bad finding", format!("{run}.")),
-        _ => {
-            let unread = format!("{} could not be used", noun(refused, "file"));
-            ("bad finding", format!("{run}. {unread}."))
-        }
-    };
-    let finding = Html::tag("p", &[("class", class)], finding);
+    run.push('.');
+    if refused > 0 {
+        run += &format!(" {} could not be used.", counted(refused, "file"));
+    }
+    let is_sound = all > 0 && failed == 0 && refused == 0;
+    let class = if is_sound { "ok finding" } else { "bad finding" };
+    let finding = Html::tag("p", &[("class", class)], run);
     let mut parts = vec![Html::tag("h1", &[], "MPM verification"), finding];
     if failed > 0 {
         let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {

@@ -61,6 +61,11 @@ pub fn wrapped_row(column: usize, key: &str, value: &str) -> String {
     lines.join("\n") + "\n"
 }
 
+/// Formats a number with its noun: `1 suite`, `2 suites`.
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 pub(crate) fn wrap(lines: &mut Vec<String>, width: usize, prose: &str) {
     let mut line = String::new();
     for word in prose.split_whitespace() {
