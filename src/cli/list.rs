@@ -31,36 +31,31 @@ pub(super) fn list(args: &ListArgs) -> Status {
     if args.format.is_json() {
         return show::json(suites, |source, suite| Ok(listed(source, suite)));
     }
-    let is_long = !args.cases && suites.len() > MOST_LISTED;
+    let by_group = !args.cases && suites.len() > MOST_LISTED;
     let mut groups: BTreeMap<String, [usize; 2]> = BTreeMap::new();
-    let mut count = [0, 0];
     let code = show::try_each(suites, |source, suite| {
         let cases = suite.case_names();
-        let group = groups.entry(Source::group_of(Path::new(source.name()))).or_default();
-        for [suites, of_suites] in [group, &mut count] {
-            *suites += 1;
-            *of_suites += cases.len();
-        }
+        let [suites, count] = groups.entry(Source::group_of(Path::new(source.name()))).or_default();
+        *suites += 1;
+        *count += cases.len();
         let title = format!("{}: {}\n", suite.name, suite.title);
-        Ok(match (is_long, args.cases) {
+        Ok(match (by_group, args.cases) {
             (true, _) => String::new(),
             (_, true) => format!("{title}  {}\n", cases.join("\n  ")),
             _ => title,
         })
     });
-    if is_long {
-        for (group, [suites, cases]) in &groups {
-            output::print(&format!("{group:32} {suites:>3} suites {cases:>5} cases\n"));
+    let sum = |k: usize| groups.values().map(|counts| counts[k]).sum();
+    let total = format!("{}, {}\n", counted(sum(0), "suite"), counted(sum(1), "case"));
+    match groups.keys().next() {
+        None => {}
+        Some(first) if by_group => {
+            for (group, [suites, cases]) in &groups {
+                output::print(&format!("{group:32} {suites:>3} suites {cases:>5} cases\n"));
+            }
+            output::print(&format!("{total}next: mpm-verify list {first}\n"));
         }
-    }
-    let [suites, cases] = count;
-    if suites > 0 {
-        let text = format!("{}, {}\n", counted(suites, "suite"), counted(cases, "case"));
-        output::print(&text);
-    }
-    if is_long {
-        let group = groups.keys().next().map_or("", String::as_str);
-        output::print(&format!("next: mpm-verify list {group}\n"));
+        Some(_) => output::print(&total),
     }
     code
 }

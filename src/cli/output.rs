@@ -56,7 +56,7 @@ const GOOD: Style = AnsiColor::Green.on_default();
 const REMARK: Style = AnsiColor::Cyan.on_default().bold();
 
 /// Line beginnings (after leading spaces) that are coloured, with their styles.
-const FIRST: [(&str, Style); 7] = [
+const FIRST: [(&str, Style); 8] = [
     ("error:", BAD),
     ("warning:", DOUBTFUL),
     ("note:", REMARK),
@@ -64,6 +64,7 @@ const FIRST: [(&str, Style); 7] = [
     ("FAIL ", BAD),
     ("pass ", GOOD),
     ("known limit ", GOOD),
+    ("not applicable ", DOUBTFUL),
 ];
 
 fn painted(text: &str) -> String {

@@ -2,37 +2,33 @@
 
 use super::pattern::fits;
 use super::yaml::{Diagnostic, Source, Step};
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::verify::CaseOutcome;
 
-/// Returns a diagnostic for each violated expectation. It points at the entry of `expect` (or at
-/// `any_method`, with `run --gate`) that the result violates, or at the file if the requirement
-/// comes from elsewhere.
-pub fn violations(source: &Source, outcome: &SuiteOutcome) -> Vec<Diagnostic> {
-    let failed = outcome.cases.iter().filter(|case| !case.passed());
-    let of_case = |case: &CaseOutcome| {
-        let place = entry(source, case).and_then(|path| {
-            let key = REQUIREMENTS.iter().find_map(|key| source.key_at(&then(&path, *key)));
-            key.or_else(|| source.value_at(&path))
-        });
-        let help = format!("next: mpm-verify {}", next_command(source, outcome, case));
-        let diagnostic = |unmet: &String| {
-            let message = format!("{}::{}: {unmet}", outcome.suite, case.case);
-            let diagnostic = match place {
-                Some(place) => source.diagnostic(place, &message).with_label("violated"),
-                None => Diagnostic::about(source.name(), &message),
-            };
-            diagnostic.with_help(&help)
+/// Returns a diagnostic for each expectation that a case of `suite` violates. It points at the
+/// entry of `expect` (or at `any_method`, with `run --gate`) that the result violates, or at the
+/// file if the requirement comes from elsewhere.
+pub fn violations(source: &Source, suite: &str, case: &CaseOutcome) -> Vec<Diagnostic> {
+    let place = entry(source, case).and_then(|path| {
+        let key = REQUIREMENTS.iter().find_map(|key| source.key_at(&then(&path, *key)));
+        key.or_else(|| source.value_at(&path))
+    });
+    let help = format!("next: mpm-verify {}", next_command(source, suite, case));
+    let diagnostic = |unmet: &String| {
+        let message = format!("{suite}::{}: {unmet}", case.case);
+        let diagnostic = match place {
+            Some(place) => source.diagnostic(place, &message).with_label("violated"),
+            None => Diagnostic::about(source.name(), &message),
         };
-        case.unmet.iter().map(diagnostic).collect::<Vec<_>>()
+        diagnostic.with_help(&help)
     };
-    failed.flat_map(of_case).collect()
+    case.unmet.iter().map(diagnostic).collect()
 }
 
 /// Returns the arguments of the command that helps with a failed case. Only convergence studies can
 /// be diagnosed.
-pub fn next_command(source: &Source, outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
+pub fn next_command(source: &Source, suite: &str, case: &CaseOutcome) -> String {
     let is_file = std::path::Path::new(source.name()).is_file();
-    let suite = if is_file { source.name() } else { &outcome.suite };
+    let suite = if is_file { source.name() } else { suite };
     match case.convergence() {
         None => format!("explain {suite}"),
         Some(_) if case.subject == "external" => format!("diagnose {suite} --solver COMMAND"),

@@ -168,8 +168,7 @@ fn report(
         // `passes` is called even if cases have failed, because it prints the skipped suites.
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));
     }
-    printing.violations(&sources, &outcomes);
-    printing.verdict(args, &sources, &outcomes, times.whole);
+    printing.end(args, &sources, &outcomes, times.whole);
     Ok(if passed { Status::Passed } else { Status::Failed })
 }
 

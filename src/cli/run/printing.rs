@@ -43,32 +43,30 @@ impl Printing {
         }
     }
 
-    /// Prints the violated expectations with their positions in the files of the suites.
-    pub(super) fn violations(self, sources: &[Source], outcomes: &[SuiteOutcome]) {
-        if matches!(self, Self::Json | Self::Csv | Self::Latex) {
-            return;
-        }
-        for (source, outcome) in sources.iter().zip(outcomes) {
-            for violation in violations(source, outcome) {
-                output::print(&format!("{violation}\n"));
-            }
-        }
-    }
-
-    /// Prints what was written and the verdict on the run, the last lines of the text.
-    pub(super) fn verdict(
+    /// Prints the end of the text: the violated expectations with their positions in the files of
+    /// the suites, the names of the written files, and the verdict on the run.
+    pub(super) fn end(
         self,
         args: &ReportArgs,
         sources: &[Source],
         outcomes: &[SuiteOutcome],
         time: Duration,
     ) {
-        if matches!(self, Self::Reports | Self::Verdicts | Self::Overview) && !outcomes.is_empty() {
-            for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
-                output::print(&format!("wrote {}\n", path.display()));
-            }
-            output::print(&verdict(args, sources, outcomes, time));
+        if outcomes.is_empty() || matches!(self, Self::Json | Self::Csv | Self::Latex) {
+            return;
         }
+        for (source, suite, case) in failed(sources, outcomes) {
+            for violation in violations(source, suite, case) {
+                output::print(&format!("{violation}\n"));
+            }
+        }
+        if self == Self::Failures {
+            return;
+        }
+        for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
+            output::print(&format!("wrote {}\n", path.display()));
+        }
+        output::print(&verdict(args, sources, outcomes, time));
     }
 
     /// Prints the text for a suite as soon as the suite has finished.
@@ -129,11 +127,8 @@ fn verdict(
         report::counts(cases.iter().copied()),
         if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
     );
-    let failed = |(source, suite): (&Source, &SuiteOutcome)| {
-        let case = suite.cases.iter().find(|case| !case.passed())?;
-        Some(next_command(source, suite, case))
-    };
-    let next = match sources.iter().zip(outcomes).find_map(failed) {
+    let failed = failed(sources, outcomes).next();
+    let next = match failed.map(|(source, suite, case)| next_command(source, suite, case)) {
         Some(command) => vec![(command, "")],
         None if args.print.plot => vec![
             ("run".to_owned(), "all suites"),
@@ -142,12 +137,23 @@ fn verdict(
         ],
         None => Vec::new(),
     };
-    for (k, (command, use_of)) in next.into_iter().enumerate() {
+    for (k, (command, purpose)) in next.into_iter().enumerate() {
         let key = if k == 0 { "next:" } else { "" };
-        text += format!("{key:5} mpm-verify {command:40} {use_of}").trim_end();
+        text += format!("{key:5} mpm-verify {command:40} {purpose}").trim_end();
         text.push('\n');
     }
     text
+}
+
+/// Returns all failing cases, with the sources and the names of their suites.
+fn failed<'a>(
+    sources: &'a [Source],
+    outcomes: &'a [SuiteOutcome],
+) -> impl Iterator<Item = (&'a Source, &'a str, &'a CaseOutcome)> {
+    sources.iter().zip(outcomes).flat_map(|(source, outcome)| {
+        let failed = outcome.cases.iter().filter(|case| !case.passed());
+        failed.map(move |case| (source, outcome.suite.as_str(), case))
+    })
 }
 
 /// Formats the reports of all failing cases, with the suite name above each group.

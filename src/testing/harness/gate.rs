@@ -166,8 +166,7 @@ impl SharedSuite {
         if outcome.passed() {
             return Ok(Completion::Completed);
         }
-        let suite = self.runner.outcome(vec![outcome.clone()]);
-        let violations = violations(&self.source, &suite);
+        let violations = violations(&self.source, &self.suite.name, outcome);
         let violations: Vec<String> = violations.iter().map(ToString::to_string).collect();
         Err(format!("{}\n\n{}", violations.join("\n"), report::case(outcome)).into())
     }
