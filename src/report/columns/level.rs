@@ -271,10 +271,6 @@ impl LevelRow<'_> {
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))
     }
 
-    pub(crate) fn level(&self) -> &LevelOutcome {
-        self.level
-    }
-
     /// Whether the level counts for the verdict.
     pub(crate) fn counts(&self) -> bool {
         let window = self.study.judgement.window.as_deref().unwrap_or_default();

@@ -43,7 +43,8 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     let judged = studies.first().map_or(String::new(), |(_, study)| study.axis_label());
     LogLogPlot {
         title: outcome.title.clone(),
-        x_label: spacing(studies.first().map_or(Axis::Space, |(_, study)| study.axis)).to_owned(),
+        x_label: spacing_label(studies.first().map_or(Axis::Space, |(_, study)| study.axis))
+            .to_owned(),
         y_label: judged,
         series: studies.iter().map(series).collect(),
         reference_orders: orders,
@@ -51,7 +52,8 @@ fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot 
     }
 }
 
-fn spacing(axis: Axis) -> &'static str {
+/// Returns the label of an axis of spacings.
+pub(crate) fn spacing_label(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",
         Axis::Time => "time step dt (s)",

@@ -2,9 +2,11 @@
 //! characters.
 
 use super::table::together;
-use crate::report::columns::level::{self, LevelRow};
+use crate::report::columns::level;
 use crate::report::columns::short;
-use crate::verify::{Axis, CaseOutcome, Convergence, SuiteOutcome, format_number, grouped};
+use crate::report::figure::plot::scale::{Pad, Scale};
+use crate::report::figure::study::spacing_label;
+use crate::verify::{CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, format_number, grouped};
 
 /// Size of the plot (characters). A braille character has two columns and four rows of dots.
 const SIZE: [usize; 2] = [60, 13];
@@ -16,90 +18,91 @@ const EXCLUDED: char = 'o';
 /// Draws the errors of a suite. Cases whose points coincide share a letter. `None` if the suite has
 /// no errors on several levels.
 pub fn convergence_plot(outcome: &SuiteOutcome) -> Option<String> {
-    let studies: Vec<(&CaseOutcome, &Convergence)> = outcome
-        .cases
-        .iter()
-        .filter_map(|case| Some((case, case.convergence().filter(|study| study.compared)?)))
+    let is_compared = |(_, study): &(&str, &Convergence)| study.compared;
+    let mut studies = outcome.results(CaseOutcome::convergence).filter(is_compared).peekable();
+    let (_, first) = *studies.peek()?;
+    let is_alike = |(_, study): &(&str, &Convergence)| {
+        study.judged() == first.judged() && study.axis == first.axis
+    };
+    let series: Vec<_> = studies
+        .filter(is_alike)
+        .map(|(name, study)| (points(study), (name, study)))
+        .filter(|(points, _)| points.len() > 1)
         .collect();
-    let (_, first) = studies.first()?;
-    let studies = studies
-        .iter()
-        .filter(|(_, study)| study.judged() == first.judged() && study.axis == first.axis);
-    let series = studies.map(|(case, study)| (points(study), *case));
-    let series: Vec<(Vec<PlottedLevel>, &CaseOutcome)> =
-        series.filter(|(points, _)| points.len() > 1).collect();
-    let ends = [0, 1].map(|axis| {
-        let values = series.iter().flat_map(|(points, _)| points).map(|point| point.at[axis]);
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-    });
-    if ends.iter().any(|[low, high]| !(low < high)) {
+    if series.is_empty() {
         return None;
     }
-    let mut canvas = Canvas { dots: [[0; SIZE[0]]; SIZE[1]], marks: [[None; SIZE[0]]; SIZE[1]] };
-    let place = |point: &PlottedLevel| {
-        [0, 1].map(|axis| {
-            let [low, high] = ends[axis];
-            let last = (SIZE[axis] * DOTS[axis] - 1) as f64;
-            libm::round((point.at[axis] - low) / (high - low) * last) as usize
-        })
+    let all = || series.iter().flat_map(|(points, _)| points);
+    let scales = [0, 1].map(|axis| Scale::log(all().map(|point| point.at[axis]), NONE));
+    let dots = |points: &[PlottedLevel]| -> Vec<([usize; 2], bool)> {
+        points.iter().map(|point| (dot(scales, point), point.counts)).collect()
     };
-    let placed = series.iter().map(|(points, case)| {
-        let dots: Vec<_> = points.iter().map(|point| (place(point), point.counts)).collect();
-        (dots, *case)
-    });
+    let mut canvas = Canvas { dots: [[0; SIZE[0]]; SIZE[1]], marks: [[None; SIZE[0]]; SIZE[1]] };
     let mut key = Vec::new();
-    for (letter, (dots, cases)) in ('a'..='z').zip(grouped(placed)) {
-        for pair in dots.windows(2) {
-            canvas.line(pair[0].0, pair[1].0);
-        }
-        for (dot, counts) in dots {
-            canvas.mark(dot, if counts { letter } else { EXCLUDED });
-        }
-        let names: Vec<&str> = cases.iter().map(|case| case.case.as_str()).collect();
-        let order = cases[0].convergence().and_then(|study| study.judgement.order);
-        let order = order.map_or_else(|| cases[0].verdict.clone(), |order| order.shown());
+    let curves = grouped(series.iter().map(|(points, case)| (dots(points), *case)));
+    for (letter, (dots, cases)) in ('a'..='z').zip(curves) {
+        canvas.curve(&dots, letter);
+        let (names, studies): (Vec<&str>, Vec<&Convergence>) = cases.into_iter().unzip();
+        let order = studies[0].judgement.order.map(|order| order.shown());
+        let order = order.unwrap_or_else(|| studies[0].verdict().name().to_owned());
         key.push(format!("  {letter}  {}: {order}", together(&names)));
     }
-    let value = |[low, high]: [f64; 2]| [libm::pow(10.0, low), libm::pow(10.0, high)];
-    let ([left, right], [bottom, top]) = (value(ends[0]), value(ends[1]));
+    if all().any(|point| !point.counts) {
+        key.push(format!("  {EXCLUDED}  levels that do not count for the order"));
+    }
     let mut lines = vec![format!("  {}: {}", outcome.suite, first.judged())];
-    for (k, row) in canvas.rows().into_iter().enumerate() {
-        let label = match k {
-            0 => short(top),
-            _ if k + 1 == SIZE[1] => short(bottom),
-            _ => String::new(),
-        };
-        lines.push(format!("  {label:>9} |{row}").trim_end().to_owned());
-    }
-    let x_label = match first.axis {
-        Axis::Space => "cell size (m)",
-        Axis::Time => "time step (s)",
-        Axis::Particles => "particle spacing (m)",
-    };
-    let (left, right) = (format_number(left), format_number(right));
-    let gap = SIZE[0] - left.len();
-    lines.push(format!("  {:>9} +{}", "", "-".repeat(SIZE[0])));
-    lines.push(format!("  {:>9}  {left}{right:>gap$}  {}", "", x_label));
+    lines.extend(framed(&canvas, scales, spacing_label(first.axis)));
     lines.extend(key);
-    if series.iter().flat_map(|(points, _)| points).any(|point| !point.counts) {
-        lines.push(format!("  {EXCLUDED}  levels that do not count for the order"));
-    }
     Some(lines.join("\n") + "\n")
 }
 
-/// A level: logarithms of spacing and error.
+const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
+
+/// A level: spacing and error.
 struct PlottedLevel {
     at: [f64; 2],
     counts: bool,
 }
 
+/// Returns the levels that a logarithmic axis can show.
 fn points(study: &Convergence) -> Vec<PlottedLevel> {
-    let point = |row: LevelRow<'_>| {
-        let [spacing, error] = [row.level().spacing, row.level().error];
-        let at = [libm::log10(spacing), libm::log10(error)];
-        at.iter().all(|x| x.is_finite()).then(|| PlottedLevel { at, counts: row.counts() })
+    let point = |(row, level): (level::LevelRow<'_>, &LevelOutcome)| {
+        let at = [level.spacing, level.error];
+        at.iter()
+            .all(|x| x.is_finite() && *x > 0.0)
+            .then(|| PlottedLevel { at, counts: row.counts() })
     };
-    level::rows(study).filter_map(point).collect()
+    level::rows(study).zip(&study.levels).filter_map(point).collect()
+}
+
+/// Returns the place of a level, in dots from the bottom left.
+fn dot(scales: [Scale; 2], point: &PlottedLevel) -> [usize; 2] {
+    [0, 1].map(|axis| {
+        let last = (SIZE[axis] * DOTS[axis] - 1) as f64;
+        libm::round(scales[axis].fraction(point.at[axis]) * last) as usize
+    })
+}
+
+/// Returns the lines of the canvas with its axes and their ends.
+fn framed(canvas: &Canvas, scales: [Scale; 2], spacing: &str) -> Vec<String> {
+    let [[left, right], [bottom, top]] = scales.map(|scale| {
+        let (low, high) = scale.ends();
+        [low, high].map(|end| libm::pow(10.0, end))
+    });
+    let row = |(k, row): (usize, String)| {
+        let label = match k {
+            0 => short(top),
+            _ if k + 1 == SIZE[1] => short(bottom),
+            _ => String::new(),
+        };
+        format!("  {label:>9} |{row}").trim_end().to_owned()
+    };
+    let mut lines: Vec<String> = canvas.rows().into_iter().enumerate().map(row).collect();
+    let (left, right) = (format_number(left), format_number(right));
+    let gap = SIZE[0] - left.len();
+    lines.push(format!("  {:>9} +{}", "", "-".repeat(SIZE[0])));
+    lines.push(format!("  {:>9}  {left}{right:>gap$}  {spacing}", ""));
+    lines
 }
 
 /// Dots of a plot, from the bottom left, and characters that cover them.
@@ -120,6 +123,16 @@ impl Canvas {
                 libm::round(from + share * (to - from)) as usize
             });
             self.dots[y / DOTS[1]][x / DOTS[0]] |= BITS[y % DOTS[1]][x % DOTS[0]];
+        }
+    }
+
+    /// Draws lines between dots, and marks them with `letter` if their levels count.
+    fn curve(&mut self, dots: &[([usize; 2], bool)], letter: char) {
+        for pair in dots.windows(2) {
+            self.line(pair[0].0, pair[1].0);
+        }
+        for (dot, counts) in dots {
+            self.mark(*dot, if *counts { letter } else { EXCLUDED });
         }
     }
 
