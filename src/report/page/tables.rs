@@ -191,8 +191,7 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
     Html::tag("div", &attributes, content)
 }
 
-/// Creates the text of a result. A failure is bold, because colour alone is not
-/// accessible.
+/// Creates the text of a result. A failure is bold, because colour alone is not accessible.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     let word = case.result().name();
     if case.passed() {
@@ -203,8 +202,7 @@ pub(super) fn result(case: &CaseOutcome) -> Html {
 }
 
 /// Creates three cells: the order with its interval, the judged error on the finest level that
-/// counts, and the
-/// particle-node transfers on the finest level.
+/// counts, and the particle-node transfers on the finest level.
 pub(super) fn figure_cells(case: &CaseOutcome) -> [Html; 3] {
     let study = case.convergence();
     let order = study.and_then(|study| study.judgement.order);

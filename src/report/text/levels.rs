@@ -29,7 +29,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         lines.push(format!("  levels{names}"));
-        lines.extend(levels.split("; ").map(|fact| format!("    {fact}")));
+        lines.extend(levels.lines().map(|fact| format!("    {fact}")));
     }
 }
 
@@ -64,8 +64,8 @@ fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Describes the levels: `8, 16, 32 cells along X; h = 0.125 ... 0.03125 m; dt = ... s;
-/// 4 particles per cell; 32 ... 128 particles; ... steps`.
+/// Describes the levels, one fact in each line: `8, 16, 32 cells along X`, the range of `h`,
+/// `dt = ... s`, `4 particles per cell`, `32 ... 128 particles`, `... steps`.
 fn setting(study: &Convergence) -> String {
     // A failed level has fewer steps than planned, so it is excluded.
     let levels = || study.levels.iter().filter(|level| level.run.failure.is_none());
@@ -108,7 +108,7 @@ fn setting(study: &Convergence) -> String {
             }
         }),
     ];
-    parts.into_iter().flatten().collect::<Vec<_>>().join("; ")
+    parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 
 /// Groups studies with equal level names and the same judged quantity and norm.

@@ -82,10 +82,9 @@ impl Table {
     /// repeat the first column.
     pub(crate) fn lines(&self) -> Vec<String> {
         let width = |c: usize| {
-            let widest = self.rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0);
             let cells = self.rows[1..].iter().map(|row| least_width(&row[c])).max();
             let listed = RESULTS.iter().find(|(heading, _)| *heading == self.rows[0][c]);
-            widest.max(cells.unwrap_or(0)).max(listed.map_or(0, |(_, width)| *width))
+            self.widest(c).max(cells.unwrap_or(0)).max(listed.map_or(0, |(_, width)| *width))
         };
         let widths: Vec<usize> = (0..self.columns()).map(width).collect();
         let (mut lines, mut block) = (Vec::new(), vec![0]);
@@ -106,9 +105,13 @@ impl Table {
     /// Returns the lines of the table in one block of any width.
     pub(crate) fn wide_lines(&self) -> Vec<String> {
         let columns: Vec<usize> = (0..self.columns()).collect();
-        let width = |c: &usize| self.rows.iter().map(|row| row[*c].chars().count()).max();
-        let widths: Vec<usize> = columns.iter().map(|c| width(c).unwrap_or(0)).collect();
+        let widths: Vec<usize> = columns.iter().map(|c| self.widest(*c)).collect();
         self.aligned(&columns, &widths)
+    }
+
+    /// Returns the width of the widest cell of a column.
+    fn widest(&self, column: usize) -> usize {
+        self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
     }
 
     /// Returns the lines of the table, with the column widths that `widths` lists by heading. A

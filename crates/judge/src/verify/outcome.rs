@@ -150,7 +150,7 @@ impl CaseOutcome {
         self.study.as_ref().is_some_and(StudyResults::fails)
     }
 
-    /// Returns the result in one word.
+    /// Returns the result of the case.
     pub fn result(&self) -> CaseResult {
         if !self.lacks.is_empty() {
             return CaseResult::NotApplicable;

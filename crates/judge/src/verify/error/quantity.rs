@@ -221,18 +221,6 @@ impl Quantity {
         if size > 0.0 && size.is_finite() { size } else { f64::NAN }
     }
 
-    /// Describes the value that [`Self::largest_exact`] returns.
-    pub fn size_words(self) -> String {
-        let name = self.words();
-        match self.declaration().size {
-            SolutionSize::Magnitude => format!("the largest exact {name}"),
-            SolutionSize::FromIdentity => {
-                format!("the largest difference of the exact {name} from the identity")
-            }
-            SolutionSize::Range => format!("the range of the exact {name}"),
-        }
-    }
-
     /// Returns the magnitude at one point, or the value itself if the quantity is measured by its
     /// range.
     fn magnitude(self, truth: &dyn Truth, place: &[f64], t: f64) -> Option<f64> {
