@@ -27,8 +27,7 @@ pub(in crate::cli) struct RunArgs {
     #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
     /// Write particles and grid over time into this folder, as files for ParaView: for failing
-    /// cases or those that `--case` selects, on the first level that failed or else
-    /// the finest
+    /// cases or those that `--case` selects, on the first level that failed or else the finest
     #[arg(long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     #[command(flatten)]
@@ -88,7 +87,7 @@ pub(in crate::cli) struct PrintArgs {
     /// for each suite or group, and the failing cases]
     #[arg(long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
-    /// Print only one line for each case
+    /// Print no reports: only each case with its result and its expectation
     #[arg(long, conflicts_with = "quiet")]
     pub(super) brief: bool,
     /// Print only the failing cases, and no progress
