@@ -7,6 +7,9 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use thiserror::Error;
 
+/// Heading of the options for an external solver in the help.
+pub(super) const SOLVER: &str = "Your solver";
+
 #[derive(Debug, Args)]
 pub(super) struct Targets {
     /// Suites: a file, a folder, a name, a group (a folder of verification/, such as `heat`), a
@@ -20,7 +23,7 @@ pub(super) struct Targets {
 pub(super) struct SolverArgs {
     /// Run this program on the suites instead of their methods: a command with its arguments that
     /// speaks the protocol of docs/protocol.md
-    #[arg(long, value_name = "COMMAND")]
+    #[arg(help_heading = SOLVER, long, value_name = "COMMAND")]
     pub(super) solver: Option<String>,
     #[command(flatten)]
     pub(super) limits: SolverLimitArgs,
@@ -31,10 +34,10 @@ pub(super) struct SolversArgs {
     /// Run this program on the suites instead of their methods: a command with its arguments that
     /// speaks the protocol of docs/protocol.md; repeatable if each has a name
     /// (`'mine=python mpm.py'`)
-    #[arg(long, value_name = "[NAME=]COMMAND")]
+    #[arg(help_heading = SOLVER, long, value_name = "[NAME=]COMMAND")]
     pub(super) solver: Vec<SolverCommand>,
     /// Also run the methods of the suites, in the same report
-    #[arg(long, requires = "solver")]
+    #[arg(help_heading = SOLVER, long, requires = "solver")]
     pub(super) with_methods: bool,
     #[command(flatten)]
     pub(super) limits: SolverLimitArgs,
@@ -71,10 +74,10 @@ impl FromStr for SolverCommand {
 #[derive(Debug, Args)]
 pub(super) struct SolverLimitArgs {
     /// Response timeout of the solver
-    #[arg(long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
+    #[arg(help_heading = SOLVER, long, value_name = "TIME", value_parser = seconds, allow_hyphen_values = true, default_value = "60s")]
     pub(super) solver_timeout: f64,
     /// Maximum memory (address space) of each solver process, in MB [default: no limit]
-    #[arg(long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
+    #[arg(help_heading = SOLVER, long, value_name = "MB", requires = "solver", value_parser = megabytes, allow_negative_numbers = true)]
     pub(super) solver_memory: Option<u64>,
 }
 

@@ -1,12 +1,13 @@
 //! `mpm-verify explain`: prints the problem, the cost of a step of each case, and the expectations.
 
 use super::arguments::{FormatArgs, Targets};
-use super::output::{CommandError, Status};
+use super::output::{self, CommandError, Status};
 use super::{select, show};
 use clap::Args;
 use mpm_verify::study::describe::Dispensable;
 use mpm_verify::study::{self, Estimate, PlannedLevel, planned_levels};
 use mpm_verify::suite::Suite;
+use mpm_verify::verify::UnmetCode;
 use mpm_verify::{nearest, report};
 use serde_json::{Value, json};
 
@@ -23,11 +24,23 @@ pub(super) struct ExplainArgs {
 
 pub(super) fn explain(args: &ExplainArgs) -> Result<Status, CommandError> {
     let without = args.without.as_deref().map(named).transpose()?;
+    if let [target] = &args.targets.targets[..]
+        && let Some(code) = UnmetCode::ALL.iter().find(|code| target.as_os_str() == code.name())
+    {
+        let [meaning, remedy] = mpm_verify::suite::meaning(*code);
+        output::print(&format!("{}{}", line(code.name(), meaning), line("what to do", remedy)));
+        return Ok(Status::Passed);
+    }
     let suites = select::with_sources(&args.targets.targets);
     if args.format.is_json() {
         return Ok(show::json(suites, |_, suite| Ok(explained(suite, without))));
     }
-    Ok(show::each(suites, |suite| explanation(suite, without)))
+    let first = suites.iter().flatten().next().map(|(_, suite)| suite.name.clone());
+    let status = show::each(suites, |suite| explanation(suite, without));
+    if let Some(suite) = first {
+        output::next([(&*format!("run {suite}"), "verdicts and report")]);
+    }
+    Ok(status)
 }
 
 fn named(name: &str) -> Result<Dispensable, CommandError> {

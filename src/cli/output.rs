@@ -22,6 +22,15 @@ pub(super) fn print_bytes(bytes: &[u8]) {
     note(io::stdout().lock(), bytes);
 }
 
+/// Prints the last lines of a command: commands that help now, with their purposes.
+pub(super) fn next<'a>(commands: impl IntoIterator<Item = (&'a str, &'a str)>) {
+    for (k, (command, purpose)) in commands.into_iter().enumerate() {
+        let key = if k == 0 { "next:" } else { "" };
+        let line = format!("{key:5} mpm-verify {command:40} {purpose}");
+        print(&format!("{}\n", line.trim_end()));
+    }
+}
+
 /// Returns a message about the first failure to print; `None` without a failure.
 pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)

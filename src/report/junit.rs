@@ -64,5 +64,5 @@ fn status(case: &CaseOutcome, is_required: bool) -> TestCaseStatus {
         status.set_message(case.reason.as_str());
         return status;
     }
-    if case.passed() { TestCaseStatus::success() } else { failure(&case.unmet.join("; ")) }
+    if case.passed() { TestCaseStatus::success() } else { failure(&case.failure()) }
 }

@@ -7,7 +7,7 @@ use crate::suite::compile::internal_force;
 use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::scene::numbers::with_unit;
 use crate::verify;
-use crate::verify::{CaseOutcome, ForceRow, InternalForce, StudyResults};
+use crate::verify::{CaseOutcome, ForceRow, InternalForce, StudyResults, Unmet, UnmetCode};
 use std::sync::Arc;
 
 impl Study for ForcePlan {
@@ -51,14 +51,15 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     };
     let expected = case.expected.map(ForceExpectation::summary);
     let said = expected.as_deref().unwrap_or_default();
-    let unmet = if met { Vec::new() } else { vec![format!("expected: {said}; {reason}")] };
+    let unmet =
+        (!met).then(|| Unmet::new(UnmetCode::ForceDiffers, format!("expected: {said}; {reason}")));
     let settings = vec![("basis".to_owned(), case.basis.name().to_owned())];
     CaseOutcome {
         expected,
         because: case.because.clone(),
         verdict: verdict.to_owned(),
         reason,
-        unmet,
+        unmet: unmet.into_iter().collect(),
         study: Some(StudyResults::InternalForce(Arc::new(InternalForce { rows }))),
         ..CaseOutcome::new(&case.name, "mpm", settings)
     }

@@ -14,7 +14,7 @@ use crate::suite::model::Scene;
 use crate::suite::model::spectrum::{SpectrumCase, SpectrumPlan, Wave};
 use crate::verify::{
     AMPLITUDE, CaseOutcome, MeasuredWave, ObservedWave, PERIODS, Recurrence, SpectrumRow,
-    SpectrumStudy, StudyResults, WaveFigures, distinct, run_wave, steps_of_run,
+    SpectrumStudy, StudyResults, Unmet, UnmetCode, WaveFigures, distinct, run_wave, steps_of_run,
 };
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -224,10 +224,11 @@ fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOut
 }
 
 fn outcome(described: CaseOutcome, case: &SpectrumCase, rows: Vec<SpectrumRow>) -> CaseOutcome {
-    let unmet: Vec<String> = case
+    let unmet: Vec<Unmet> = case
         .expected
         .iter()
         .flat_map(|(expected, _)| rows.iter().flat_map(|row| expected.unmet(row)))
+        .map(|text| Unmet::new(UnmetCode::SpectrumDiffers, text))
         .collect();
     let study = SpectrumStudy { rows };
     let verdict = match (case.expected.is_some(), unmet.is_empty()) {

@@ -41,5 +41,5 @@ pub use self::{
     model::stability::StabilityCase,
     model::{ForceCase, ForceExpectation, ForcePlan, ReferencePlan, SameMethod},
     scene::{EffectName, SceneFace, SceneHeat},
-    violation::{next_command, violations},
+    violation::{meaning, next_command, violations},
 };

@@ -28,7 +28,7 @@ fn main() {
             let outcome = Runner::new(&suite).run(&|| ());
             let snapshot = fs::read_to_string(Path::new(snapshots).join(format!("{name}.snap")));
             let unmet = outcome.cases.iter().flat_map(|case| {
-                let gate = |line: &String| (case.case.clone(), gate(case, line), line.clone());
+                let gate = |unmet| (case.case.clone(), gate(case, unmet), unmet.to_string());
                 case.unmet.iter().map(gate)
             });
             let cases: Vec<_> = unmet.collect();

@@ -34,7 +34,8 @@ fn load(text: &str) -> Result<Suite, String> {
 
 fn unmet(expect: &str) -> Vec<String> {
     let suite = suite(expect).expect("a sound suite");
-    Runner::new(&suite).case(0, &|| ()).unmet
+    let unmet = Runner::new(&suite).case(0, &|| ()).unmet;
+    unmet.into_iter().map(|unmet| unmet.text).collect()
 }
 
 #[test]

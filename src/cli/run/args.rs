@@ -1,34 +1,39 @@
 //! Arguments of `run` and `merge`.
 
-use crate::cli::arguments::{Expected, SolversArgs, Targets, count, whole};
+use crate::cli::arguments::{Expected, SOLVER, SolversArgs, Targets, count, whole};
 use clap::{Args, ValueEnum};
 use mpm_verify::study::Shard;
 use std::path::PathBuf;
 use std::str::FromStr;
+
+/// Headings of the options in the help.
+const RUNS: &str = "Which cases run, and how";
+const PRINTED: &str = "What is printed";
+const FILES: &str = "Files that are written";
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct RunArgs {
     #[command(flatten)]
     pub(super) report: ReportArgs,
     /// Run only cases whose name contains this text
-    #[arg(long, value_name = "TEXT")]
+    #[arg(help_heading = RUNS, long, value_name = "TEXT")]
     pub(super) case: Option<String>,
     /// Run part K of N parts with about equal predicted costs; `merge` reports the results that the
     /// parts store with `--resume`
-    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    #[arg(help_heading = RUNS, long, value_name = "K/N", allow_hyphen_values = true)]
     pub(super) shard: Option<Shard>,
     /// Store finished levels in this folder, and reuse stored levels: an interrupted run continues
     /// with the remaining levels
-    #[arg(long, value_name = "DIR")]
+    #[arg(help_heading = RUNS, long, value_name = "DIR")]
     pub(super) resume: Option<PathBuf>,
     /// Run each level N times (2 or more), external solvers in a new process each time, and report
     /// the spread between the runs; a level whose spread exceeds a tenth of its error does not
     /// count for the order
-    #[arg(long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
+    #[arg(help_heading = RUNS, long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
     /// Write particles and grid over time into this folder, as files for ParaView: for failing
     /// cases or those that `--case` selects, on the first level that failed or else the finest
-    #[arg(long, value_name = "DIR")]
+    #[arg(help_heading = FILES, long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     #[command(flatten)]
     pub(super) judged: JudgedSolverArgs,
@@ -39,32 +44,32 @@ pub(in crate::cli) struct ReportArgs {
     #[command(flatten)]
     pub(super) targets: Targets,
     /// Format of the output
-    #[arg(long, value_enum, default_value_t = RunFormat::Text)]
+    #[arg(help_heading = PRINTED, long, value_enum, default_value_t = RunFormat::Text)]
     pub(super) format: RunFormat,
     #[command(flatten)]
     pub(super) print: PrintArgs,
     /// Also run the finer levels that suites list under `full`: hours instead of seconds
-    #[arg(long)]
+    #[arg(help_heading = RUNS, long)]
     pub(super) full: bool,
     /// Write reports, JSON, CSV, LaTeX tables and figures (SVG, and source for PGFPlots) into this
     /// folder
-    #[arg(long, value_name = "DIR")]
+    #[arg(help_heading = FILES, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Title of the suite in figures and LaTeX tables
-    #[arg(long, value_name = "TEXT")]
+    #[arg(help_heading = FILES, long, value_name = "TEXT")]
     pub(super) title: Option<String>,
     /// Text for a case in figures and LaTeX tables in place of its name; repeatable
-    #[arg(long, value_name = "CASE=TEXT")]
+    #[arg(help_heading = FILES, long, value_name = "CASE=TEXT")]
     pub(super) label: Vec<CaseLabel>,
     /// Write the results as JUnit XML into this file, one test for each case
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = FILES, long, value_name = "FILE")]
     pub(super) junit: Option<PathBuf>,
     /// Write one HTML page with verdicts, figures, reports and suites into this file; the page
     /// needs no network
-    #[arg(long, value_name = "FILE")]
+    #[arg(help_heading = FILES, long, value_name = "FILE")]
     pub(super) html: Option<PathBuf>,
     /// Number of threads, which does not affect results [default: all cores]
-    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    #[arg(help_heading = RUNS, long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub(super) jobs: Option<usize>,
 }
 
@@ -78,6 +83,8 @@ pub(super) enum RunFormat {
     Csv,
     /// LaTeX tables of errors and orders, for `booktabs`
     Latex,
+    /// Plain text; failing cases are annotations of a pull request on GitHub
+    Github,
 }
 
 #[derive(Debug, Args)]
@@ -85,16 +92,16 @@ pub(super) enum RunFormat {
 pub(in crate::cli) struct PrintArgs {
     /// Print every report [default: the reports of up to five named suites; otherwise one line
     /// for each suite or group, and the failing cases]
-    #[arg(long, conflicts_with_all = ["brief", "quiet"])]
+    #[arg(help_heading = PRINTED, long, conflicts_with_all = ["brief", "quiet"])]
     pub(super) reports: bool,
     /// Print no reports: only each case with its result and its expectation
-    #[arg(long, conflicts_with = "quiet")]
+    #[arg(help_heading = PRINTED, long, conflicts_with = "quiet")]
     pub(super) brief: bool,
     /// Print only the failing cases, and no progress
-    #[arg(long, short)]
+    #[arg(help_heading = PRINTED, long, short)]
     pub(super) quiet: bool,
     /// Also print the matrix of suites and bases
-    #[arg(long, conflicts_with_all = ["brief", "quiet", "reports"])]
+    #[arg(help_heading = PRINTED, long, conflicts_with_all = ["brief", "quiet", "reports"])]
     pub(super) overview: bool,
     /// Whether to draw a convergence plot.
     #[arg(skip)]
@@ -116,15 +123,15 @@ pub(in crate::cli) struct JudgedSolverArgs {
     pub(super) programs: SolversArgs,
     /// Require that each case of the `--solver` program reaches the theoretical order or the error
     /// bounds of the suite; exit status 1 unless every case passes or is excepted
-    #[arg(long, requires = "solver")]
+    #[arg(help_heading = SOLVER, long, requires = "solver")]
     pub(super) gate: bool,
     /// YAML file with the formal order of the solver, and with orders, bounds and exceptions for
     /// single suites
-    #[arg(long, value_name = "FILE", requires = "gate")]
+    #[arg(help_heading = SOLVER, long, value_name = "FILE", requires = "gate")]
     pub(super) solver_config: Option<PathBuf>,
     /// Let `--gate` pass even if suites that are named one by one are not applicable to the solver
     /// or have no requirement
-    #[arg(long, requires = "gate")]
+    #[arg(help_heading = SOLVER, long, requires = "gate")]
     pub(super) allow_not_applicable: bool,
 }
 

@@ -18,7 +18,7 @@ use mpm_verify::report::RunTimes;
 use mpm_verify::study::{ResultCache, Runner, StepWarning, unit_seconds};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
-use mpm_verify::verify::SuiteOutcome;
+use mpm_verify::verify::{SuiteOutcome, Verdict};
 use printing::Printing;
 use progress::RunProgress;
 use queue::{Job, JobOutput, in_order};
@@ -164,6 +164,15 @@ fn report(
         if !solver::is_applicable(outcomes) {
             output::complain("error: no case is applicable to the solver");
             return Ok(Status::Failed);
+        }
+        let failed = Verdict::Failed.to_string();
+        if solver.gate.is_none()
+            && outcomes.iter().flat_map(|o| &o.cases).all(|c| c.verdict == failed)
+        {
+            output::complain(
+                "warning: the solver fails in every case; `mpm-verify doctor` finds the cause, and \
+                 `--gate` turns failed cases into exit status 1",
+            );
         }
         // `passes` is called even if cases have failed, because it prints the skipped suites.
         passed &= solver.gate.as_ref().is_none_or(|gate| gate.passes(outcomes));

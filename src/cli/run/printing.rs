@@ -4,7 +4,7 @@ use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output::{self, CommandError};
 use crate::cli::select;
 use crate::cli::suite_runs::SuiteRuns;
-use mpm_verify::suite::yaml::Source;
+use mpm_verify::suite::yaml::{Diagnostic, Source};
 use mpm_verify::suite::{next_command, violations};
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use mpm_verify::{nearest, report};
@@ -36,10 +36,12 @@ impl Printing {
             RunFormat::Json => Self::Json,
             RunFormat::Csv => Self::Csv,
             RunFormat::Latex => Self::Latex,
-            RunFormat::Text if args.print.quiet => Self::Failures,
-            RunFormat::Text if args.print.brief => Self::Verdicts,
-            RunFormat::Text if args.print.reports || few_are_named => Self::Reports,
-            RunFormat::Text => Self::Overview,
+            RunFormat::Text | RunFormat::Github => match &args.print {
+                print if print.quiet => Self::Failures,
+                print if print.brief => Self::Verdicts,
+                print if print.reports || few_are_named => Self::Reports,
+                _ => Self::Overview,
+            },
         }
     }
 
@@ -52,21 +54,23 @@ impl Printing {
         outcomes: &[SuiteOutcome],
         time: Duration,
     ) {
-        if outcomes.is_empty() || matches!(self, Self::Json | Self::Csv | Self::Latex) {
-            return;
-        }
+        let is_text = !matches!(self, Self::Json | Self::Csv | Self::Latex);
         for (source, suite, case) in failed(sources, outcomes) {
             for violation in violations(source, suite, case) {
-                output::print(&format!("{violation}\n"));
+                match args.format {
+                    RunFormat::Github => output::print(&annotation(&violation)),
+                    RunFormat::Text => output::print(&format!("{violation}\n")),
+                    _ => output::diagnose(&violation),
+                }
             }
         }
-        if self == Self::Failures {
+        if outcomes.is_empty() || self == Self::Failures || !is_text {
             return;
         }
         for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
             output::print(&format!("wrote {}\n", path.display()));
         }
-        output::print(&verdict(args, sources, outcomes, time));
+        print_verdict(args, sources, outcomes, time);
     }
 
     /// Prints the text for a suite as soon as the suite has finished.
@@ -106,21 +110,16 @@ fn plotted(outcomes: &[SuiteOutcome]) -> Option<&SuiteOutcome> {
     preferred.or(outcomes.last())
 }
 
-/// Returns the last lines of a run: the counts, and useful commands. The time is omitted if the
+/// Prints the last lines of a run: the counts, and useful commands. The time is omitted if the
 /// output goes to a file, because equal results then give equal bytes.
-fn verdict(
-    args: &ReportArgs,
-    sources: &[Source],
-    outcomes: &[SuiteOutcome],
-    time: Duration,
-) -> String {
+fn print_verdict(args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome], time: Duration) {
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
     let time = if std::io::stdout().is_terminal() {
         format!(" in {:.1} s", time.as_secs_f64())
     } else {
         String::new()
     };
-    let mut text = format!(
+    let text = format!(
         "{}, {}{time}: {}{}\n",
         report::counted(outcomes.len(), "suite"),
         report::counted(cases.len(), "case"),
@@ -137,12 +136,21 @@ fn verdict(
         ],
         None => Vec::new(),
     };
-    for (k, (command, purpose)) in next.into_iter().enumerate() {
-        let key = if k == 0 { "next:" } else { "" };
-        text += format!("{key:5} mpm-verify {command:40} {purpose}").trim_end();
-        text.push('\n');
-    }
-    text
+    output::print(&text);
+    output::next(next.iter().map(|(command, purpose)| (command.as_str(), *purpose)));
+}
+
+/// Formats a diagnostic as a workflow command of GitHub, which annotates the line of the file.
+fn annotation(diagnostic: &Diagnostic) -> String {
+    let data = |text: &str| text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A");
+    let property = |text: &str| data(text).replace(':', "%3A").replace(',', "%2C");
+    let place = diagnostic
+        .place()
+        .map_or_else(String::new, |place| format!(",line={},col={}", place.line(), place.column()));
+    let (file, title) = (property(diagnostic.file()), diagnostic.code().unwrap_or("mpm-verify"));
+    let help = diagnostic.help().unwrap_or_default();
+    let text = data(&format!("{}\n{help}", diagnostic.message()));
+    format!("::error file={file}{place},title={title}::{text}\n")
 }
 
 /// Returns all failing cases, with the sources and the names of their suites.

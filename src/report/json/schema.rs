@@ -3,7 +3,8 @@
 
 use crate::report::columns::{TableColumn, cost, force, gradient, level, spectrum, stability};
 use crate::verify::{
-    Axis, CaseResult, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, Verdict,
+    Axis, CaseResult, FloorCause, GradientState, Quantity, Ranking, StabilityStudy, UnmetCode,
+    Verdict,
 };
 use serde_json::{Map, Value, json};
 
@@ -49,6 +50,7 @@ fn case() -> Value {
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
     // Only convergence studies have the verdicts in this list. Other studies, and cases that do not
     // apply, have other verdicts.
+    let codes: Vec<_> = UnmetCode::ALL.iter().map(|code| code.name()).collect();
     let results: Vec<_> = CaseResult::ALL.iter().map(|result| result.name()).collect();
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
     object([
@@ -63,6 +65,7 @@ fn case() -> Value {
         ("lacks", list(text()), "features that the case needs and its solver lacks"),
         ("reason", text(), "measured values that led to the verdict"),
         ("unmet", list(text()), "expectations that are not met"),
+        ("codes", list(json!({"enum": codes})), "code of each unmet expectation"),
         ("profile", or_null(profile()), "cost of one step on the coarsest level"),
         ("axis", or_null(json!({"enum": axes})), "what is refined"),
         ("formal_order", or_null(number()), "theoretical order"),

@@ -93,7 +93,7 @@ fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
     if failed > 0 {
         let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
             let link = tables::case_link(source.outcome, case, true);
-            let why = Html::text(&format!(": {}", case.unmet.join("; ")));
+            let why = Html::text(&format!(": {}", case.failure()));
             Html::tag("li", &[], vec![link, why])
         };
         let items: Vec<Html> = cases().filter(|(_, case)| !case.passed()).map(item).collect();

@@ -59,7 +59,7 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     let row = |(k, case): (usize, &CaseOutcome)| {
         let mut found = vec![Html::text(&case.reason)];
         let unmet = case.unmet.iter();
-        found.extend(unmet.map(|unmet| Html::tag("p", &[("class", "bad")], unmet.as_str())));
+        found.extend(unmet.map(|unmet| Html::tag("p", &[("class", "bad")], unmet.text.as_str())));
         let mut cells = vec![
             Html::tag("td", &[("class", "name")], case.case.as_str()),
             Html::tag("td", &[], result(case)),

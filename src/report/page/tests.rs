@@ -1,7 +1,7 @@
 use super::*;
 use crate::report::figure::plot::style::contrast;
 use crate::report::{svg, text};
-use crate::verify::{ForceRow, InternalForce, StudyResults, SuiteOutcome};
+use crate::verify::{ForceRow, InternalForce, StudyResults, SuiteOutcome, Unmet, UnmetCode};
 use rstest::rstest;
 use std::collections::BTreeSet;
 
@@ -20,7 +20,10 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
         because: word(),
         verdict: word(),
         reason: word(),
-        unmet: unmet.iter().map(|unmet| format!("{unmet}{words}")).collect(),
+        unmet: unmet
+            .iter()
+            .map(|unmet| Unmet::new(UnmetCode::RunFailed, format!("{unmet}{words}")))
+            .collect(),
         lacks: Vec::new(),
         exemption: None,
         study: Some(StudyResults::InternalForce(std::sync::Arc::new(InternalForce {

@@ -52,7 +52,8 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
             && outcome.exemption != Some(Exemption::Excepted),
         "lacks": outcome.lacks,
         "reason": outcome.reason,
-        "unmet": outcome.unmet,
+        "unmet": outcome.unmet.iter().map(|unmet| unmet.text.as_str()).collect::<Vec<_>>(),
+        "codes": outcome.unmet.iter().map(|unmet| unmet.code.name()).collect::<Vec<_>>(),
         "profile": outcome.profile.as_ref().map(profile),
     }));
     members.extend(KINDS.iter().flat_map(|kind| kind.json(outcome)));

@@ -11,7 +11,9 @@ use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;
 use crate::suite::evaluator::shown;
 use crate::suite::model::gradient::{GradientCase, GradientPlan};
-use crate::verify::{CaseOutcome, FIRST_LEVEL, GradientStudy, LAST_LEVEL, StudyResults};
+use crate::verify::{
+    CaseOutcome, FIRST_LEVEL, GradientStudy, LAST_LEVEL, StudyResults, Unmet, UnmetCode,
+};
 use std::sync::Arc;
 
 impl Study for GradientPlan {
@@ -144,6 +146,10 @@ fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> 
 fn failed(described: CaseOutcome, reason: &str) -> CaseOutcome {
     let reason = format!("the solver {reason}");
     let is_expected = described.expected.is_some();
-    let unmet = if is_expected { vec![reason.clone()] } else { Vec::new() };
+    let unmet = if is_expected {
+        vec![Unmet::new(UnmetCode::RunFailed, reason.as_str())]
+    } else {
+        Vec::new()
+    };
     CaseOutcome { verdict: "failed".to_owned(), reason, unmet, ..described }
 }

@@ -10,7 +10,9 @@ use crate::study::time_series::SeriesError;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Scene;
 use crate::suite::model::stability::{RunSetup, StabilityPlan};
-use crate::verify::{CaseOutcome, Stability, StabilityRow, StabilityStudy, StudyResults};
+use crate::verify::{
+    CaseOutcome, Stability, StabilityRow, StabilityStudy, StudyResults, Unmet, UnmetCode,
+};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -94,14 +96,17 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
 
 fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -> CaseOutcome {
     let CaseRun { plan, case, .. } = run;
-    let unmet: Vec<String> = case
+    let unmet: Vec<Unmet> = case
         .expectations
         .expected
         .iter()
         .zip(&rows)
         .flat_map(|(expected, row)| {
             let place = format!("{} = {}", plan.swept, row.value);
-            expected.unmet(row).into_iter().map(move |unmet| format!("{place}: {unmet}"))
+            let unmet = expected.unmet(row).into_iter();
+            unmet.map(move |unmet| {
+                Unmet::new(UnmetCode::StabilityDiffers, format!("{place}: {unmet}"))
+            })
         })
         .collect();
     let study = StabilityStudy {

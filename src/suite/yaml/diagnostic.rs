@@ -33,6 +33,7 @@ pub struct Diagnostic(Box<Parts>);
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Parts {
     severity: Severity,
+    code: Option<&'static str>,
     file: String,
     message: String,
     label: Option<String>,
@@ -53,6 +54,7 @@ impl Diagnostic {
     pub fn about(file: &str, message: &str) -> Self {
         Self(Box::new(Parts {
             severity: Severity::Error,
+            code: None,
             file: printable(file),
             message: printable(message),
             label: None,
@@ -73,6 +75,13 @@ impl Diagnostic {
             underlined: bytes.start - line.start..bytes.end - line.start,
         });
         diagnostic
+    }
+
+    /// Sets the code, which stands in brackets after the severity.
+    #[must_use]
+    pub fn with_code(mut self, code: &'static str) -> Self {
+        self.0.code = Some(code);
+        self
     }
 
     /// Sets the label under the caret. The label describes the expected value.
@@ -99,6 +108,11 @@ impl Diagnostic {
     /// Returns the severity of the diagnostic.
     pub fn severity(&self) -> Severity {
         self.0.severity
+    }
+
+    /// Returns the code of the diagnostic; `None` without a code.
+    pub fn code(&self) -> Option<&'static str> {
+        self.0.code
     }
 
     /// Returns the file name, as given by the user.
@@ -147,6 +161,10 @@ impl Diagnostic {
             Severity::Error => Level::ERROR,
         };
         let title = level.primary_title(self.message());
+        let title = match self.0.code {
+            Some(code) => title.id(code),
+            None => title,
+        };
         let group = match &self.0.excerpt {
             None => title.element(Origin::path(self.file())),
             Some(excerpt) => title.element(

@@ -78,6 +78,8 @@ fn local_suite_is_explained() {
     fem-linear-lumped
       expected: converging, order within [1.70, 2.30]
       because: linear basis functions have order 2
+
+    next: mpm-verify run short-bar                            verdicts and report
     ");
 }
 

@@ -6,7 +6,7 @@ use mpm_verify::report::report_schema;
 use rstest::rstest;
 use serde_json::{Value, json};
 
-const CASE: [&str; 22] = [
+const CASE: [&str; 23] = [
     "case",
     "subject",
     "axis",
@@ -20,6 +20,7 @@ const CASE: [&str; 22] = [
     "result",
     "reason",
     "unmet",
+    "codes",
     "profile",
     "floor",
     "levels",

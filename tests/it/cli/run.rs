@@ -64,13 +64,21 @@ fn violated_expectation_points_at_its_entry() {
     assert_contains(
         &found.out,
         &[
-            "error: long-bar::mpm-linear-flip-musl: expected the verdict `converging`",
+            "error[order-too-low]: long-bar::mpm-linear-flip-musl: expected the verdict",
             &first,
-            "error: long-bar::fem-linear-lumped: expected the verdict `divergent`",
+            "error[limit-gone]: long-bar::fem-linear-lumped: expected the verdict `divergent`",
             &second,
-            "= help: next: mpm-verify diagnose bar.yaml --case fem-linear-lumped\n",
+            "next: mpm-verify diagnose bar.yaml --case fem-linear-lumped; mpm-verify explain ",
         ],
     );
+    let github = folder.call(&["run", "bar.yaml", "-q", "--format", "github"]).out;
+    let annotation =
+        format!("::error file=bar.yaml,line={line},col=5,title=order-too-low::long-bar");
+    assert_contains(&github, &[&annotation]);
+    // The output of other formats is for programs, so people read diagnostics on standard error.
+    let json = folder.call(&["run", "bar.yaml", "--format", "json"]);
+    assert!(json.out.starts_with('{') && json.out.contains("\"order-too-low\""), "{}", json.out);
+    assert_contains(&json.errors, &["error[order-too-low]: ", &first]);
 }
 
 #[test]
@@ -248,4 +256,11 @@ fn stored_level_is_used_only_for_the_same_suite() {
     folder.write("bar.yaml", BAR.replace("until: 0.05", "until: 0.06"));
     let changed = folder.call(&["run", "bar.yaml", "--resume", "kept"]);
     assert!(!changed.out.contains("marked"), "{}", changed.out);
+}
+
+#[test]
+fn diagnose_requires_a_suite() {
+    let found = Folder::new().call(&["diagnose"]);
+    assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
+    assert_contains(&found.errors, &["error: expected a suite", "help: `mpm-verify diagnose "]);
 }

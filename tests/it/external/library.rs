@@ -127,7 +127,7 @@ fn a_solver_that_fails_in_its_setup_fails_the_case() {
         let suite = suite.of_external(method, true).expect("a study of solvers");
         let found = Runner::over(&suite, Extent::Usual).judging(&Failing).case(0, &|| ());
         assert!(!found.passed(), "{name}: {} {}", found.verdict, found.reason);
-        assert!(found.unmet.iter().any(|unmet| unmet.contains("out of memory")), "{name}");
+        assert!(found.unmet.iter().any(|unmet| unmet.text.contains("out of memory")), "{name}");
     }
 }
 

@@ -253,7 +253,7 @@ fn what_must_not_matter_fails_no_gate() {
         let failed: Vec<_> = found.iter().filter(|(_, outcome)| !outcome.passed()).collect();
         println!("{name}: {} runs, {} fail", found.len(), failed.len());
         for (run, outcome) in failed {
-            println!("    {run}: {}", outcome.unmet.join("; "));
+            println!("    {run}: {}", outcome.failure());
             match known::cause(run, name) {
                 Some(cause) => println!("        known: {cause}"),
                 None => alarms.push(format!("{name}: {run}")),

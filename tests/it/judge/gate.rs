@@ -2,8 +2,7 @@
 
 use super::{Random, halvings};
 use mpm_verify::verify::{
-    Acceptance, Axis, Interval, Judgement, OrderHypothesis, Requirement, UnmetRequirement, Verdict,
-    judge,
+    Acceptance, Axis, Interval, Judgement, OrderHypothesis, Requirement, Unmet, Verdict, judge,
 };
 use proptest::prelude::*;
 
@@ -64,7 +63,7 @@ fn check(
     required: &Requirement,
     errors: &[f64],
     forge: impl Fn(&mut Judgement),
-) -> Result<Acceptance, UnmetRequirement> {
+) -> Result<Acceptance, Unmet> {
     let levels = halvings(errors);
     let mut judgement = judge(&levels, &OrderHypothesis::formal(required.order.unwrap_or(2.0)));
     forge(&mut judgement);

@@ -6,7 +6,7 @@ use super::figure::{CaseFigure, counted};
 use super::{
     CaseFindings, ConservationError, Convergence, EstimateRefusal, Expectation, Floor, Interval,
     JudgePlan, Judgement, LevelOutcome, LevelRun, LimitEstimate, Limits, Measured, Reruns,
-    SeriesPoint, Verdict, estimate_limit, rerun,
+    SeriesPoint, Unmet, Verdict, estimate_limit, rerun,
 };
 
 /// Judgement of a case, computed from its levels.
@@ -17,7 +17,7 @@ pub struct CaseJudgement {
     /// Explanation of the verdict, with the measured values that led to it.
     pub reason: String,
     /// Expectations that are not met.
-    pub unmet: Vec<String>,
+    pub unmet: Vec<Unmet>,
     /// Reason why `run --gate` requires nothing of the case; `None` if it requires something.
     pub exemption: Option<String>,
     /// Levels, orders and measured values.
@@ -71,9 +71,7 @@ pub fn judge_case<R: Reruns>(
                 floor: floor.as_ref().and_then(Floor::cause),
             })
         }
-        (None, Some(gate)) => {
-            gate.result.as_ref().err().map(ToString::to_string).into_iter().collect()
-        }
+        (None, Some(gate)) => gate.result.as_ref().err().cloned().into_iter().collect(),
         (None, None) => Vec::new(),
     };
     let (verdict, reason) = match plan.expectation {
@@ -203,7 +201,7 @@ fn headline(
     expectation: &Expectation,
     judgement: &Judgement,
     measured: &Measured,
-    unmet: &[String],
+    unmet: &[Unmet],
 ) -> (String, String) {
     let (verdict, reason) = (judgement.verdict, &judgement.reason);
     let figures = expectation.limits.found(measured);
@@ -239,7 +237,7 @@ fn observed_limit(levels: &[LevelOutcome]) -> Option<Result<LimitEstimate, Estim
 mod tests {
     use super::*;
     use crate::verify::convergence::tests::study;
-    use crate::verify::{Conserved, Level, OrderHypothesis, judge};
+    use crate::verify::{Conserved, Level, OrderHypothesis, UnmetCode, judge};
 
     fn level(usable: bool, error: f64, drift: Option<ConservationError>) -> LevelOutcome {
         let mut level = study(&[error]).levels.remove(0);
@@ -277,7 +275,7 @@ mod tests {
         let limits = Limits { bounds, ..Limits::default() };
         let bound =
             Expectation { verdict: None, order: None, limits, ..Expectation::of_order(2.0, "") };
-        let said = |level: Level, unmet: &[String]| {
+        let said = |level: Level, unmet: &[Unmet]| {
             let judgement = judge(&[level], &OrderHypothesis::formal(2.0));
             let figures = [Some(1e-12), Some(1e-12), None, None];
             let measured = Measured { figures, ..Measured::NONE };
@@ -286,7 +284,10 @@ mod tests {
         let one = Level::new(1.0, 1e-12);
         let within = ("within bounds".to_owned(), "largest error 1e-12".to_owned());
         assert_eq!(said(one.clone(), &[]), within);
-        assert_eq!(said(one.clone(), &["too large".to_owned()]).0, "out of bounds");
+        assert_eq!(
+            said(one.clone(), &[Unmet::new(UnmetCode::BoundExceeded, "too large")]).0,
+            "out of bounds"
+        );
         assert_eq!(said(one.failing("inverted"), &[]).0, "failed");
     }
 }

@@ -59,6 +59,7 @@ pub use exclusion::rounding_bound;
 pub use expectation::gate::{GateResult, Gating, Requirement};
 pub use expectation::limits::{Limits, Measured};
 pub use expectation::proposal::propose;
+pub use expectation::unmet::{Unmet, UnmetCode};
 pub use expectation::{Bounds, Expectation};
 pub use figure::{BoundKind, CaseFigure, FigureNeed};
 pub use gradient::GradientStudy;
@@ -95,7 +96,7 @@ pub use self::{
     error::spread::{RunRecord, spread},
     exclusion::{Exclusion, single_precision_spacing},
     expectation::CaseFindings,
-    expectation::gate::{Acceptance, UnmetRequirement},
+    expectation::gate::Acceptance,
     expectation::proposal::{Ground, Proposal, ProposedKey},
     figure::RunFigure,
     gradient::{

@@ -2,7 +2,7 @@
 
 use crate::verify::{
     CaseJudgement, Convergence, Gating, GradientStudy, InternalForce, SpectrumStudy,
-    StabilityStudy, StudyResults, Verdict,
+    StabilityStudy, StudyResults, Unmet, UnmetCode, Verdict,
 };
 use mpm_subject::{Profile, SubjectError, named};
 use std::sync::Arc;
@@ -73,7 +73,7 @@ pub struct CaseOutcome {
     /// Explanation of the verdict, with the measured values that led to it.
     pub reason: String,
     /// Unmet expectations; empty if the case passed.
-    pub unmet: Vec<String>,
+    pub unmet: Vec<Unmet>,
     /// Missing capabilities of the solver; empty if the case applies.
     pub lacks: Vec<String>,
     /// Reason why `run --gate` has no requirement for the case; `None` if it has one.
@@ -127,6 +127,11 @@ impl CaseOutcome {
             exemption: None,
             study: None,
         }
+    }
+
+    /// Returns all unmet expectations in one line.
+    pub fn failure(&self) -> String {
+        self.unmet.iter().map(|unmet| unmet.text.as_str()).collect::<Vec<_>>().join("; ")
     }
 
     /// Whether all expectations are met.
@@ -192,7 +197,8 @@ impl CaseOutcome {
     /// Converts the outcome to that of a case whose solver failed.
     #[must_use]
     pub fn could_not_run(self, error: &SubjectError) -> Self {
-        let unmet = vec![format!("the case could not be run: {error}")];
+        let text = format!("the case could not be run: {error}");
+        let unmet = vec![Unmet::new(UnmetCode::RunFailed, text)];
         let (verdict, reason) = (Verdict::Failed.to_string(), error.to_string());
         Self { verdict, reason, unmet, ..self }
     }

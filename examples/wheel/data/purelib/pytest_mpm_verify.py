@@ -88,6 +88,12 @@ def _run(command: str, suites: list[str], config: pytest.Config, folder: str) ->
     from mpm_verify import results  # imports NumPy: only if the option is given
 
     report = results.load(run.stdout)
+    # Diagnostics begin with `error[CODE]: SUITE::CASE: `.
+    diagnostics = re.split(r"(?=^error\[)", run.stderr, flags=re.M)
+    for suite in report["suites"]:
+        for case in suite["cases"]:
+            head = f"]: {suite['suite']}::{case['case']}: "
+            case["diagnostics"] = [text for text in diagnostics if head in text.split("\n", 1)[0]]
     if not any(True for _ in results.cases(report)):
         raise pytest.UsageError(f"mpm-verify ran no case:\n{run.stderr.strip()}")
     return report
@@ -136,7 +142,8 @@ class CaseItem(pytest.Item):
         """What is wrong, and the report of the suite."""
         reason = "; ".join(self.case.get("unmet") or []) or self.case["reason"]
         verdict = self.case.get("result") or "FAIL"
-        return f"{verdict}: {reason}\n\n{self.text}".rstrip()
+        diagnostics = "".join(self.case["diagnostics"])
+        return f"{verdict}: {reason}\n\n{self.text}\n{diagnostics}".rstrip()
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException],
                      style: Optional[Any] = None) -> Any:

@@ -8,10 +8,9 @@
 //! more to each side even for a correct solver.
 
 use crate::verify::{
-    Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Verdict, format_number,
-    judge, rounded,
+    Axis, FEWEST_LEVELS, Interval, Judgement, Level, OrderHypothesis, Unmet, UnmetCode, Verdict,
+    format_number, judge, rounded,
 };
-use thiserror::Error;
 
 /// Loss of order that a typical defect causes.
 const FAULT: f64 = 0.5;
@@ -71,16 +70,11 @@ impl Acceptance {
     }
 }
 
-/// An unmet requirement: one line with the requirement and the measured result.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct UnmetRequirement(String);
-
 /// Result of checking a requirement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateResult {
-    /// Reason why the requirement is met, or an error with the requirement and the measured result.
-    pub result: Result<Acceptance, UnmetRequirement>,
+    /// Reason why the requirement is met, or the unmet requirement.
+    pub result: Result<Acceptance, Unmet>,
     /// Remark that a shorter time step restored the order; `None` without such a step.
     pub remark: Option<String>,
     /// Bound at or below which errors count as rounding errors, in the unit of the judged error.
@@ -138,11 +132,11 @@ impl Requirement {
         axis: Axis,
         judgement: &Judgement,
         rounding: f64,
-    ) -> Result<Acceptance, UnmetRequirement> {
+    ) -> Result<Acceptance, Unmet> {
         let counted: Vec<&Level> = levels.iter().filter(|level| level.usable).collect();
         let is_complete = counted.iter().all(|level| level.error.is_finite());
         if judgement.verdict == Verdict::Failed || !is_complete {
-            return Err(UnmetRequirement("expected every level to run to its end".to_owned()));
+            return Err(Unmet::new(UnmetCode::RunFailed, "expected every level to run to its end"));
         }
         let bound = self.bound();
         let accepted = bound.unwrap_or(0.0).max(rounding);
@@ -176,7 +170,11 @@ impl Requirement {
         if within > 0 {
             unmet += &format!("; {}", rounding_remark(rounding, within, counted.len()));
         }
-        Err(UnmetRequirement(unmet))
+        let code = match self.order {
+            Some(_) => UnmetCode::OrderTooLow,
+            None => UnmetCode::BoundExceeded,
+        };
+        Err(Unmet::new(code, unmet))
     }
 
     /// Whether the errors of levels decrease from level to level, in total with about the lowest
@@ -255,11 +253,7 @@ mod tests {
         Requirement { order, error_below, own_error_below: None, because: String::new() }
     }
 
-    fn check(
-        order: Option<f64>,
-        bound: Option<f64>,
-        errors: &[f64],
-    ) -> Result<Acceptance, UnmetRequirement> {
+    fn check(order: Option<f64>, bound: Option<f64>, errors: &[f64]) -> Result<Acceptance, Unmet> {
         let requirement = requirement(order, bound);
         let levels = levels(errors);
         let judgement = judge(&levels, &requirement.hypothesis(Axis::Space));

@@ -1,7 +1,8 @@
 //! Bounds on measured values. Without an expected order, one level is sufficient.
 
 use crate::verify::{
-    BoundKind, CaseFigure, ConservationError, Conserved, format_number, grouped, rounded,
+    BoundKind, CaseFigure, ConservationError, Conserved, Unmet, UnmetCode, format_number, grouped,
+    rounded,
 };
 
 /// Bounds on measured values, drifts and rates. A value may equal its bound. All bounds must hold.
@@ -41,8 +42,7 @@ impl Measured {
 
 #[derive(Debug)]
 pub(crate) struct UnmetFigure {
-    /// The bound and the measured value, in one line.
-    pub(crate) line: String,
+    pub(crate) unmet: Unmet,
     /// Whether the value was measured.
     pub(crate) measured: bool,
 }
@@ -98,7 +98,10 @@ impl Limits {
         let broken = self.checks(Some(measured)).into_iter().filter(|check| !check.holds());
         let mut unmet: Vec<UnmetFigure> = broken
             .map(|check| UnmetFigure {
-                line: format!("expected {}, got {}", check.bound(), check.got()),
+                unmet: Unmet::new(
+                    UnmetCode::BoundExceeded,
+                    format!("expected {}, got {}", check.bound(), check.got()),
+                ),
                 measured: check.got.is_some_and(|got| !got.is_nan()),
             })
             .collect();
@@ -111,7 +114,7 @@ impl Limits {
                     rounded(*limit, DIGITS)
                 );
                 let measured = drift.is_some_and(|drift| !drift.is_nan());
-                unmet.push(UnmetFigure { line, measured });
+                unmet.push(UnmetFigure { unmet: not_conserved(line), measured });
             }
         }
         if let Some((low, high)) = self.energy_rate {
@@ -120,7 +123,7 @@ impl Limits {
                 let measured = got.is_some_and(|(least, most)| !least.is_nan() && !most.is_nan());
                 let got = got.map_or("none".to_owned(), rates);
                 let line = format!("expected {}, got {got}", rate_within((low, high)));
-                unmet.push(UnmetFigure { line, measured });
+                unmet.push(UnmetFigure { unmet: not_conserved(line), measured });
             }
         }
         unmet
@@ -162,6 +165,10 @@ impl Limits {
         };
         self.bounds.iter().map(check).collect()
     }
+}
+
+fn not_conserved(text: String) -> Unmet {
+    Unmet::new(UnmetCode::NotConserved, text)
 }
 
 fn rate_within(bounds: (f64, f64)) -> String {
@@ -273,7 +280,7 @@ mod tests {
         assert_eq!(limits.summary(), ["largest error at most 1e-11"]);
         assert_eq!(limits.found(&measured()), "largest error 0.01");
         let unmet = limits.unmet(&errors(NAN, NAN)).pop().expect("a line");
-        assert_eq!(unmet.line, "expected largest error at most 1e-11, got NaN");
+        assert_eq!(unmet.unmet.text, "expected largest error at most 1e-11, got NaN");
         assert!(!unmet.measured);
     }
 }

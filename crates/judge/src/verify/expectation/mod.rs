@@ -4,8 +4,10 @@ pub(crate) mod advice;
 pub(crate) mod gate;
 pub(crate) mod limits;
 pub(crate) mod proposal;
+pub(crate) mod unmet;
 
 use super::expectation::limits::{Limits, Measured, UnmetFigure};
+use super::expectation::unmet::{Unmet, UnmetCode};
 use crate::verify::{FloorCause, OrderHypothesis, Verdict};
 
 /// Lower and upper bound. A value may equal either bound.
@@ -64,25 +66,25 @@ impl Expectation {
         }
     }
 
-    /// Returns one sentence for each unmet expectation; empty if all are met.
-    pub fn unmet(&self, found: &CaseFindings) -> Vec<String> {
+    /// Returns all unmet expectations.
+    pub fn unmet(&self, found: &CaseFindings) -> Vec<Unmet> {
         let judged = self.unmet_judgement(found);
         // A failed run has no measured values, and its failure is already reported.
         let failed = judged.is_some() && found.verdict == Verdict::Failed;
         let figures = self.unmet_figures(found).into_iter();
         let told = figures.filter(|figure| figure.measured || !failed);
-        judged.into_iter().chain(told.map(|figure| figure.line)).collect()
+        judged.into_iter().chain(told.map(|figure| figure.unmet)).collect()
     }
 
     /// Describes an unmet verdict or observed order.
-    fn unmet_judgement(&self, found: &CaseFindings) -> Option<String> {
+    fn unmet_judgement(&self, found: &CaseFindings) -> Option<Unmet> {
         let verdict = self.verdict.filter(|verdict| found.verdict != *verdict);
         let holds = |bounds: &Bounds| {
             found.order.is_some_and(|(low, high)| within(low, *bounds) && within(high, *bounds))
         };
         let order = self.order.filter(|bounds| !holds(bounds)).map(show);
         let got = || found.order.map_or("none".to_owned(), show);
-        match (verdict, order) {
+        let text = match (verdict, order) {
             (Some(verdict), Some(order)) => Some(format!(
                 "expected the verdict `{verdict}` with the order within {order}, got `{}` with {}",
                 found.verdict,
@@ -96,6 +98,22 @@ impl Expectation {
             }
             (None, None) => (self.verdict.is_none() && found.verdict == Verdict::Failed)
                 .then(|| "expected every level to run to its end".to_owned()),
+        };
+        text.map(|text| Unmet::new(self.code(found), text))
+    }
+
+    /// Classifies an unmet verdict or observed order.
+    fn code(&self, found: &CaseFindings) -> UnmetCode {
+        let is_limit = self.verdict.is_some_and(|verdict| verdict != Verdict::Converging);
+        let is_equal = self.verdict.is_none_or(|verdict| verdict == found.verdict);
+        match (found.verdict, self.order.zip(found.order)) {
+            (Verdict::Failed, _) => UnmetCode::RunFailed,
+            (Verdict::Converging, _) if is_limit => UnmetCode::LimitGone,
+            (Verdict::TooLow, _) if !is_limit => UnmetCode::OrderTooLow,
+            (Verdict::TooGood, _) if !is_limit => UnmetCode::OrderTooHigh,
+            (_, Some(((low, _), (least, _)))) if is_equal && least < low => UnmetCode::OrderTooLow,
+            (_, Some(_)) if is_equal => UnmetCode::OrderTooHigh,
+            _ => UnmetCode::VerdictDiffers,
         }
     }
 
@@ -108,7 +126,9 @@ impl Expectation {
             let wanted = show(bounds);
             let line = format!("expected the finest pair's order within {wanted}, got {got}");
             let measured = found.finest_pair.is_some_and(|order| !order.is_nan());
-            unmet.push(UnmetFigure { line, measured });
+            let is_high = found.finest_pair.is_some_and(|order| order > bounds.1);
+            let code = if is_high { UnmetCode::OrderTooHigh } else { UnmetCode::OrderTooLow };
+            unmet.push(UnmetFigure { unmet: Unmet::new(code, line), measured });
         }
         if let Some(some) = self.crossings
             && found.crossings.map(|n| n > 0) != Some(some)
@@ -116,7 +136,8 @@ impl Expectation {
             let wanted = if some { "some" } else { "no" };
             let got = found.crossings.map_or("none counted".to_owned(), |n| n.to_string());
             let line = format!("expected {wanted} crossings on the finest level, got {got}");
-            unmet.push(UnmetFigure { line, measured: found.crossings.is_some() });
+            let crossings = Unmet::new(UnmetCode::CrossingsDiffer, line);
+            unmet.push(UnmetFigure { unmet: crossings, measured: found.crossings.is_some() });
         }
         unmet.extend(self.limits.unmet(&found.measured));
         if let Some(cause) = self.floor
@@ -124,7 +145,8 @@ impl Expectation {
         {
             let got = found.floor.map_or("not determined", FloorCause::name);
             let line = format!("expected the floor of `{}`, got `{got}`", cause.name());
-            unmet.push(UnmetFigure { line, measured: found.floor.is_some() });
+            let floor = Unmet::new(UnmetCode::FloorDiffers, line);
+            unmet.push(UnmetFigure { unmet: floor, measured: found.floor.is_some() });
         }
         unmet
     }
@@ -211,10 +233,11 @@ mod tests {
         let low = CaseFindings { verdict: Verdict::TooLow, order: Some((1.5, 1.6)), ..SEEN };
         let line = "expected the verdict `converging` with the order within [1.90, 2.10], \
                     got `too low` with [1.50, 1.60]";
-        assert_eq!(expectation().unmet(&low), [line]);
+        assert_eq!(expectation().unmet(&low), [Unmet::new(UnmetCode::OrderTooLow, line)]);
         let none = CaseFindings { verdict: Verdict::Oscillatory, order: None, ..SEEN };
         let [line] = &expectation().unmet(&none)[..] else { panic!("several lines") };
-        assert!(line.ends_with("got `oscillatory` with none"), "{line}");
+        assert!(line.text.ends_with("got `oscillatory` with none"), "{line}");
+        assert_eq!(line.code, UnmetCode::VerdictDiffers);
     }
 
     #[test]
@@ -229,7 +252,8 @@ mod tests {
         };
         assert_eq!(expectation().unmet(&failed).len(), 1);
         let bounded = Expectation { verdict: None, order: None, ..expectation() };
-        assert_eq!(bounded.unmet(&failed), ["expected every level to run to its end"]);
+        let text = "expected every level to run to its end";
+        assert_eq!(bounded.unmet(&failed), [Unmet::new(UnmetCode::RunFailed, text)]);
         let wanted = Expectation { verdict: Some(Verdict::Failed), order: None, ..expectation() };
         assert_eq!(wanted.unmet(&failed).len(), 4);
         let crossed = CaseFindings { crossings: Some(3), ..failed };

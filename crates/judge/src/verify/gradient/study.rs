@@ -4,6 +4,7 @@ use super::{GradientEvidence, GradientState, Sweep, SweepPoint, Taylor, ValueChe
 use crate::verify::order::fit::{FittedLine, LogPoint};
 use crate::verify::order::format_number::format_number;
 use crate::verify::order::level::{Level, observed_order};
+use crate::verify::{Unmet, UnmetCode};
 
 /// Maximum difference between the observed order of the derivative error and the formal order.
 const ORDER: f64 = 0.15;
@@ -148,8 +149,8 @@ impl GradientTerms {
         [Some(state), order, finest].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    /// Lists the requirements that `study` does not meet, each in one line.
-    pub fn unmet(&self, study: &GradientStudy) -> Vec<String> {
+    /// Lists the requirements that `study` does not meet.
+    pub fn unmet(&self, study: &GradientStudy) -> Vec<Unmet> {
         let (state, reason) = study.state();
         let state_is_met = match self.state {
             Some(expected) => state == expected,
@@ -169,7 +170,7 @@ impl GradientTerms {
         check("order", self.order, study.order());
         let finest = study.pairwise_orders().last().copied().unwrap_or(f64::NAN);
         check("order of the finest pair", self.finest, finest);
-        unmet
+        unmet.into_iter().map(|text| Unmet::new(UnmetCode::DerivativeDiffers, text)).collect()
     }
 }
 
@@ -213,14 +214,14 @@ mod tests {
     fn a_correct_derivative_of_second_order_meets_the_gate() {
         let study = study(1.0, |h| h * h);
         assert_eq!(study.state().0, GradientState::Smooth);
-        assert_eq!(GradientTerms::of_gate(2.0).unmet(&study), [""; 0]);
+        assert_eq!(GradientTerms::of_gate(2.0).unmet(&study), []);
     }
 
     #[test]
     fn each_check_is_named_when_it_fails() {
         let terms =
             GradientTerms { state: Some(GradientState::Smooth), ..GradientTerms::of_gate(2.0) };
-        let first = |study: &GradientStudy| terms.unmet(study).remove(0);
+        let first = |study: &GradientStudy| terms.unmet(study).remove(0).text;
         assert!(first(&study(2.0, |h| h * h)).starts_with("state: expected smooth, is wrong"));
         assert!(first(&study(1.0, |h| h)).starts_with("order: expected 1.85 to 2.15, is 1.00"));
         assert!(first(&study(1.0, |_| f64::NAN)).starts_with("order: expected"));
