@@ -20,6 +20,9 @@ pub(super) struct CostArgs {
     targets: Targets,
     #[command(flatten)]
     format: FormatArgs,
+    /// Also print all levels with their times, and the work in particle-node transfers
+    #[arg(long)]
+    verbose: bool,
     /// Write work-precision diagrams into this folder
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
@@ -61,7 +64,7 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     let has_levels = |runs: &&SuiteRuns| runs.suite().convergence().is_some();
     for timed in runs.iter().filter(has_levels).filter_map(|runs| one(runs, &solvers, args)) {
         if !args.format.is_json() {
-            output::print(&format!("{}\n", report::timed(&timed)));
+            output::print(&format!("{}\n", report::timed(&timed, args.verbose)));
         }
         if let Some(Err(error)) = args.figures.as_deref().map(|folder| draw(folder, &timed)) {
             output::complain(&error.to_string());
@@ -71,6 +74,16 @@ fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     }
     if args.format.is_json() {
         output::print(&report::timed_json(&all));
+    } else {
+        if let Some(folder) = &args.figures {
+            output::print(&format!("wrote {}\n", folder.display()));
+        }
+        if let Some(suite) = all.first().map(|timed| &timed.outcome.suite) {
+            output::next([
+                (&*format!("cost --verbose {suite}"), "every level"),
+                (&*format!("cost --figures DIR {suite}"), "work-precision diagrams"),
+            ]);
+        }
     }
     Ok(code)
 }

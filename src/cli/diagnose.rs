@@ -27,6 +27,11 @@ pub(super) struct DiagnoseArgs {
 }
 
 pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
+    if args.targets.targets.is_empty() {
+        let message = "expected a suite, because to diagnose all suites takes more than ten minutes\n\
+                       help: `mpm-verify diagnose vibrating-bar`; `mpm-verify list` lists all suites";
+        return Err(CommandError::Message(message.to_owned()));
+    }
     let solver = solver::greeted(&args.solver)?;
     let solver = solver.as_ref().map(|solver| solver as &dyn SolverFactory);
     let mut all = Diagnoses { args, solver, code: Status::Passed, diagnosed: 0, json: Vec::new() };
@@ -42,6 +47,8 @@ pub(super) fn diagnose(args: &DiagnoseArgs) -> Result<Status, CommandError> {
     }
     if args.format.is_json() {
         output::print(&format!("{:#}\n", json!({"cases": all.json})));
+    } else if all.diagnosed > 0 {
+        output::print(&format!("{} diagnosed\n", report::counted(all.diagnosed, "case")));
     }
     if solver.is_some() && all.diagnosed == 0 && all.code == Status::Passed {
         let message = "no case is applicable to the solver";

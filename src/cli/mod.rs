@@ -23,7 +23,7 @@ mod suite_runs;
 
 use arguments::ColorArgs;
 use clap::error::ContextKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use mpm_verify::nearest;
 use output::{CommandError, Status};
 use std::ffi::OsString;
@@ -48,58 +48,92 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run suites and judge them (the default); exit status 1 if an expectation is not met, 2 on
-    /// bad input
+    /// Run suites and judge them (the default)
+    ///
+    /// The exit status is 1 if an expectation is not met, and 2 on bad input.
     Run(run::RunArgs),
+    /// List suites and their cases; the JSON includes predicted costs
+    List(list::ListArgs),
+    /// Print problem, cost and expectations of a suite, or the meaning of a failure code
+    Explain(explain::ExplainArgs),
+    /// Find the defects of a solver on small problems, each for one kind of defect
+    ///
+    /// The exit status is 1 if there is a defect, and 2 if the solver does not respond.
+    Doctor(doctor::DoctorArgs),
+    /// Find out why a case misses the theoretical order
+    ///
+    /// The finest levels run again with one change at a time.
+    Diagnose(diagnose::DiagnoseArgs),
+    /// Write the initial state of one level, or its exact state at a given time
+    ///
+    /// The files contain particles, grid, faces, material and steps, for any solver.
+    Problem(problem::ProblemArgs),
     /// Write a new suite with a comment for each key
     New(new::NewArgs),
-    /// Merge the results of a sharded run (`run --shard K/N --resume DIR`) into the output of a
-    /// single run, without running anything
-    Merge(run::MergeArgs),
-    /// List suites and their cases; the JSON includes the predicted cost of each
-    List(list::ListArgs),
-    /// Validate suites without running them: grammar, formulas, exact solution, and whether the
-    /// runs can support the expectations; exit status 2 on bad input
+    /// Validate suites without running them
+    ///
+    /// Checks grammar, formulas, the exact solution, and whether the runs can support the
+    /// expectations. The exit status is 2 on bad input.
     Check(check::CheckArgs),
-    /// Print the problem, the source and the expectations of a suite, and the passes over particles
-    /// and the memory that a step of each case needs
-    Explain(explain::ExplainArgs),
-    /// Run suites and propose `expect` entries that theory predicts and the runs support, each with
-    /// a reason; changes no file
+    /// Run suites and propose `expect` entries that theory predicts and the runs support
+    ///
+    /// Each entry has a reason. No file is changed.
     Propose(propose::ProposeArgs),
-    /// Find out why a case misses the theoretical order: run its finest levels again with one
-    /// change at a time
-    Diagnose(diagnose::DiagnoseArgs),
-    /// Run a solver on small problems that each expose one kind of defect, and describe the
-    /// defects; exit status 1 if there is a defect, 2 if the solver does not respond
-    Doctor(doctor::DoctorArgs),
-    /// Print the JSON Schema of suite files, of JSON reports, or of the messages between the
-    /// program and a solver
-    Schema(generate::SchemaArgs),
-    /// Print the requested and the actual time step of every level; exit status 1 if they differ by
-    /// more than 1 %
+    /// Print the requested and the actual time step of every level
+    ///
+    /// The exit status is 1 if they differ by more than 1 %.
     Steps(list::StepsArgs),
-    /// Write the initial state of one level, or its exact state at a given time, for any solver:
-    /// particles, grid, faces, material, steps
-    Problem(problem::ProblemArgs),
-    /// Measure the cost of accuracy: error against work and run time, and the cheapest method for
-    /// an error
-    Cost(cost::CostArgs),
-    /// Estimate the order and the limit of a series of values whose exact limit is unknown, with
-    /// intervals; exit status 1 if the series shows no limit, 2 on bad input
-    Estimate(estimate::EstimateArgs),
-    /// Compare two runs or two sets of snapshots, and list the changes, most important first; exit
-    /// status 1 if a verdict, an error, a stability limit or the work got worse, 2 on bad input
+    /// Compare two runs or two sets of snapshots; the most important change comes first
+    ///
+    /// The exit status is 1 if a verdict, an error, a stability limit or the work got worse, and 2
+    /// on bad input.
     Compare(compare::CompareArgs),
+    /// Measure error against work and run time, and the cheapest method for an error
+    Cost(cost::CostArgs),
+    /// Estimate order and limit of a series of values whose exact limit is unknown
+    ///
+    /// Both have intervals. The exit status is 1 if the series shows no limit, and 2 on bad input.
+    Estimate(estimate::EstimateArgs),
+    /// Merge the results of a sharded run, without running anything
+    ///
+    /// The parts come from `run --shard K/N --resume DIR`. The output is that of a single run.
+    Merge(run::MergeArgs),
+    /// Print the JSON Schema of suites, of reports, or of the messages to a solver
+    Schema(generate::SchemaArgs),
     /// Print a completion script for a shell
     Completions(generate::CompletionsArgs),
     /// Print the manual page for `man`
     Man(generate::ManArgs),
 }
 
+/// Commands by purpose, each group with an example.
+const GROUPS: [(&str, &[&str], &str); 5] = [
+    ("Start", &["run", "list", "explain"], "run vibrating-bar"),
+    ("Your solver", &["doctor", "diagnose", "problem"], "doctor --solver 'python mpm.py'"),
+    ("Your suites", &["new", "check", "propose", "steps"], "check my-suite.yaml"),
+    ("Results", &["compare", "cost", "estimate", "merge"], "cost vibrating-bar"),
+    ("Maintenance", &["schema", "completions", "man"], "completions bash"),
+];
+
+/// Returns the description of the command line, whose help lists the commands by purpose.
+fn command_line() -> clap::Command {
+    let line = Cli::command();
+    let mut groups = String::new();
+    for (heading, names, example) in GROUPS {
+        groups += &format!("\n{heading}:\n");
+        for command in names.iter().filter_map(|name| line.find_subcommand(name)) {
+            let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+            groups += &format!("  {:12} {about}\n", command.get_name());
+        }
+        groups += &format!("  {:12} mpm-verify {example}\n", "example:");
+    }
+    let template = "{about}\n\n{usage-heading} {usage}\nGROUPS\nOptions:\n{options}{after-help}";
+    line.help_template(template.replace("GROUPS", &groups))
+}
+
 /// Parses the command line and runs the command. A failure to write output is an error.
 pub(crate) fn main() -> ExitCode {
-    let arguments = with_command(std::env::args_os().collect(), &Cli::command());
+    let arguments = with_command(std::env::args_os().collect(), &command_line());
     let mut status = arguments.and_then(run_arguments).unwrap_or_else(|error| {
         output::complain(&error.to_string());
         Status::BadInput
@@ -112,7 +146,8 @@ pub(crate) fn main() -> ExitCode {
 }
 
 fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
-    match Cli::try_parse_from(arguments) {
+    let matches = command_line().try_get_matches_from(arguments);
+    match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => {
             cli.color.write_global();
             match cli.command {
@@ -160,8 +195,8 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
         Command::Cost(args) => cost::cost(&args),
         Command::Estimate(args) => estimate::estimate(&args),
         Command::Compare(args) => compare::compare(&args),
-        Command::Completions(args) => Ok(generate::completions(&args, Cli::command())),
-        Command::Man(args) => generate::man(&args, Cli::command()),
+        Command::Completions(args) => Ok(generate::completions(&args, command_line())),
+        Command::Man(args) => generate::man(&args, command_line()),
     }
 }
 

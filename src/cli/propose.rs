@@ -2,7 +2,7 @@
 
 use super::arguments::{FormatArgs, SolverArgs, Targets};
 use super::output::{CommandError, Status};
-use super::{select, show, solver};
+use super::{output, select, show, solver};
 use clap::Args;
 use mpm_verify::external::SolverFactory;
 use mpm_verify::report;
@@ -35,7 +35,12 @@ pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
             Ok(json!({"suite": suite.name, "yaml": of_suite(source, suite, solver, case)?}))
         }));
     }
-    Ok(show::try_each(suites, |source, suite| of_suite(source, suite, solver, case)))
+    let status = show::try_each(suites, |source, suite| of_suite(source, suite, solver, case));
+    if status == Status::Passed {
+        let next = "# next: copy entries into `expect` of the suite, then mpm-verify check SUITE\n";
+        output::print(next);
+    }
+    Ok(status)
 }
 
 fn of_suite(

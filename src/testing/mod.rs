@@ -14,7 +14,7 @@ mod harness;
 pub use conformance::{Breach, conformance, conformance_on};
 pub use doctor::{
     DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
-    UnexaminedCapability, doctor, page,
+    UnexaminedCapability, brief_page, doctor, page,
 };
 #[cfg(feature = "testing")]
 pub use harness::SuiteFolder;

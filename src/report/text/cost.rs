@@ -44,24 +44,46 @@ fn relative(ranking: &Ranking) -> String {
     format!("divided by {size}, the largest exact value of the judged quantity")
 }
 
-/// Returns the report of a timed suite.
-pub fn timed(timed: &TimedSuite) -> String {
+/// Returns the report of a timed suite: the ranking by seconds, and the cheapest method. With
+/// `is_verbose` also all levels, and the ranking by transfers.
+pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     let mut text = format!("{}: {}\n\n", timed.outcome.suite, timed.outcome.title);
     text += &machine(&timed.machine);
     text += &row("seconds", SECONDS);
-    text += &format!("\n{}", lines(&levels(timed)));
+    if is_verbose {
+        text += &format!("\n{}", lines(&levels(timed)));
+    }
     let (by_seconds, by_transfers) = (timed.by_seconds(), timed.by_transfers());
     for (seconds, transfers) in by_seconds.iter().zip(&by_transfers) {
         text += &format!("\n{}", cost(seconds, "seconds"));
         // External solvers do not count transfers.
-        if timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0) {
+        let has_transfers = timed.levels.iter().flatten().any(|(load, _)| load.transfers > 0.0);
+        if is_verbose && has_transfers {
             text += &format!("\n{}", cost(transfers, TRANSFERS));
         }
     }
+    text += "\n";
+    for ranking in &by_seconds {
+        text += &cheapest(ranking);
+    }
     if by_seconds.is_empty() {
-        text += "\n  no case has both enough levels and an exact size to be ranked\n";
+        text += "  no case has both enough levels and an exact size to be ranked\n";
     }
     text
+}
+
+/// Names the method with the least work for the smallest error that any method reaches.
+fn cheapest(ranking: &Ranking) -> String {
+    let least = |k: usize| {
+        let reached = ranking.rows.iter().filter_map(|row| Some((row, row.reaches[k].work()?)));
+        reached.min_by(|(_, one), (_, other)| one.total_cmp(other))
+    };
+    let mut targets = ranking.targets.iter().enumerate().rev();
+    let found = targets.find_map(|(k, target)| Some((target, least(k)?)));
+    found.map_or_else(String::new, |(target, (row, work))| {
+        let (name, work) = (&row.method.name, short(work));
+        format!("cheapest for an error of {target:e}, {}: {name}, {work} s\n", ranking.problem)
+    })
 }
 
 const SECONDS: &str = "steps only, on one thread, median of interleaved repeats";

@@ -1,6 +1,6 @@
 //! Findings, and the report of all examinations as text.
 
-use crate::report::text::prose::{hanging, paragraph_lines, row};
+use crate::report::text::prose::{hanging, paragraph_lines, row, row_of_width};
 use mpm_subject::named;
 use serde::Serialize;
 
@@ -134,52 +134,89 @@ pub(super) const MASS_THRESHOLD: &str = "the threshold on nodal mass below which
                                          velocity: this threshold must be zero, or far below the \
                                          particle mass times the smallest weight";
 
-/// Formats the report of all examinations.
+/// Formats all examinations with their measured values, the findings and the verdict.
 pub fn page(report: &DoctorReport) -> String {
+    let mut lines = Vec::new();
+    for made in &report.examinations {
+        examination_lines(&mut lines, made);
+    }
+    not_examined_lines(&mut lines, &report.not_examined);
+    with_ends(report, &lines)
+}
+
+/// Formats the names of the examinations by result, the findings and the verdict.
+pub fn brief_page(report: &DoctorReport) -> String {
+    let has_defect = |made: &&ExaminationReport| heading(&made.result) == DEFECT;
+    let names = |key: &str, names: Vec<&str>| match names.len() {
+        0 => None,
+        count => Some((format!("{key} ({count})"), names.join(", "))),
+    };
+    let by_result = [SOUND, "with a remark", "not applicable", "skipped"].map(|key| {
+        let equal = report.examinations.iter().filter(|made| heading(&made.result) == key);
+        names(key, equal.map(|made| made.examination).collect())
+    });
+    let claimed = report.not_examined.iter().map(|one| one.capability.as_str()).collect();
+    let mut lines = vec![String::new()];
+    for (key, names) in by_result.into_iter().chain([names("not examined", claimed)]).flatten() {
+        row_of_width(&mut lines, 19, &key, &names);
+    }
+    for finding in report.findings().filter(|finding| finding.weight == FindingWeight::Remark) {
+        lines.push(String::new());
+        row(&mut lines, "remark", finding.name);
+        row(&mut lines, "  likely cause", &finding.cause);
+        row(&mut lines, "  check", &finding.look_at);
+    }
+    for made in report.examinations.iter().filter(has_defect) {
+        examination_lines(&mut lines, made);
+    }
+    with_ends(report, &lines)
+}
+
+/// Adds the description of the solver and the verdict.
+fn with_ends(report: &DoctorReport, middle: &[String]) -> String {
     let mut lines = Vec::new();
     let settings = report.settings.iter().map(|(name, value)| format!("{name}: {value}"));
     paragraph_lines(&mut lines, &settings.collect::<Vec<_>>().join("; "));
-    for made in &report.examinations {
-        lines.push(String::new());
-        let (words, label, text) = match &made.result {
-            ExaminationResult::Examined { measured, findings } => {
-                (heading(findings), "measured", measured)
-            }
-            ExaminationResult::NotApplicable { lacks } => {
-                ("not applicable", "not supported", lacks)
-            }
-            ExaminationResult::Skipped { after } => (
-                "skipped",
-                "reason",
-                &format!("`{after}` has a defect that would invalidate this result"),
-            ),
-        };
-        lines.push(format!("{}: {words}", made.examination));
-        row(&mut lines, "expected", made.expected);
-        row(&mut lines, label, text);
-        for finding in made.result.findings() {
-            finding_lines(&mut lines, finding);
-        }
-    }
-    not_examined_lines(&mut lines, &report.not_examined);
+    lines.extend_from_slice(middle);
     lines.push(String::new());
     paragraph_lines(&mut lines, &verdict(report));
     lines.join("\n") + "\n"
 }
 
-fn heading(findings: &[SolverFinding]) -> &'static str {
-    let heaviest = findings.iter().map(|finding| finding.weight).min();
-    heaviest.map_or("no defect", |weight| match weight {
-        FindingWeight::Defect => "DEFECT",
-        FindingWeight::Remark => "no defect, with a remark",
-    })
+fn examination_lines(lines: &mut Vec<String>, made: &ExaminationReport) {
+    let (label, text) = match &made.result {
+        ExaminationResult::Examined { measured, .. } => ("measured", measured),
+        ExaminationResult::NotApplicable { lacks } => ("not supported", lacks),
+        ExaminationResult::Skipped { after } => {
+            ("reason", &format!("`{after}` has a defect that would invalidate this result"))
+        }
+    };
+    lines.extend([String::new(), format!("{}: {}", made.examination, heading(&made.result))]);
+    row(lines, "expected", made.expected);
+    row(lines, label, text);
+    for finding in made.result.findings() {
+        row(lines, finding.weight.name(), finding.name);
+        row(lines, "  observed", &finding.seen);
+        row(lines, "  likely cause", &finding.cause);
+        row(lines, "  check", &finding.look_at);
+    }
 }
 
-fn finding_lines(lines: &mut Vec<String>, finding: &SolverFinding) {
-    row(lines, finding.weight.name(), finding.name);
-    row(lines, "  observed", &finding.seen);
-    row(lines, "  likely cause", &finding.cause);
-    row(lines, "  check", &finding.look_at);
+const SOUND: &str = "no defect";
+const DEFECT: &str = "DEFECT";
+
+fn heading(result: &ExaminationResult) -> &'static str {
+    match result {
+        ExaminationResult::NotApplicable { .. } => "not applicable",
+        ExaminationResult::Skipped { .. } => "skipped",
+        ExaminationResult::Examined { findings, .. } => {
+            match findings.iter().map(|finding| finding.weight).min() {
+                None => SOUND,
+                Some(FindingWeight::Defect) => DEFECT,
+                Some(FindingWeight::Remark) => "with a remark",
+            }
+        }
+    }
 }
 
 /// Adds the capabilities that no examination covers. Capabilities that the same suites test share a

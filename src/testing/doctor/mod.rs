@@ -23,7 +23,7 @@ mod scene;
 
 pub use finding::{
     DoctorReport, ExaminationReport, ExaminationResult, FindingWeight, SolverFinding,
-    UnexaminedCapability, page,
+    UnexaminedCapability, brief_page, page,
 };
 
 use crate::external::SolverFactory;

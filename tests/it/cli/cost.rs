@@ -17,7 +17,7 @@ fn list(value: &Value) -> &[Value] {
 #[test]
 fn report_has_levels_and_both_rankings() {
     let folder = Folder::with("bar.yaml", BAR);
-    let out = folder.accepted(&["cost", "bar.yaml"]);
+    let out = folder.accepted(&["cost", "--verbose", "bar.yaml"]);
     assert_contains(
         &out,
         &[

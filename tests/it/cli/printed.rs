@@ -62,26 +62,31 @@ fn without_arguments_a_plot_and_the_next_commands_are_printed() {
     assert_contains(&own.out, &["  bar-5: rms error", "6 suites, 12 cases: "]);
 }
 
-/// Longer lines would be wrapped by terminals and code reviews.
+/// Longer lines would be wrapped by terminals and code reviews. The last lines are the verdict, or
+/// a command that helps now.
 #[rstest]
-#[case(&["--help"])]
-#[case(&["run", "--help"])]
-#[case(&["estimate", "--help"])]
-#[case(&["list"])]
-#[case(&["list", "stability"])]
-#[case(&["check", "vibrating-bar"])]
-#[case(&["explain", "cooks-membrane"])]
-#[case(&["steps", "vibrating-bar"])]
-#[case(&["run", "vibrating-bar", "mms-fixed-bar-large"])]
-#[case(&["run", "--brief", "free-bar*"])]
-#[case(&["diagnose", "vibrating-bar", "--case", "usf"])]
-#[case(&["propose", "vibrating-bar"])]
-#[case(&["cost", "vibrating-bar-crossing"])]
-fn lines_fit_in_100_columns(#[case] words: &[&str]) {
+#[case(&["--help"], "`mpm-verify run --help` lists.")]
+#[case(&["run", "--help"], "or have no requirement")]
+#[case(&["estimate", "--help"], "Print help (see a summary with '-h')")]
+#[case(&["list"], "suites, ")]
+#[case(&["list", "stability"], "suites, ")]
+#[case(&["check", "vibrating-bar"], "vibrating-bar")]
+#[case(&["explain", "cooks-membrane"], "next: mpm-verify run cooks-membrane")]
+#[case(&["explain", "order-too-low"], "restores the order")]
+#[case(&["steps", "vibrating-bar"], "24 levels: 0 with a step that differs")]
+#[case(&["run", "vibrating-bar", "mms-fixed-bar-large"], "2 suites, 24 cases: ")]
+#[case(&["run", "--brief", "free-bar*"], ", 0 FAIL")]
+#[case(&["diagnose", "vibrating-bar", "--case", "usf"], "1 case diagnosed")]
+#[case(&["propose", "vibrating-bar"], "# next: copy entries into `expect`")]
+#[case(&["cost", "vibrating-bar-crossing"], "work-precision diagrams")]
+#[case(&["cost", "--verbose", "vibrating-bar-crossing"], "work-precision diagrams")]
+fn lines_fit_in_100_columns_and_end_with_the_verdict(#[case] words: &[&str], #[case] last: &str) {
     let out = Folder::new().call(words).out;
-    assert!(!out.is_empty());
     let wide: Vec<&str> = out.lines().filter(|line| line.chars().count() > 100).collect();
     assert!(wide.is_empty(), "{}", wide.join("\n"));
+    let lines: Vec<&str> = out.lines().filter(|line| !line.is_empty()).collect();
+    let end = lines[lines.len().saturating_sub(2)..].join(" ");
+    assert!(end.contains(last), "{end}");
 }
 
 #[test]

@@ -57,6 +57,7 @@ fn built_in_gravity_of_a_program_is_reported() {
         "{out}"
     );
     assert!(errors.contains("examining: rest"), "{errors}");
+    assert!(out.contains("skipped (26)") && out.contains("next: mpm-verify doctor --verbose"));
 }
 
 #[test]
@@ -87,7 +88,7 @@ fn claimed_capabilities_without_an_examination_are_listed() {
     let unexamined = &report["not_examined"];
     assert_eq!(unexamined.as_array().map(Vec::len), Some(1), "{unexamined}");
     assert_eq!(unexamined[0]["capability"], "varying_density");
-    let (_, out, _) = call(&script, &[]);
+    let (_, out, _) = call(&script, &["--verbose"]);
     let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(out.contains("claimed, not examined: - varying_density; "), "{out}");
     assert!(out.contains("1 claimed capabilities not examined"), "{out}");
