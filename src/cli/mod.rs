@@ -18,6 +18,7 @@ mod propose;
 mod run;
 mod select;
 mod show;
+mod snapshots;
 mod solver;
 mod suite_runs;
 
@@ -88,6 +89,10 @@ enum Command {
     /// The exit status is 1 if a verdict, an error, a stability limit or the work got worse, and 2
     /// on bad input.
     Compare(compare::CompareArgs),
+    /// Accept changed reports as snapshots, after `run --snapshots`
+    ///
+    /// A failed comparison with theory cannot be accepted: `run` writes no changed report then.
+    Accept(snapshots::AcceptArgs),
     /// Measure error against work and run time, and the cheapest method for an error
     Cost(cost::CostArgs),
     /// Estimate order and limit of a series of values whose exact limit is unknown
@@ -111,7 +116,7 @@ const GROUPS: [(&str, &[&str], &str); 5] = [
     ("Start", &["run", "list", "explain"], "run vibrating-bar"),
     ("Your solver", &["doctor", "diagnose", "problem"], "doctor --solver 'python mpm.py'"),
     ("Your suites", &["new", "check", "propose", "steps"], "check my-suite.yaml"),
-    ("Results", &["compare", "cost", "estimate", "merge"], "cost vibrating-bar"),
+    ("Results", &["compare", "accept", "cost", "estimate", "merge"], "cost vibrating-bar"),
     ("Maintenance", &["schema", "completions", "man"], "completions bash"),
 ];
 
@@ -192,6 +197,7 @@ fn run_command(command: Command) -> Result<Status, CommandError> {
         Command::Schema(args) => Ok(generate::schema(&args)),
         Command::Steps(args) => Ok(list::steps(&args)),
         Command::Problem(args) => problem::problem(&args),
+        Command::Accept(args) => snapshots::accept(&args),
         Command::Cost(args) => cost::cost(&args),
         Command::Estimate(args) => estimate::estimate(&args),
         Command::Compare(args) => compare::compare(&args),

@@ -35,6 +35,11 @@ pub(in crate::cli) struct RunArgs {
     /// cases or those that `--case` selects, on the first level that failed or else the finest
     #[arg(help_heading = FILES, long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
+    /// Compare reports with snapshots (SUITE.snap) in DIR, or else next to the suites; changed
+    /// reports are written as SUITE.snap.new, and `mpm-verify accept` accepts them
+    #[arg(help_heading = FILES, long, value_name = "DIR", num_args = 0..=1, require_equals = true,
+        conflicts_with_all = ["case", "shard", "repeat", "full"])]
+    pub(super) snapshots: Option<Option<PathBuf>>,
     #[command(flatten)]
     pub(super) judged: JudgedSolverArgs,
 }

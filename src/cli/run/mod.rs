@@ -9,7 +9,7 @@ mod queue;
 
 use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
-use super::{output, select, solver};
+use super::{output, select, snapshots, solver};
 use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
@@ -28,7 +28,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
-    report(&args.report, |suites| chosen(args, suites))
+    let snapshots = args.snapshots.as_ref().map(Option::as_deref);
+    report(&args.report, snapshots, |suites| chosen(args, suites))
 }
 
 /// Runs suites for a first look: also draws a convergence plot, and suggests commands.
@@ -41,7 +42,9 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
         .map_err(|(folder, error)| CommandError::option("--from", folder.display(), error))?;
-    report(&args.report, |suites| Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts))))
+    report(&args.report, None, |suites| {
+        Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts)))
+    })
 }
 
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
@@ -96,6 +99,7 @@ const LONG: f64 = 10.0;
 /// suites are printed even if a later file is invalid.
 fn report(
     args: &ReportArgs,
+    snapshots: Option<Option<&Path>>,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
 ) -> Result<Status, CommandError> {
     args.out.as_deref().map_or(Ok(()), files::prepare_out)?;
@@ -139,6 +143,9 @@ fn report(
         args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
     let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
+    let mut passed = outcomes.iter().all(SuiteOutcome::passed);
+    let compare = |folder| snapshots::compare(folder, &sources, &outcomes);
+    let written = written.and(snapshots.map_or(Ok(true), compare).map(|same| passed &= same));
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
     let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(series);
     for diagnostic in refused.iter().filter_map(|refused| refused.as_ref().err()) {
@@ -154,7 +161,6 @@ fn report(
     if !refused.is_empty() || written.is_err() || unkept.is_some() {
         return Ok(Status::BadInput);
     }
-    let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let any = of_solvers.iter().any(|outcomes| !outcomes.is_empty());
     for (solver, outcomes) in judging.solvers.iter().zip(&of_solvers) {
         // A solver has no outcomes if `--case` selects only cases of other solvers.

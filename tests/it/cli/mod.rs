@@ -19,6 +19,7 @@ mod printed;
 mod problem;
 mod run;
 mod shards;
+mod snapshots;
 mod steps;
 mod time_series;
 
