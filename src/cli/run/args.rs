@@ -18,6 +18,9 @@ pub(in crate::cli) struct RunArgs {
     /// Run only cases whose name contains this text
     #[arg(help_heading = RUNS, long, value_name = "TEXT")]
     pub(super) case: Option<String>,
+    /// Run only the cases that failed in the last run in this folder
+    #[arg(help_heading = RUNS, long, conflicts_with = "shard")]
+    pub(super) last_failed: bool,
     /// Run part K of N parts with about equal predicted costs; `merge` reports the results that the
     /// parts store with `--resume`
     #[arg(help_heading = RUNS, long, value_name = "K/N", allow_hyphen_values = true)]
@@ -53,6 +56,9 @@ pub(in crate::cli) struct ReportArgs {
     pub(super) format: RunFormat,
     #[command(flatten)]
     pub(super) print: PrintArgs,
+    /// Start no further suite after a suite with a failing case
+    #[arg(help_heading = RUNS, long)]
+    pub(super) fail_fast: bool,
     /// Also run the finer levels that suites list under `full`: hours instead of seconds
     #[arg(help_heading = RUNS, long)]
     pub(super) full: bool,

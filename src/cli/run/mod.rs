@@ -3,6 +3,7 @@
 mod args;
 mod files;
 mod gate;
+mod last_failed;
 mod printing;
 mod progress;
 mod queue;
@@ -14,7 +15,7 @@ use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
-use mpm_verify::report::RunTimes;
+use mpm_verify::report::{self, RunTimes};
 use mpm_verify::study::{ResultCache, Runner, StepWarning, unit_seconds};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::suite::{Extent, Suite};
@@ -24,6 +25,7 @@ use progress::RunProgress;
 use queue::{Job, JobOutput, in_order};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
@@ -66,6 +68,9 @@ fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging
         SuiteRuns::of_solvers(&suites, of_each, args.judged.programs.with_methods)
     };
     suite_runs::check_names(&runs)?;
+    if args.last_failed {
+        runs = last_failed::select(runs)?;
+    }
     if let Some(text) = &args.case {
         runs = runs.into_iter().filter_map(|runs| runs.only(|case| case.contains(text))).collect();
         if runs.is_empty() {
@@ -135,7 +140,16 @@ fn report(
     if let Some(note) = &judging.at_interrupt {
         bar.note_at_interrupt(note.clone());
     }
-    let RunResults { outcomes, of_solvers, times } = run_all(args, &runs, &judging, &bar, printing);
+    let results = run_all(args, &runs, &judging, &bar, printing);
+    let RunResults { outcomes, numbers, of_solvers, times } = results;
+    let sources: Vec<Source> = numbers.iter().map(|number| sources[*number].clone()).collect();
+    if numbers.len() < runs.len() {
+        let rest = report::counted(runs.len() - numbers.len(), "suite");
+        output::complain(&format!("note: a case failed, so {rest} did not start (--fail-fast)"));
+    }
+    if let Err(error) = last_failed::record(&outcomes) {
+        output::complain(&format!("warning: the failed cases cannot be recorded: {error}"));
+    }
     let series = judging.series.take().and_then(Series::failure).map_or(Ok(()), Err);
     bar.clear();
     printing.of_all(args, &outcomes);
@@ -190,6 +204,8 @@ fn report(
 /// Outcomes and times of all suites.
 struct RunResults {
     outcomes: Vec<SuiteOutcome>,
+    /// Index of the suite of each outcome.
+    numbers: Vec<usize>,
     /// Outcomes for each solver, in the order of [`Judging::solvers`], for the check of its gate.
     of_solvers: Vec<Vec<SuiteOutcome>>,
     times: RunTimes,
@@ -215,10 +231,18 @@ fn run_all(
     let mut times =
         RunTimes { start: SystemTime::now(), whole: Duration::ZERO, suites: Vec::new() };
     let start = Instant::now();
+    let (mut numbers, mut count) = (Vec::new(), 0);
+    let has_failed = AtomicBool::new(false);
     let run = |job: &mut Job<'_, _>| {
-        let (parts, start) = (runs[job.number()].parts().iter(), Instant::now());
+        let start = Instant::now();
+        let is_skipped = args.fail_fast && has_failed.load(Ordering::Relaxed);
+        let parts = if is_skipped { &[][..] } else { runs[job.number()].parts() }.iter();
         let parts = parts.map(|part| (part.solver, one(part, args, judging, bar, job))).collect();
-        JobResult { parts, time: start.elapsed() }
+        let result = JobResult { parts, time: start.elapsed() };
+        if result.parts.iter().any(|(_, outcome): &(_, SuiteOutcome)| !outcome.passed()) {
+            has_failed.store(true, Ordering::Relaxed);
+        }
+        result
     };
     // The speed of an external solver is unknown.
     let is_long = |runs: &SuiteRuns| {
@@ -227,12 +251,15 @@ fn run_all(
         parts.any(|part| part.solver.is_some() || seconds(&part.suite) > LONG)
     };
     let are_long: Vec<bool> = runs.iter().map(is_long).collect();
-    let threads = WAITING * rayon::current_num_threads();
+    let waiting = if args.fail_fast { 1 } else { WAITING };
+    let threads = waiting * rayon::current_num_threads();
     let take = |sent: JobOutput<JobResult>| {
         let JobResult { parts, time } = match sent {
             JobOutput::Message(text) => return bar.suspend(|| output::complain(&text)),
             JobOutput::Result(parts) => parts,
         };
+        let number = count;
+        count += 1;
         let mut joined: Option<SuiteOutcome> = None;
         for (solver, outcome) in parts {
             if let Some(number) = solver {
@@ -243,12 +270,13 @@ fn run_all(
         if let Some(outcome) = joined {
             bar.suspend(|| printing.of_suite(&outcome));
             outcomes.push(outcome);
+            numbers.push(number);
             times.suites.push(time);
         }
     };
     in_order(runs.len(), threads, |number| are_long[number], run, take);
     times.whole = start.elapsed();
-    RunResults { outcomes, of_solvers, times }
+    RunResults { outcomes, numbers, of_solvers, times }
 }
 
 fn threads(jobs: Option<usize>) -> Result<(), CommandError> {

@@ -264,3 +264,31 @@ fn diagnose_requires_a_suite() {
     assert_eq!((found.code, found.out.as_str()), (BAD_INPUT, ""));
     assert_contains(&found.errors, &["error: expected a suite", "help: `mpm-verify diagnose "]);
 }
+
+#[test]
+fn failed_cases_run_again() {
+    let folder = Folder::with("bar.yaml", BAR);
+    folder.write("open.yaml", ambitious());
+    let none = folder.call(&["run", "bar.yaml", "--last-failed"]);
+    assert_eq!(none.code, BAD_INPUT);
+    assert_contains(&none.errors, &["--last-failed: no case of the last run in this folder fail"]);
+    let both = ["run", "bar.yaml", "open.yaml", "--brief"];
+    assert_eq!(folder.call(&both).code, FAILED);
+    let again = folder.call(&[&both[..], &["--last-failed"]].concat());
+    assert_eq!(again.code, FAILED);
+    assert_contains(&again.out, &["1 suite, 2 cases: 2 FAIL\n"]);
+    assert_eq!(folder.call(&["run", "bar.yaml", "-q"]).code, SOUND);
+    assert_eq!(folder.call(&[&both[..], &["--last-failed"]].concat()).code, BAD_INPUT);
+}
+
+#[test]
+fn fail_fast_starts_no_further_suite() {
+    let folder = Folder::with("a.yaml", ambitious());
+    folder.write("b.yaml", BAR);
+    let arguments = ["run", "a.yaml", "b.yaml", "--jobs", "1", "--brief"];
+    assert_contains(&folder.call(&arguments).out, &["2 suites, 4 cases: "]);
+    let found = folder.call(&[&arguments[..], &["--fail-fast"]].concat());
+    assert_eq!(found.code, FAILED);
+    assert!(!found.out.contains("short-bar::"), "{}", found.out);
+    assert_contains(&found.errors, &["note: a case failed, so 1 suite did not start (--fail-fast)"]);
+}
