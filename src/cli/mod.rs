@@ -52,7 +52,7 @@ enum Command {
     /// Run suites and judge them (the default)
     ///
     /// The exit status is 1 if an expectation is not met, and 2 on bad input.
-    Run(run::RunArgs),
+    Run(Box<run::RunArgs>),
     /// List suites and their cases; the JSON includes predicted costs
     List(list::ListArgs),
     /// Print problem, cost and expectations of a suite, or the meaning of a failure code
@@ -178,7 +178,7 @@ fn run_arguments(arguments: Vec<OsString>) -> Result<Status, CommandError> {
 fn run_first() -> Result<Status, CommandError> {
     let words = ["mpm-verify", "run"].map(str::to_owned).into_iter().chain(select::first_suites());
     match Cli::try_parse_from(words).map(|cli| cli.command) {
-        Ok(Some(Command::Run(args))) => run::first(args),
+        Ok(Some(Command::Run(mut args))) => run::first(&mut args),
         _ => Ok(Status::BadInput),
     }
 }

@@ -79,12 +79,9 @@ pub(super) fn compare(
         }
         let file = Path::new(source.name());
         let beside = file.parent().filter(|_| file.is_file());
-        let folder = match folder.or(beside) {
-            Some(folder) => folder,
-            None => {
-                let reason = format!("{} is in no folder\nhelp: --snapshots=DIR", outcome.suite);
-                return Err(CommandError::about("--snapshots", reason));
-            }
+        let Some(folder) = folder.or(beside) else {
+            let reason = format!("{} is in no folder\nhelp: --snapshots=DIR", outcome.suite);
+            return Err(CommandError::about("--snapshots", reason));
         };
         let path = folder.join(format!("{}.snap", outcome.suite));
         let unusable = |error| CommandError::option("--snapshots", path.display(), error);

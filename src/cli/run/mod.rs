@@ -11,8 +11,8 @@ mod queue;
 use super::output::{CommandError, Status};
 use super::suite_runs::{self, SuitePart, SuiteRuns};
 use super::{output, select, snapshots, solver};
-use args::ReportArgs;
 pub(super) use args::{MergeArgs, RunArgs};
+use args::{ReportArgs, SnapshotFolder};
 use files::Series;
 use gate::{JudgedSolver, SolverGate};
 use mpm_verify::report::{self, RunTimes};
@@ -30,14 +30,13 @@ use std::time::{Duration, Instant, SystemTime};
 
 pub(super) fn run(args: &RunArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
-    let snapshots = args.snapshots.as_ref().map(Option::as_deref);
-    report(&args.report, snapshots, |suites| chosen(args, suites))
+    report(&args.report, args.snapshots.as_ref(), |suites| chosen(args, suites))
 }
 
 /// Runs suites for a first look: also draws a convergence plot, and suggests commands.
-pub(super) fn first(mut args: RunArgs) -> Result<Status, CommandError> {
+pub(super) fn first(args: &mut RunArgs) -> Result<Status, CommandError> {
     args.report.print.plot = true;
-    run(&args)
+    run(args)
 }
 
 pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
@@ -104,7 +103,7 @@ const LONG: f64 = 10.0;
 /// suites are printed even if a later file is invalid.
 fn report(
     args: &ReportArgs,
-    snapshots: Option<Option<&Path>>,
+    snapshots: Option<&SnapshotFolder>,
     choose: impl FnOnce(Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError>,
 ) -> Result<Status, CommandError> {
     args.out.as_deref().map_or(Ok(()), files::prepare_out)?;
@@ -158,7 +157,9 @@ fn report(
     let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
-    let compare = |folder| snapshots::compare(folder, &sources, &outcomes);
+    let compare = |SnapshotFolder(folder): &SnapshotFolder| {
+        snapshots::compare(folder.as_deref(), &sources, &outcomes)
+    };
     let written = written.and(snapshots.map_or(Ok(true), compare).map(|same| passed &= same));
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));
     let written = written.and(args.junit.as_deref().map_or(Ok(()), junit)).and(series);
