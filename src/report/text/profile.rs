@@ -2,7 +2,6 @@
 //! active loads and other effects, passes over particles and nodes, visited particles, and memory.
 
 use super::prose::{hanging, paragraph_lines};
-use super::table::Table;
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::{BTreeMap, BTreeSet};
@@ -65,10 +64,11 @@ fn memory(profile: &Profile, holder: Holder) -> String {
     texts.concat()
 }
 
-const HOW_TO_READ: &str = "For each dimension, the first table has one row for each method and set of \
-    effects: the bytes of a particle and of a node, the further bytes where an effect acts, and the \
-    number of times that a step visits a particle. The tables that follow list the columns behind \
-    these bytes and the passes of a step. The report of a suite lists the effects of its scene.";
+const HOW_TO_READ: &str = "For each dimension, the rows below a method have the bytes of a particle \
+    and of a node, the number of times that a step visits a particle, and the effects. The number \
+    after + has the further bytes where an effect acts. The tables that follow list the columns \
+    behind these bytes and the passes of a step. The report of a suite lists the effects of its \
+    scene.";
 
 /// Returns the report of the profiles of all cases.
 pub fn profiles(outcomes: &[SuiteOutcome]) -> String {
@@ -102,29 +102,29 @@ fn named(case: &CaseOutcome, keys: &[&str]) -> String {
     if words.is_empty() { case.subject.to_owned() } else { words.join(" ") }
 }
 
-/// Returns one row for each distinct combination of method, memory, visits and effects.
+/// Returns the distinct combinations of memory, visits and effects below each method. Rows have
+/// fixed widths, so that a new method changes no other row.
 fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
-    let headings =
-        ["method", "particle", "where it acts", "node", "where it acts", "visits", "effects"];
-    let row = |case: &&&CaseOutcome| {
+    let row = |case: &&CaseOutcome| {
         let profile = case.profile.as_ref()?;
-        let [particle, node] =
-            [Holder::Particle, Holder::Node].map(|holder| bytes(profile, holder));
+        let memory = |holder| match bytes(profile, holder) {
+            [every, 0] => every.to_string(),
+            [every, acting] => format!("{every}+{acting}"),
+        };
         let visits: u64 = profile.visits.iter().map(|(_, visited)| visited).sum();
-        let particles = (profile.particles as u64).max(1);
-        Some(vec![
-            named(case, &["basis", "transfer", "scheme", "mass matrix"]),
-            particle[0].to_string(),
-            particle[1].to_string(),
-            node[0].to_string(),
-            node[1].to_string(),
-            (visits / particles).to_string(),
-            effects(profile, "nothing"),
-        ])
+        let visits = visits / (profile.particles as u64).max(1);
+        let (particle, node) = (memory(Holder::Particle), memory(Holder::Node));
+        let text = format!("    {particle:8} {node:7} {visits:3}  {}", effects(profile, "nothing"));
+        Some((named(case, &["basis", "transfer", "scheme", "mass matrix"]), text))
     };
-    let rows: BTreeSet<Vec<String>> = cases.iter().filter_map(|case| row(&case)).collect();
-    let table = Table::of_cells(headings.map(str::to_owned).to_vec(), rows.into_iter().collect());
-    table.flush_left(&["effects"]).wide_lines()
+    let mut methods: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for (method, row) in cases.iter().filter_map(row) {
+        methods.entry(method).or_default().insert(row);
+    }
+    let lines = methods
+        .into_iter()
+        .flat_map(|(method, rows)| std::iter::once(format!("  {method}")).chain(rows));
+    lines.collect()
 }
 
 /// Returns the bytes of the columns with an entry for each particle or node, and the bytes of the

@@ -102,13 +102,6 @@ impl Table {
         lines
     }
 
-    /// Returns the lines of the table in one block of any width.
-    pub(crate) fn wide_lines(&self) -> Vec<String> {
-        let columns: Vec<usize> = (0..self.columns()).collect();
-        let widths: Vec<usize> = columns.iter().map(|c| self.widest(*c)).collect();
-        self.aligned(&columns, &widths)
-    }
-
     /// Returns the width of the widest cell of a column.
     fn widest(&self, column: usize) -> usize {
         self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
