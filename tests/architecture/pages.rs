@@ -129,20 +129,3 @@ pub(crate) fn misquoted(page: &Document) -> (usize, Vec<usize>) {
     let wrong = quoting.iter().filter(|block| !snapshots.iter().any(|s| is_of(&block.text, s)));
     (quoting.len(), wrong.map(|block| block.line).collect())
 }
-
-/// Page that quotes constants of the judge.
-pub(crate) const JUDGE: &str = "docs/judge.md";
-
-/// Number of rows of a page that quote a constant, and wrong rows:
-/// `| \`crates/judge/src/FILE\` \`NAME\` | \`VALUE\` | ... |`.
-pub(crate) fn constants<'a>(page: &'a str, files: &[(String, String)]) -> (usize, Vec<&'a str>) {
-    let rows: Vec<&str> =
-        page.lines().filter(|line| line.starts_with("| `crates/judge/src/")).collect();
-    let is_right = |row: &&str| {
-        let [file, name, value] = [1, 3, 5].map(|at| row.split('`').nth(at).unwrap_or_default());
-        let text = files.iter().find(|(known, _)| known == file).map_or("", |(_, text)| text);
-        let line = text.lines().find(|line| line.contains(&format!("const {name}: ")));
-        line.is_some_and(|line| line.ends_with(&format!(" = {value};")))
-    };
-    (rows.len(), rows.iter().filter(|row| !is_right(row)).copied().collect())
-}
