@@ -34,7 +34,7 @@ pub fn report_schema() -> String {
             "version": {"type": "string", "description": "version of mpm-verify"},
             "commit": {
                 "type": ["string", "null"],
-                "description": "tested commit, if a CI service provides it",
+                "description": "tested commit, if a CI service or git provides it",
             },
             "suites": list(json!({"$ref": "#/$defs/suite"})),
         },

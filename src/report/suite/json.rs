@@ -10,6 +10,7 @@ use crate::report::study::{KINDS, members};
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};
+use std::process::Command;
 
 /// Creates the document for `outcomes`, indented and with a final newline.
 pub fn json(outcomes: &[SuiteOutcome]) -> String {
@@ -18,10 +19,17 @@ pub fn json(outcomes: &[SuiteOutcome]) -> String {
     format!("{:#}\n", json!({ "version": version, "commit": commit(), "suites": suites }))
 }
 
-/// Returns the tested commit, if a CI service sets it as an environment variable.
+/// Returns the tested commit: from the environment variable of a CI service, or from git if the
+/// current folder is in a checkout. Uncommitted changes add `-dirty`.
 pub(crate) fn commit() -> Option<String> {
-    let said = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
-    ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(said)
+    let variable = |name: &&str| std::env::var(name).ok().filter(|commit| !commit.is_empty());
+    let from_git = || {
+        let arguments = ["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"];
+        let output = Command::new("git").args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok()?;
+        output.status.success().then(|| text.trim().to_owned())
+    };
+    ["GITHUB_SHA", "CI_COMMIT_SHA"].iter().find_map(variable).or_else(from_git)
 }
 
 fn suite(outcome: &SuiteOutcome) -> Value {
