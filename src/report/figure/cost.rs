@@ -1,15 +1,14 @@
 //! Work-precision diagrams of a ranking.
 
+use super::series::coincident;
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
+use crate::report::text::table::together;
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
 /// Maximum number of lines with a separate colour and name, because a reader cannot distinguish
 /// more.
 const MOST_NAMED: usize = 7;
-
-/// Maximum relative difference between points of two methods that are drawn as one line.
-const SAME: f64 = 0.02;
 
 /// Creates a diagram for each ranking of a suite. `work` is the label of the horizontal axis;
 /// `unit` is part of the file name.
@@ -42,48 +41,32 @@ pub fn cost_figures(
 }
 
 fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> LogLogPlot {
-    let mut groups: Vec<(&Ranked, usize)> = Vec::new();
-    for row in &ranking.rows {
-        match groups.iter_mut().find(|(first, _)| coincide(first, row)) {
-            Some((_, more)) => *more += 1,
-            None => groups.push((row, 0)),
-        }
-    }
-    // Methods on the Pareto front come first; the others follow by rank.
-    let mut named = groups;
-    named.sort_by_key(|(row, _)| row.front.is_empty());
-    let others = named.split_off(named.len().min(MOST_NAMED));
-    let every: Vec<Sample> =
-        ranking.rows.iter().flat_map(|row| row.method.samples.iter().copied()).collect();
-    let front = pareto_front(&every).into_iter().map(|k| (every[k].work, every[k].error));
-    let series = |(row, more): &(&Ranked, usize)| PlotSeries {
-        name: match more {
-            0 => row.method.name.clone(),
-            more => format!("{} (and {more} alike)", row.method.name),
-        },
+    let series = |row: &'_ Ranked| PlotSeries {
+        name: String::new(),
         look: methods.iter().position(|method| *method == row.method.name).unwrap_or(0),
         points: points(row),
     };
+    let mut named = coincident(ranking.rows.iter().map(|row| (row, series(row))));
+    // Methods on the Pareto front come first; the others follow by rank.
+    named.sort_by_key(|(rows, _)| rows[0].front.is_empty());
+    for (rows, series) in &mut named {
+        let names: Vec<&str> = rows.iter().map(|row| row.method.name.as_str()).collect();
+        series.name = together(&names);
+    }
+    let mut series: Vec<PlotSeries> = named.into_iter().map(|(_, series)| series).collect();
+    let others = series.split_off(series.len().min(MOST_NAMED));
+    let every: Vec<Sample> =
+        ranking.rows.iter().flat_map(|row| row.method.samples.iter().copied()).collect();
+    let front = pareto_front(&every).into_iter().map(|k| (every[k].work, every[k].error));
     LogLogPlot {
         title,
         x_label: work.to_owned(),
         y_label: "error / size of the solution".to_owned(),
-        series: named.iter().map(series).collect(),
-        others: others.iter().map(series).collect(),
+        series,
+        others,
         front: front.collect(),
         ..LogLogPlot::default()
     }
-}
-
-fn coincide(a: &Ranked, b: &Ranked) -> bool {
-    let (a, b) = (&a.method.samples, &b.method.samples);
-    let near = |x: f64, y: f64| (x / y - 1.0).abs() <= SAME;
-    // Levels that count for neither method may differ.
-    let same = |(a, b): (&Sample, &Sample)| {
-        let counts = a.counts() || b.counts();
-        !counts || (near(a.work, b.work) && near(a.error, b.error))
-    };
-    a.len() == b.len() && a.iter().zip(b).all(same)
 }
 
 /// Returns the points of the levels. Only levels in the converging part are marked as members of

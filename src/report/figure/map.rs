@@ -5,7 +5,7 @@
 //! whose names begin with different words.
 
 use super::plot::canvas::{Heading, canvas, text_width};
-use super::plot::style::{GRID, NEUTRAL, PAPER, TEXT};
+use super::plot::style::{INK, NEUTRAL, PAPER, TEXT};
 use super::plot::svg::SvgElement;
 use crate::verify::rounded;
 
@@ -34,6 +34,9 @@ pub struct MapField {
 }
 
 const LEFT: f64 = 14.0;
+/// Distance of the axis from the fields, and length of its ticks (px).
+const AXIS: f64 = 3.0;
+const TICK: f64 = 4.0;
 const ROW: f64 = 17.0;
 /// Minimum width of a field (px). Longer column names widen the fields.
 const FIELD: f64 = 62.0;
@@ -56,16 +59,19 @@ impl Map {
         let note = format!("{}: dark is low, light is high", self.z_label);
         let width = (left + across).max(LEFT + text_width(&note, TEXT)) + LEFT;
         let heading = Heading::new(&self.title, width);
-        let head = heading.bottom() + 34.0;
+        let head = heading.bottom() + 40.0;
         let (places, bottom) = self.places(head);
         let height = bottom + 30.0;
         let mut svg = canvas(width, height, &self.title);
         heading.draw(&mut svg);
         let middle = left + across / 2.0;
-        svg.add(&SvgElement::text((middle, head - 22.0), "middle", &self.x_label));
+        svg.add(&SvgElement::text((middle, head - 28.0), "middle", &self.x_label));
+        let line = |from, to| SvgElement::line(from, to).set("stroke", INK).at("stroke-width", 0.8);
+        svg.add(&line((left, head - AXIS), (left + across, head - AXIS)));
         for (k, column) in self.columns.iter().enumerate() {
-            let at = (left + field * (k as f64 + 0.5), head - 6.0);
-            svg.add(&SvgElement::text(at, "middle", column));
+            let x = left + field * (k as f64 + 0.5);
+            svg.add(&SvgElement::text((x, head - 12.0), "middle", column));
+            svg.add(&line((x, head - AXIS), (x, head - AXIS - TICK)));
         }
         let fields = self.rows.iter().flat_map(|(_, fields)| fields);
         let range = ColourRange::new(fields.filter_map(|field| field.value));
@@ -113,7 +119,7 @@ fn row(name: &str, fields: &[MapField], place: RowPlace, range: ColourRange) -> 
         let (fill, ink) = known.unwrap_or_else(|| (PAPER.to_owned(), NEUTRAL));
         let square =
             SvgElement::new("rect").at("x", at).at("y", y).at("width", width).at("height", ROW);
-        group.add(&square.set("fill", &fill).set("stroke", GRID).at("stroke-width", 0.5));
+        group.add(&square.set("fill", &fill).set("stroke", PAPER));
         let middle = (at + width / 2.0, y + ROW - 4.5);
         group.add(&SvgElement::text(middle, "middle", &field.text).set("fill", ink));
     }
@@ -148,7 +154,7 @@ impl ColourRange {
 /// Text colours on dark and light fields. The palette does not contain these colours because they
 /// are the same in both themes.
 const OVER_DARK: &str = "#fff";
-const OVER_LIGHT: &str = "#222";
+const OVER_LIGHT: &str = "#000";
 
 /// Red, green and blue of the shades, from dark to light (cividis, after Nunez, Anderton & Renslow
 /// 2018).
@@ -170,7 +176,7 @@ fn colour(share: f64) -> (String, &'static str) {
     let mixed: [f64; 3] =
         std::array::from_fn(|k| COLOURS[low][k] * (1.0 - rest) + COLOURS[low + 1][k] * rest);
     let [r, g, b] = mixed.map(|channel| libm::round(channel) as u8);
-    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.5 { OVER_DARK } else { OVER_LIGHT })
+    (format!("#{r:02x}{g:02x}{b:02x}"), if share < 0.45 { OVER_DARK } else { OVER_LIGHT })
 }
 
 /// Removes the first word of the names if all rows have it in common. Merges neighbouring rows with
@@ -229,7 +235,7 @@ mod tests {
     #[test]
     fn the_ends_of_the_range_have_the_ends_of_the_colours() {
         let svg = map(&[Some(0.5), Some(2.0)]);
-        for (share, fill, ink) in [(0.0, "#002051", "#fff"), (1.0, "#fdea45", "#222")] {
+        for (share, fill, ink) in [(0.0, "#002051", "#fff"), (1.0, "#fdea45", "#000")] {
             assert_eq!(colour(share), (fill.to_owned(), ink));
             assert!(svg.contains(&format!("fill=\"{fill}\"")), "{svg}");
         }

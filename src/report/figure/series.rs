@@ -26,6 +26,35 @@ impl PlotPoint {
     }
 }
 
+impl PlotPoint {
+    /// Whether two points are drawn as one: they differ by at most 2 %, or by 10 % on a level that
+    /// counts for neither method.
+    fn coincides(&self, other: &Self) -> bool {
+        let both = |marks: &[Mark]| [self, other].iter().all(|point| marks.contains(&point.mark));
+        let tolerance = if both(&[Mark::Crossing, Mark::Failed]) { 0.1 } else { 0.02 };
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() <= tolerance;
+        near(self.x, other.x) && (both(&[Mark::Failed]) || near(self.error, other.error))
+    }
+}
+
+/// Groups methods whose curves coincide, with the curve of the first method of each group.
+pub(super) fn coincident<T>(
+    methods: impl Iterator<Item = (T, PlotSeries)>,
+) -> Vec<(Vec<T>, PlotSeries)> {
+    let mut groups: Vec<(Vec<T>, PlotSeries)> = Vec::new();
+    for (method, series) in methods {
+        let coincides = |(_, known): &&mut (Vec<T>, PlotSeries)| {
+            let mut pairs = known.points.iter().zip(&series.points);
+            known.points.len() == series.points.len() && pairs.all(|(a, b)| a.coincides(b))
+        };
+        match groups.iter_mut().find(coincides) {
+            Some((methods, _)) => methods.push(method),
+            None => groups.push((vec![method], series)),
+        }
+    }
+    groups
+}
+
 /// Use of a level by the judge, and its marker in a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {

@@ -1,7 +1,12 @@
 //! The figures of convergence studies.
 
+use super::series::coincident;
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
-use crate::verify::{Axis, CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, Verdict};
+use crate::report::columns::level::NamedStudy;
+use crate::report::text::table::together;
+use crate::verify::{
+    Axis, CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, Verdict, distinct,
+};
 
 /// Maximum number of curves in one plot, because a reader cannot distinguish more.
 const MOST_SERIES: usize = 6;
@@ -9,10 +14,12 @@ const MOST_SERIES: usize = 6;
 /// Plots errors over spacings. All plots of a suite have the same axes. Cases with a single level
 /// have no order and are excluded; a table lists their errors.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let is_plotted = |(_, study): &(&str, &Convergence)| study.compared && study.levels.len() > 1;
-    let studies: Vec<_> = outcome.results(CaseOutcome::convergence).filter(is_plotted).collect();
-    let plots = studies.len().div_ceil(MOST_SERIES).max(1);
-    let parts = studies.chunks(studies.len().div_ceil(plots).max(1));
+    let is_plotted = |(_, study): &NamedStudy<'_>| study.compared && study.levels.len() > 1;
+    let studies = outcome.results(CaseOutcome::convergence).filter(is_plotted);
+    let curves =
+        coincident(studies.map(|(name, study)| ((name, study), series(outcome, name, study))));
+    let plots = curves.len().div_ceil(MOST_SERIES).max(1);
+    let parts = curves.chunks(curves.len().div_ceil(plots).max(1));
     let drawn: Vec<LogLogPlot> = parts.map(|part| plot(outcome, part)).collect();
     let figure = |(i, one): (usize, &LogLogPlot)| {
         let number = if plots > 1 { format!("-{}", i + 1) } else { String::new() };
@@ -28,25 +35,42 @@ fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
 
-fn plot(outcome: &SuiteOutcome, studies: &[(&str, &Convergence)]) -> LogLogPlot {
-    let series = |(name, study): &(&str, &Convergence)| PlotSeries {
-        name: (*name).to_owned(),
-        look: look(outcome, name),
-        points: study.levels.iter().enumerate().map(|(i, level)| point(study, i, level)).collect(),
+fn series(outcome: &SuiteOutcome, name: &str, study: &Convergence) -> PlotSeries {
+    let levels = study.levels.iter().enumerate();
+    let points = levels.map(|(i, level)| point(study, i, level)).collect();
+    PlotSeries { name: name.to_owned(), look: look(outcome, name), points }
+}
+
+/// Returns the legend text of a curve: its cases, and their orders, or their verdicts without an
+/// order.
+fn label(cases: &[NamedStudy<'_>]) -> String {
+    let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
+    let order = |(_, study): &NamedStudy<'_>| match study.judgement.order {
+        Some(order) => format!("order {:.2}", order.value),
+        None => study.verdict().name().to_owned(),
     };
+    format!("{}: {}", together(&names), distinct(cases.iter().map(order)).join(", "))
+}
+
+fn plot(outcome: &SuiteOutcome, curves: &[(Vec<NamedStudy<'_>>, PlotSeries)]) -> LogLogPlot {
+    let studies: Vec<_> = curves.iter().flat_map(|(cases, _)| cases).collect();
     let converging = studies.iter().filter(|(_, study)| study.verdict() == Verdict::Converging);
     let orders = converging.filter_map(|(_, study)| study.judgement.order);
     let mut orders = slopes(orders.map(|order| order.value));
     if orders.is_empty() {
         orders.extend(studies.first().map(|(_, study)| study.formal_order));
     }
+    let named = |(cases, series): &(Vec<NamedStudy<'_>>, PlotSeries)| PlotSeries {
+        name: label(cases),
+        ..series.clone()
+    };
     let judged = studies.first().map_or(String::new(), |(_, study)| study.axis_label());
     LogLogPlot {
         title: outcome.title.clone(),
         x_label: spacing_label(studies.first().map_or(Axis::Space, |(_, study)| study.axis))
             .to_owned(),
         y_label: judged,
-        series: studies.iter().map(series).collect(),
+        series: curves.iter().map(named).collect(),
         reference_orders: orders,
         ..LogLogPlot::default()
     }

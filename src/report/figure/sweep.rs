@@ -63,7 +63,7 @@ pub(crate) fn swept_map(
     let values = first.into_iter().flat_map(|study| &study.rows);
     Map {
         title,
-        x_label: first.map_or(String::new(), |study| study.swept.clone()),
+        x_label: first.map_or(String::new(), |study| format!("parameter {}", study.swept)),
         z_label,
         columns: values.map(|row| column_head(row.value)).collect(),
         rows: merged_fields(rows),
