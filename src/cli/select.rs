@@ -60,9 +60,6 @@ fn everything() -> Sources {
 /// Group of suites for a first look.
 const FIRST: &str = "the-talk";
 
-/// Suite of this group whose convergence plot is drawn.
-pub(super) const PLOTTED: &str = "vibrating-bar";
-
 /// Returns the targets for a first look: one group, or all suites of a project without this group.
 pub(super) fn first_suites() -> Option<String> {
     let folder = Path::new(FOLDER);

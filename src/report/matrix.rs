@@ -1,7 +1,8 @@
 //! The matrix of problems and methods: the result of each basis in each suite.
 
 use crate::verify::{
-    Acceptance, CaseOutcome, Convergence, Exemption, SuiteOutcome, Verdict, distinct, grouped,
+    Acceptance, CaseOutcome, CaseResult, Convergence, Exemption, SuiteOutcome, Verdict, distinct,
+    grouped,
 };
 
 /// Column headings: the bases of MPM, finite elements (FEM), and all other methods.
@@ -18,72 +19,22 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
                                  the order differs from one level to the next; `bounds`: quantities \
                                  are checked against limits, and no order is measured; `stable`, \
                                  `unstable` and `limit` (a critical value): results of stability \
-                                 studies. `low order` in the list above: the order is below the \
-                                 expected one. The report of a suite states the reasons.";
+                                 studies. The report of a suite states the reasons.";
 
-/// Class of a finding, from good to bad. The class determines the colour on the page.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum FindingClass {
-    /// No order is measured: bounds, stability studies, and cases that do not apply.
-    Other,
-    /// The observed order is at least the expected one.
-    Order,
-    /// The observed order is below the expected one.
-    LowOrder,
-    /// There is no observed order: the error stops decreasing, or the orders of the levels differ.
-    NoOrder,
-    /// The error grows with refinement, or runs fail.
-    Fails,
+/// Returns the result that represents cases: a failure or a known limit if one occurs. `None`
+/// without cases.
+pub(crate) fn main_result<'a>(
+    cases: impl Iterator<Item = &'a CaseOutcome> + Clone,
+) -> Option<CaseResult> {
+    let mut results = cases.map(CaseOutcome::result);
+    let occurs = |result: &CaseResult| results.clone().any(|known| known == *result);
+    [CaseResult::Fail, CaseResult::KnownLimit].into_iter().find(occurs).or_else(|| results.next())
 }
 
-impl FindingClass {
-    /// Classes with a separate colour.
-    pub(crate) const SHOWN: [Self; 4] = [Self::Order, Self::LowOrder, Self::NoOrder, Self::Fails];
-
-    /// Returns the name of the class in style sheets.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Other => "other",
-            Self::Order => "order",
-            Self::LowOrder => "low-order",
-            Self::NoOrder => "no-order",
-            Self::Fails => "fails",
-        }
-    }
-
-    pub(crate) fn meaning(self) -> &'static str {
-        match self {
-            Self::Other => "bounds, stability, or not applicable",
-            Self::Order => "expected order",
-            Self::LowOrder => "lower order",
-            Self::NoOrder => "no order",
-            Self::Fails => "error grows, or runs break",
-        }
-    }
-
-    fn of(case: &CaseOutcome) -> Self {
-        let Some(study) = case.convergence().filter(|_| case.is_tested()) else {
-            return if case.fails() { Self::Fails } else { Self::Other };
-        };
-        if study.bounded {
-            return Self::Other;
-        }
-        match study.judgement.verdict {
-            _ if study.accepted.is_some() => Self::Order,
-            Verdict::Converging | Verdict::TooGood => Self::Order,
-            Verdict::TooLow => Self::LowOrder,
-            Verdict::Divergent | Verdict::Failed => Self::Fails,
-            _ => Self::NoOrder,
-        }
-    }
-}
-
-/// Returns the worst class among the cases in each of [`COLUMNS`]; `None` for a column without
-/// cases.
-pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.len()] {
+/// Returns the main result in each of [`COLUMNS`]; `None` for a column without cases.
+pub(crate) fn results(outcome: &SuiteOutcome) -> [Option<CaseResult>; COLUMNS.len()] {
     std::array::from_fn(|column| {
-        let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
-        cases.map(FindingClass::of).max()
+        main_result(outcome.cases.iter().filter(|case| column_of(case) == column))
     })
 }
 
@@ -92,13 +43,16 @@ pub(crate) fn classes(outcome: &SuiteOutcome) -> [Option<FindingClass>; COLUMNS.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
-        let cases = cases.filter(|case| case.convergence().is_some());
-        let classes = cases.filter(|case| column_of(case) == column).map(FindingClass::of);
-        let counted = classes.filter(|class| *class != FindingClass::Other);
-        counted.fold((0, 0), |(kept, all), class| {
-            (kept + usize::from(class == FindingClass::Order), all + 1)
-        })
+        let cases = cases.filter(|case| case.is_tested() && column_of(case) == column);
+        let studies = cases.filter_map(CaseOutcome::convergence).filter(|study| !study.bounded);
+        studies.fold((0, 0), |(kept, all), study| (kept + usize::from(has_order(study)), all + 1))
     })
+}
+
+/// Whether the observed order is at least the expected one.
+fn has_order(study: &Convergence) -> bool {
+    study.accepted.is_some()
+        || matches!(study.judgement.verdict, Verdict::Converging | Verdict::TooGood)
 }
 
 /// Groups items by the group of their suite, with the groups in alphabetical order.

@@ -52,6 +52,7 @@ pub use self::{
     json::{diagnosis_json, timed_json},
     suite::json::profile as profile_json,
     suite::overview::glance,
+    suite::plotted,
     suite::verdicts::counts,
     text::plot::convergence_plot,
     text::profile::profiles,

@@ -3,14 +3,17 @@
 use super::args::ReportArgs;
 use super::printing::labelled;
 use crate::cli::output::CommandError;
+use chrono::{DateTime, Utc};
 use mpm_verify::report::{self, RunTimes, page};
 use mpm_verify::study::{Runner, SeriesError, SeriesFile};
 use mpm_verify::suite::yaml::Source;
 use mpm_verify::verify::{CaseOutcome, SuiteOutcome};
 use std::collections::BTreeSet;
+use std::env::consts::{ARCH, OS};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::time::SystemTime;
 use std::{fs, io};
 
 /// Creates the folder of `--out` before the run, so an invalid path fails early.
@@ -73,6 +76,7 @@ pub(super) fn write_page(
     sources: &[Source],
     outcomes: &[SuiteOutcome],
     refused: usize,
+    start: SystemTime,
 ) -> Result<(), CommandError> {
     let named = |source: &Source| {
         let name = Path::new(source.name()).file_name();
@@ -83,7 +87,13 @@ pub(super) fn write_page(
     let parts: Vec<page::SuiteSource<'_>> = parts
         .map(|((source, file), outcome)| page::SuiteSource { outcome, file, yaml: source.text() })
         .collect();
-    fs::write(file, page::page(&parts, refused)).map_err(|error| unwritable("--html", file, &error))
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let run = page::RunFacts {
+        refused,
+        date: DateTime::<Utc>::from(start).format("%Y-%m-%d %H:%M UTC").to_string(),
+        machine: format!("{OS}, {ARCH}, {}", report::counted(cores, "core")),
+    };
+    fs::write(file, page::page(&parts, &run)).map_err(|error| unwritable("--html", file, &error))
 }
 
 /// Writes cases as time series for ParaView.

@@ -154,7 +154,7 @@ fn report(
     printing.of_all(args, &outcomes);
     let written =
         args.out.as_deref().map_or(Ok(()), |folder| files::write_out(folder, args, &outcomes));
-    let page = |file| files::write_page(file, &sources, &outcomes, refused.len());
+    let page = |file| files::write_page(file, &sources, &outcomes, refused.len(), times.start);
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let compare = |SnapshotFolder(folder): &SnapshotFolder| {

@@ -2,7 +2,6 @@
 
 use super::args::{CaseLabel, ReportArgs, RunFormat};
 use crate::cli::output::{self, CommandError};
-use crate::cli::select;
 use crate::cli::suite_runs::SuiteRuns;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
 use mpm_verify::suite::{next_command, violations};
@@ -92,7 +91,7 @@ impl Printing {
                 if args.print.overview {
                     output::print(&format!("{}\n", report::overview(outcomes)));
                 }
-                let plotted = plotted(outcomes).filter(|_| args.print.plot);
+                let plotted = report::plotted(outcomes.iter()).filter(|_| args.print.plot);
                 if let Some(plot) = plotted.and_then(report::convergence_plot) {
                     output::print(&format!("{plot}\n"));
                 }
@@ -102,12 +101,6 @@ impl Printing {
             Self::Failures => output::print(&failures(outcomes)),
         }
     }
-}
-
-/// Returns the suite whose convergence plot is drawn.
-fn plotted(outcomes: &[SuiteOutcome]) -> Option<&SuiteOutcome> {
-    let preferred = outcomes.iter().find(|outcome| outcome.suite == select::PLOTTED);
-    preferred.or(outcomes.last())
 }
 
 /// Prints the last lines of a run: the counts, and useful commands. The time is omitted if the
@@ -131,7 +124,13 @@ fn print_verdict(args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome
         Some(command) => vec![(command, "")],
         None if args.print.plot => vec![
             ("run".to_owned(), "all suites"),
-            (format!("run {}", plotted(outcomes).map_or("", |suite| &suite.suite)), "one report"),
+            (
+                format!(
+                    "run {}",
+                    report::plotted(outcomes.iter()).map_or("", |suite| &suite.suite)
+                ),
+                "one report",
+            ),
             ("doctor --solver COMMAND".to_owned(), "your own solver"),
         ],
         None => Vec::new(),

@@ -2,12 +2,12 @@
 //!
 //! The page is readable without JavaScript. A small script only sorts and filters tables, and
 //! unfolds the target of a link. Figures are inline SVG and have a common style sheet for dark
-//! colours. Equal runs give equal bytes, because the page does not depend on the time or the
-//! machine. The only exception is the commit that a CI service sets as an environment variable.
+//! colours. Equal runs give equal bytes, except for the line with commit, date and machine.
 //!
 //! A section contains everything that a suite reports: every figure of [`svg()`](super::svg()) and
 //! the complete [`text()`](super::text()). Additions to either also appear on the page.
 
+mod findings;
 mod html;
 mod section;
 mod tables;
@@ -32,18 +32,24 @@ const SCRIPT: &str = include_str!("script.js");
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
-/// Creates the page. `refused` is the number of suites that could not run; the page shows this
-/// number. Names of suites must be unique, because they are used as ids of sections.
-pub fn page(sources: &[SuiteSource<'_>], refused: usize) -> String {
-    let mut body = vec![
-        head(sources, refused),
-        tables::topics(sources),
-        tables::matrix(sources),
-        tables::verdicts(sources),
-    ];
+/// Facts about a run that its outcomes do not contain.
+#[derive(Debug, Clone, Default)]
+pub struct RunFacts {
+    /// Number of suites that could not run.
+    pub refused: usize,
+    /// Start of the run.
+    pub date: String,
+    /// System, architecture and number of cores.
+    pub machine: String,
+}
+
+/// Creates the page. Names of suites must be unique, because they are used as ids of sections.
+pub fn page(sources: &[SuiteSource<'_>], run: &RunFacts) -> String {
+    let mut body = vec![head(sources, run)];
+    body.push(Html::block("div", &[("class", "first")], &findings::findings(sources)));
+    body.extend([tables::topics(sources), tables::matrix(sources), tables::verdicts(sources)]);
     let groups = by_group(sources, |source| source.outcome);
     body.extend(groups.into_iter().flat_map(|(_, of_group)| of_group).map(section::section));
-    body.push(foot());
     let page = Html::block(
         "html",
         &[("lang", "en")],
@@ -74,40 +80,45 @@ fn meta() -> Vec<Html> {
     ]
 }
 
-/// Creates the page header: the counts of the results, and a list of the failures.
-fn head(sources: &[SuiteSource<'_>], refused: usize) -> Html {
+/// Creates the page header: the purpose, the counts of the results, the failures, and the run.
+fn head(sources: &[SuiteSource<'_>], run: &RunFacts) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
-    let (all, failed) = (cases().count(), cases().filter(|(_, case)| !case.passed()).count());
-    let mut run = format!("{}, {}", counted(sources.len(), "suite"), counted(all, "case"));
+    let failed: Vec<_> = cases().filter(|(_, case)| !case.passed()).collect();
+    let all = cases().count();
+    let mut finding = format!("{}, {}", counted(sources.len(), "suite"), counted(all, "case"));
     if all > 0 {
-        run += &format!(": {}", counts(cases().map(|(_, case)| case)));
+        finding += &format!(": {}", counts(cases().map(|(_, case)| case)));
+        finding += if failed.is_empty() { ", 0 FAIL" } else { "" };
     }
-    run.push('.');
-    if refused > 0 {
-        run += &format!(" {} could not be used.", counted(refused, "file"));
+    finding.push('.');
+    if run.refused > 0 {
+        finding += &format!(" {} could not be used.", counted(run.refused, "file"));
     }
-    let is_sound = all > 0 && failed == 0 && refused == 0;
+    let is_sound = all > 0 && failed.is_empty() && run.refused == 0;
     let class = if is_sound { "ok finding" } else { "bad finding" };
-    let finding = Html::tag("p", &[("class", class)], run);
-    let mut parts = vec![Html::tag("h1", &[], "MPM verification"), finding];
-    if failed > 0 {
-        let item = |(source, case): (&SuiteSource<'_>, &CaseOutcome)| {
-            let link = tables::case_link(source.outcome, case, true);
+    let commit = commit().map_or_else(String::new, |commit| format!(", commit {commit}"));
+    let RunFacts { date, machine, .. } = run;
+    let version = env!("CARGO_PKG_VERSION");
+    let run = format!("mpm-verify {version}{commit}. {date}, {machine}.");
+    let mut parts = vec![
+        Html::tag("h1", &[], "MPM verification"),
+        Html::tag("p", &[], PURPOSE),
+        Html::tag("p", &[("class", class)], finding),
+    ];
+    if !failed.is_empty() {
+        let item = |(source, case): &(&SuiteSource<'_>, &CaseOutcome)| {
+            let link = tables::case_link(source.outcome, case);
             let why = Html::text(&format!(": {}", case.failure()));
             Html::tag("li", &[], vec![link, why])
         };
-        let items: Vec<Html> = cases().filter(|(_, case)| !case.passed()).map(item).collect();
+        let items: Vec<Html> = failed.iter().map(item).collect();
         parts.push(Html::block("ul", &[("class", "unmet")], &items));
     }
+    parts.push(Html::tag("p", &[("class", "muted run")], run));
     Html::block("header", &[], &parts)
 }
 
-fn foot() -> Html {
-    let commit = commit().map_or_else(String::new, |commit| format!(", commit {commit}"));
-    let words = format!(
-        "mpm-verify {}{commit}. A known limit is as binding as an expected order: FAIL means that the \
-         result of a case differs from the expectation.",
-        env!("CARGO_PKG_VERSION")
-    );
-    Html::block("footer", &[], &[Html::tag("p", &[("class", "muted")], words)])
-}
+/// States what is verified.
+const PURPOSE: &str = "mpm-verify runs solvers of the Material Point Method on problems with known \
+                       solutions (suites), and compares the result of each method (case) with an \
+                       expectation.";

@@ -1,6 +1,7 @@
 
 "use strict";
-// Sorts the table of verdicts, filters it and that of suites, and unfolds what a link leads to. Without it everything is read.
+// Sorts the table of verdicts, filters it and the table of suites, and unfolds the target of a link. On a narrow screen it
+// hides all columns after the first two until a button is pressed. The page is complete without this script.
 (() => {
   const section = document.getElementById("verdicts");
   const table = section.querySelector("table");
@@ -90,6 +91,20 @@
     verdicts: filter("verdicts", table, rows, ["basis", "transfer", "verdict"]),
     suites: filter("suites", suites, Array.from(suites.querySelectorAll("tbody tr:not(.group)")), []),
   };
+
+  for (const table of document.querySelectorAll(".wide > table")) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.className = "more";
+    const set = (brief) => {
+      table.parentElement.classList.toggle("brief", brief);
+      button.textContent = brief ? "Show all columns" : "Show two columns";
+      button.setAttribute("aria-expanded", String(!brief));
+    };
+    set(true);
+    button.addEventListener("click", () => set(button.getAttribute("aria-expanded") === "true"));
+    table.parentElement.before(button);
+  }
 
   const unfold = () => {
     const [id, ...query] = location.hash.slice(1).split("&");

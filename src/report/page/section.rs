@@ -20,8 +20,10 @@ pub(super) fn section(source: &SuiteSource<'_>) -> Html {
     ));
     parts.extend(figures(source));
     parts.push(cases(outcome));
-    parts.push(report(outcome));
-    parts.push(file(source));
+    let report = Html::text(&text(outcome));
+    parts.push(folded(&format!("report-{suite}"), "Report", &format!("Report of {suite}"), report));
+    let label = format!("File {}", source.file);
+    parts.push(folded(&format!("yaml-{suite}"), source.file, &label, source.yaml.into()));
     Html::block("section", &[("id", &id), ("class", "suite")], &parts)
 }
 
@@ -79,16 +81,6 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     group.iter().enumerate().map(row).collect()
 }
 
-fn report(outcome: &SuiteOutcome) -> Html {
-    let id = format!("report-{}", outcome.suite);
-    folded(&id, "Report", &format!("Report of {}", outcome.suite), Html::text(&text(outcome)))
-}
-
-fn file(source: &SuiteSource<'_>) -> Html {
-    let id = format!("yaml-{}", source.outcome.suite);
-    folded(&id, source.file, &format!("File {}", source.file), source.yaml.into())
-}
-
 /// Creates a folded block of preformatted text. A reader clicks on the text `words` to unfold the
 /// block.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
@@ -117,37 +109,23 @@ fn figure(id: &str, svg: &str, name: &str) -> Html {
     let caption = Html::tag("figcaption", &[("class", "muted")], name);
     let width = svg_width(svg).unwrap_or(WIDTH);
     if width <= WIDTH {
-        return Html::block("figure", &[("id", id)], &[inline_svg(svg, id), caption]);
+        return Html::block("figure", &[("id", id)], &[inline_svg(svg), caption]);
     }
     let least = width * LEGIBLE / SUPERSCRIPT;
     let style = format!("<svg style=\"min-width:{least:.0}px;max-width:{width:.0}px\"");
-    let figure = inline_svg(svg, id).into_string().replacen("<svg", &style, 1);
+    let figure = inline_svg(svg).into_string().replacen("<svg", &style, 1);
     let figure = scrolled(&format!("Figure {name}"), Html::trusted(figure));
     Html::block("figure", &[("id", id), ("class", "broad")], &[figure, caption])
 }
 
-/// Converts a standalone SVG document to an element of the page, with `prefix` before each of its
-/// ids.
-///
-/// Ids must be unique on a page with many figures. References to an id get the same prefix. The
-/// page already contains the style sheet of figures, so the copy in the document is removed. The
-/// style sheet of the page sets the size of a figure; the `viewBox` preserves its shape.
-pub(super) fn inline_svg(document: &str, prefix: &str) -> Html {
-    let ids = ids(document);
+/// Converts a standalone SVG document to an element of the page. The page already contains the
+/// style sheet of figures, so the copy in the document is removed. The style sheet of the page sets
+/// the size of a figure; the `viewBox` preserves its shape.
+pub(super) fn inline_svg(document: &str) -> Html {
     let mut inline = document.trim().to_owned();
-    if let Some(start) = inline.find("<svg") {
-        inline.drain(..start);
-    }
     while let Some(start) = inline.find("<style") {
         let end = inline[start..].find("</style>").map_or(inline.len(), |at| start + at + 8);
         inline.drain(start..end);
-    }
-    for id in &ids {
-        let new = format!("{prefix}-{id}");
-        for (before, after) in [("id=\"", "\""), ("url(#", ")"), ("href=\"#", "\"")] {
-            let old = format!("{before}{id}{after}");
-            inline = inline.replace(&old, &format!("{before}{new}{after}"));
-        }
     }
     Html::trusted(inline)
 }
@@ -158,41 +136,13 @@ fn svg_width(document: &str) -> Option<f64> {
     view.split([' ', '"']).nth(2)?.parse().ok()
 }
 
-fn ids(document: &str) -> Vec<&str> {
-    let mut ids: Vec<&str> = document
-        .match_indices(" id=\"")
-        .filter_map(|(at, key)| document[at + key.len()..].split('"').next())
-        .collect();
-    ids.sort_unstable();
-    ids.dedup();
-    ids
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn ids_and_references_get_the_prefix() {
-        let figure = "<?xml version=\"1.0\"?>\n<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"a\"/>\
-            <path id=\"ab\"/></defs><g clip-path=\"url(#a)\"/><use href=\"#ab\"/></svg>\n";
-        let inline = inline_svg(figure, "bar-1").into_string();
-        assert_eq!(
-            inline,
-            "<svg viewBox=\"0 0 1 1\"><defs><clipPath id=\"bar-1-a\"/><path id=\"bar-1-ab\"/></defs>\
-             <g clip-path=\"url(#bar-1-a)\"/><use href=\"#bar-1-ab\"/></svg>"
-        );
-    }
-
-    #[test]
     fn style_sheets_are_removed() {
         let figure = "<svg><style>a{}</style><g/><style>b{}</style></svg>";
-        assert_eq!(inline_svg(figure, "x").into_string(), "<svg><g/></svg>");
-    }
-
-    #[test]
-    fn a_figure_without_ids_is_unchanged() {
-        let figure = "<svg viewBox=\"0 0 1 1\"><text>id=\"no\"</text></svg>";
-        assert_eq!(inline_svg(figure, "x").into_string(), figure);
+        assert_eq!(inline_svg(figure).into_string(), "<svg><g/></svg>");
     }
 }

@@ -6,8 +6,9 @@
 use super::html::Html;
 use crate::report::columns::level::finest_counted;
 use crate::report::columns::scientific;
-use crate::report::matrix::{COLUMNS, FindingClass, LEGEND, by_group, classes, findings, shares};
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::report::matrix::{COLUMNS, LEGEND, by_group, findings, main_result, results, shares};
+use crate::report::suite::verdicts::counts;
+use crate::verify::{CaseOutcome, CaseResult, SuiteOutcome};
 
 /// The outcome of a suite, with its source file.
 #[derive(Debug, Clone, Copy)]
@@ -20,37 +21,42 @@ pub struct SuiteSource<'a> {
     pub yaml: &'a str,
 }
 
-/// Creates the table that counts the cases with the formal order, for each group of suites and each
-/// basis.
+/// Creates the table of the groups of suites: the results, and for each basis the number of cases
+/// with the order of theory.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let link = link(&format!("group-{}", plain(group)), group);
-        let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
         let outcomes: Vec<_> = sources.iter().map(|source| source.outcome).collect();
+        let mut cells = vec![Html::tag("th", &[("scope", "row")], link)];
+        cells.push(result_counts(outcomes.iter().flat_map(|outcome| &outcome.cases)));
         cells.extend(shares(&outcomes).map(|(kept, all)| share(kept, all)));
         Html::tag("tr", &[], cells)
     };
     let rows: Vec<Html> = by_group(sources, |source| source.outcome).into_iter().map(row).collect();
-    let about = "How many convergence cases reach the order of theory, for each basis function. \
-                 Blue: all; grey: half or more; yellow: fewer; a dash: no such case. Many cases are \
-                 included because the method is known to lose its order there, which counts as \
-                 expected.";
+    let about = "Results, and for each basis the number of convergence cases that reach the order of \
+                 theory. A dash means that there is no such case. Many suites exist because a method \
+                 loses its order there: such a case is a known limit.";
     let table = [bases("Topic"), Html::block("tbody", &[], &rows)];
     let table = scrolled("Topics and bases", Html::block("table", &[("class", "matrix")], &table));
     titled("methods", "Methods by topic", about, table)
 }
 
-/// Creates a section with a heading, a remark and a table.
-fn titled(id: &str, title: &str, about: &str, table: Html) -> Html {
+/// Creates a cell with the number of cases for each result.
+fn result_counts<'a>(cases: impl Iterator<Item = &'a CaseOutcome> + Clone) -> Html {
+    coloured(main_result(cases.clone()), counts(cases))
+}
+
+/// Creates a section with a heading, a remark and its content.
+pub(super) fn titled(id: &str, title: &str, about: &str, content: Html) -> Html {
     let head = format!("{id}-head");
     let about = Html::tag("p", &[("class", "muted")], about);
-    let parts = [Html::tag("h2", &[("id", &head)], title), about, table];
+    let parts = [Html::tag("h2", &[("id", &head)], title), about, content];
     Html::block("section", &[("id", id), ("aria-labelledby", &head)], &parts)
 }
 
-/// Creates the headings of a table with one column for each basis.
+/// Creates the headings of a table with the results and one column for each basis.
 fn bases(first: &'static str) -> Html {
-    heads([first].into_iter().chain(COLUMNS).map(|name| (name, "word")))
+    heads([first, "Results"].into_iter().chain(COLUMNS).map(|name| (name, "word")))
 }
 
 /// Creates the headings of a table, each with the class of its column.
@@ -60,25 +66,23 @@ pub(super) fn heads<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>) -
     Html::tag("thead", &[], Html::tag("tr", &[], heads))
 }
 
-/// Creates the cell `K of N`: K of the N cases reach the order of theory. The colour shows whether
-/// these are all, at least half, fewer, or none.
+/// Creates the cell `K of N`: K of the N cases reach the order of theory. The background is a bar
+/// of this length.
 fn share(kept: usize, all: usize) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
     }
-    let class = match kept {
-        _ if kept == all => FindingClass::Order,
-        _ if 2 * kept >= all => FindingClass::LowOrder,
-        0 => FindingClass::Fails,
-        _ => FindingClass::NoOrder,
-    };
-    coloured(class, format!("{kept} of {all}"))
+    let bar = format!("--share:{}%", 100 * kept / all);
+    let text =
+        Html::tag("span", &[("class", "share"), ("style", &bar)], format!("{kept} of {all}"));
+    Html::tag("td", &[], text)
 }
 
-/// Creates a cell with the colour of a class. Only the text is coloured, because a background would
-/// hide the shadow that indicates further columns.
-fn coloured(class: FindingClass, text: String) -> Html {
-    Html::tag("td", &[], Html::tag("span", &[("class", class.name())], text))
+/// Creates a cell with the colour of a result. Only the text is coloured, because a background
+/// would hide the shadow that indicates further columns.
+fn coloured(result: Option<CaseResult>, text: String) -> Html {
+    let class = result.map_or("", CaseResult::name);
+    Html::tag("td", &[], Html::tag("span", &[("class", &plain(class))], text))
 }
 
 /// Converts a name for use in an id: whitespace becomes `_`.
@@ -88,7 +92,7 @@ fn plain(name: &str) -> String {
 
 /// Creates the table of all suites with their results, in groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
-    let columns = (COLUMNS.len() + 1).to_string();
+    let columns = (COLUMNS.len() + 2).to_string();
     let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let name = Html::tag("th", &[("scope", "rowgroup"), ("colspan", &columns)], group);
         let id = format!("group-{}", plain(group));
@@ -101,7 +105,6 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let parts = [
         Html::tag("h2", &[], "Suites"),
         Html::tag("p", &[("class", "muted")], legend()),
-        key(),
         scrolled("Suites and bases", Html::block("table", &[("class", "matrix")], &table)),
     ];
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
@@ -116,33 +119,20 @@ fn legend() -> Html {
     LEGEND.split('`').enumerate().map(part).collect()
 }
 
-/// Explains the colours of the table cells.
-fn key() -> Html {
-    let item = |class: FindingClass| Html::tag("span", &[("class", class.name())], class.meaning());
-    Html::tag("p", &[("class", "key")], FindingClass::SHOWN.map(item).to_vec())
-}
-
 fn suite_row(source: &SuiteSource<'_>) -> Html {
     let outcome = source.outcome;
     let link = link(&suite_id(outcome), &outcome.suite);
     let title = Html::tag("span", &[("class", "muted title")], format!(" {}", outcome.title));
-    let mut name = vec![link, title];
-    if !outcome.passed() {
-        name.push(Html::tag("b", &[("class", "bad")], " FAIL"));
-    }
-    let mut cells = vec![Html::tag("th", &[("scope", "row")], name)];
-    let found = findings(outcome).into_iter().zip(classes(outcome));
-    cells.extend(found.map(|(finding, class)| match class {
-        Some(class) => coloured(class, finding),
-        None => Html::tag("td", &[], finding),
-    }));
+    let mut cells = vec![Html::tag("th", &[("scope", "row")], vec![link, title])];
+    cells.push(result_counts(outcome.cases.iter()));
+    let found = findings(outcome).into_iter().zip(results(outcome));
+    cells.extend(found.map(|(finding, result)| coloured(result, finding)));
     Html::tag("tr", &[], cells)
 }
 
 /// Heading of each column of the verdict table, and the class of the column.
-const VERDICT_COLUMNS: [(&str, &str); 8] = [
-    ("Suite", "word"),
-    ("Case", "word"),
+const VERDICT_COLUMNS: [(&str, &str); 7] = [
+    ("Suite and case", "word"),
     ("Result", "word"),
     ("Verdict", "word"),
     ("Order", "number"),
@@ -163,7 +153,6 @@ pub(super) fn verdicts(sources: &[SuiteSource<'_>]) -> Html {
 
 fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
     let outcome = source.outcome;
-    let suite = link(&suite_id(outcome), &outcome.suite);
     let name = |content: Html| Html::tag("td", &[("class", "name")], content);
     let [order, error, transfers] = figure_cells(case);
     let basis = case.setting("basis").unwrap_or(case.subject);
@@ -172,8 +161,7 @@ fn case_row(source: &SuiteSource<'_>, case: &CaseOutcome) -> Html {
         "tr",
         &[("data-basis", basis), ("data-transfer", transfer), ("data-verdict", &case.verdict)],
         vec![
-            name(suite),
-            name(case_link(outcome, case, false)),
+            name(case_link(outcome, case)),
             Html::tag("td", &[], result(case)),
             name(case.verdict.as_str().into()),
             order,
@@ -191,14 +179,10 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
     Html::tag("div", &attributes, content)
 }
 
-/// Creates the text of a result. A failure is bold, because colour alone is not accessible.
+/// Creates the text of a result.
 pub(super) fn result(case: &CaseOutcome) -> Html {
-    let word = case.result().name();
-    if case.passed() {
-        Html::tag("span", &[("class", "ok")], word)
-    } else {
-        Html::tag("b", &[("class", "bad")], word)
-    }
+    let name = case.result().name();
+    Html::tag("span", &[("class", &plain(name))], name)
 }
 
 /// Creates three cells: the order with its interval, the judged error on the finest level that
@@ -236,10 +220,9 @@ pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }
 
-/// Creates a link to the row of a case. `full` adds the name of the suite.
-pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome, full: bool) -> Html {
-    let name = if full { format!("{}::{}", outcome.suite, case.case) } else { case.case.clone() };
-    link(&case_id(outcome, case), &name)
+/// Creates a link to the row of a case.
+pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome) -> Html {
+    link(&case_id(outcome, case), &format!("{}::{}", outcome.suite, case.case))
 }
 
 /// Creates a link to an element of the page.

@@ -44,7 +44,7 @@ fn outcome(suite: &str, words: &str, unmet: &[&str]) -> SuiteOutcome {
 
 fn of(outcomes: &[SuiteOutcome], yaml: &str) -> String {
     let source = |outcome| SuiteSource { outcome, file: yaml, yaml };
-    page(&outcomes.iter().map(source).collect::<Vec<_>>(), 0)
+    page(&outcomes.iter().map(source).collect::<Vec<_>>(), &RunFacts::default())
 }
 
 /// Returns all start tags with their attributes. Fails unless each tag is closed correctly.
@@ -117,10 +117,11 @@ fn the_page_contains_the_text_report_and_all_figures() {
         assert!(page.contains(&line), "{line}");
     }
     let figures = svg(&outcome);
-    assert_eq!(page.matches("<figure ").count(), figures.len());
+    // The first figure is also on the first screen.
+    assert_eq!(page.matches("<figure ").count(), figures.len() + figures.len().min(1));
     for figure in figures {
         let caption = format!(">{}</figcaption>", figure.file);
-        let drawn = section::inline_svg(&figure.svg, "").into_string();
+        let drawn = section::inline_svg(&figure.svg).into_string();
         assert!(page.contains(&caption) && page.contains(&drawn), "{}", figure.file);
     }
 }
@@ -144,13 +145,13 @@ fn the_page_names_the_run() {
 #[test]
 fn the_finding_comes_first() {
     let sound = of(&[outcome("a", "x", &[])], "");
-    assert!(sound.contains("<p class=\"ok finding\">1 suite, 2 cases: 2 pass.</p>"));
+    assert!(sound.contains("<p class=\"ok finding\">1 suite, 2 cases: 2 pass, 0 FAIL.</p>"));
     let failed = of(&[outcome("a", "x", &["too low"])], "");
     let finding = "<p class=\"bad finding\">1 suite, 2 cases: 2 FAIL.</p>";
     let place = failed.find(finding).expect("the finding");
     assert!(place < failed.find("<nav").expect("the list of suites"));
     assert!(failed.contains("a::firstx</a>: too lowx</li>"));
-    let none = page(&[], 2);
+    let none = page(&[], &RunFacts { refused: 2, ..RunFacts::default() });
     assert!(
         none.contains("<p class=\"bad finding\">0 suites, 0 cases. 2 files could not be used.</p>")
     );

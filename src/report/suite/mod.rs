@@ -9,6 +9,17 @@ use super::figure::{Figure, cost};
 use super::study::KINDS;
 use crate::verify::{self, SuiteOutcome};
 
+/// Suite whose figure represents a run with many suites.
+const PLOTTED: &str = "vibrating-bar";
+
+/// Returns the suite whose figure represents a run: [`PLOTTED`], or the last one without it.
+pub fn plotted<'a>(
+    mut outcomes: impl Iterator<Item = &'a SuiteOutcome> + Clone,
+) -> Option<&'a SuiteOutcome> {
+    let last = outcomes.clone().last();
+    outcomes.find(|outcome| outcome.suite == PLOTTED).or(last)
+}
+
 /// Draws all figures of a suite: the figures of its kind of study, and diagrams of error against
 /// work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {

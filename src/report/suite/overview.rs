@@ -62,7 +62,7 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     }
     lines.extend([
         String::new(),
-        "  Suites in which some method with the given basis fails, whether expected or not:"
+        "  Suites where a method fails, as expected or not (low order: below the expected order):"
             .to_owned(),
     ]);
     for (column, basis) in COLUMNS.iter().enumerate() {
