@@ -2,7 +2,7 @@
 
 use super::args::ReportArgs;
 use super::printing::labelled;
-use crate::cli::output::CommandError;
+use crate::cli::output::{CommandError, complain};
 use chrono::{DateTime, Utc};
 use mpm_verify::report::{self, RunTimes, page};
 use mpm_verify::study::{Runner, SeriesError, SeriesFile};
@@ -13,6 +13,7 @@ use std::env::consts::{ARCH, OS};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::SystemTime;
 use std::{fs, io};
 
@@ -101,6 +102,8 @@ pub(super) struct Series {
     folder: PathBuf,
     /// Whether all cases are written, or only those that fail.
     all: bool,
+    /// Whether a case was selected.
+    is_used: AtomicBool,
     /// First file that could not be written. No further cases are written then.
     failure: OnceLock<CommandError>,
 }
@@ -110,12 +113,13 @@ impl Series {
     pub(super) fn prepare(folder: &Path, all: bool) -> Result<Self, CommandError> {
         let folder = folder.to_owned();
         fs::create_dir_all(&folder).map_err(|error| unwritable("--vtu", &folder, &error))?;
-        Ok(Self { folder, all, failure: OnceLock::new() })
+        Ok(Self { folder, all, is_used: AtomicBool::new(false), failure: OnceLock::new() })
     }
 
     pub(super) fn write(&self, runner: &Runner<'_>, outcome: &SuiteOutcome, say: &dyn Fn(String)) {
         let is_shown = |case: &&CaseOutcome| self.all || !case.passed();
         for case in outcome.cases.iter().filter(is_shown) {
+            self.is_used.store(true, Ordering::Relaxed);
             if self.failure.get().is_some() {
                 return;
             }
@@ -126,7 +130,7 @@ impl Series {
             });
             let name = format!("{}::{}", outcome.suite, case.case);
             match result {
-                Ok(()) => say(format!("note: {name}: {}", last.display())),
+                Ok(()) => say(format!("wrote {}", last.display())),
                 Err(SeriesError::Write { path, error }) => {
                     let error = unwritable("--vtu", &self.folder.join(path), &error);
                     self.failure.get_or_init(|| error);
@@ -136,8 +140,11 @@ impl Series {
         }
     }
 
-    /// Returns the first failure, if any.
+    /// Returns the first failure, if any. A note explains why nothing was written.
     pub(super) fn failure(self) -> Option<CommandError> {
+        if !self.is_used.load(Ordering::Relaxed) {
+            complain("note: --vtu: no case fails, so nothing was written; `--case` selects cases");
+        }
         self.failure.into_inner()
     }
 }

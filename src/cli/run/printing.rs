@@ -63,12 +63,13 @@ impl Printing {
                 }
             }
         }
+        if !outcomes.is_empty() && !is_text {
+            written(args).for_each(|line| output::complain(&line));
+        }
         if outcomes.is_empty() || self == Self::Failures || !is_text {
             return;
         }
-        for path in [&args.out, &args.html, &args.junit].into_iter().flatten() {
-            output::print(&format!("wrote {}\n", path.display()));
-        }
+        written(args).for_each(|line| output::print(&line));
         print_verdict(args, sources, outcomes, time);
     }
 
@@ -101,6 +102,12 @@ impl Printing {
             Self::Failures => output::print(&failures(outcomes)),
         }
     }
+}
+
+/// Returns one line for each written file or folder.
+fn written(args: &ReportArgs) -> impl Iterator<Item = String> {
+    let paths = [&args.out, &args.html, &args.junit].into_iter().flatten();
+    paths.map(|path| format!("wrote {}\n", path.display()))
 }
 
 /// Prints the last lines of a run: the counts, and useful commands. The time is omitted if the

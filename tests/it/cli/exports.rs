@@ -148,8 +148,10 @@ fn titles_and_labels_change_only_tables_and_figures() {
     let folder = Folder::with("bar.yaml", BAR);
     let labels = ["--title", "Bar of E = 1", "--label", "mpm-linear-flip-musl=MPM"];
     let out = ["run", "bar.yaml", "--out", "out", "--format", "latex"];
-    let table = folder.accepted(&[&out[..], &labels].concat());
-    for text in [&table, &folder.read("out/short-bar.tex"), &folder.read("out/short-bar.svg")] {
+    let answer = folder.call(&[&out[..], &labels].concat());
+    assert_eq!((answer.code, answer.errors.as_str()), (SOUND, "wrote out\n"));
+    for text in [&answer.out, &folder.read("out/short-bar.tex"), &folder.read("out/short-bar.svg")]
+    {
         assert!(text.contains("Bar of E = 1") && text.contains("MPM"), "{text}");
         assert!(!text.contains("mpm-linear-flip-musl"), "{text}");
     }
