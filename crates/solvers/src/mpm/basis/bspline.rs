@@ -7,7 +7,7 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
-use super::product::{Product, ProductBatch};
+use super::product::{Product, ProductBatch, Shape};
 use super::weights_1d::{Weights1d, Weights1dBatch, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::grid::Grid;
@@ -161,12 +161,12 @@ fn put_right<const D: usize, const K: usize>(
     cell: [f64; LANES],
     xi: [f64; LANES],
     lane: usize,
-    weights: &mut Weights1dBatch<K>,
+    weights: &mut Weights1dBatch,
 ) {
     let (low, high) = uniform_cells(K - 1, grid.cells[axis] as f64, grid.periodic[axis]);
     for k in 0..LANES {
         if cell[k] < low || cell[k] >= high {
-            weights.put(lane + k, &along_wall(grid, axis, cell[k] as usize, xi[k]));
+            weights.put(lane + k, &along_wall::<D, K>(grid, axis, cell[k] as usize, xi[k]));
         }
     }
 }
@@ -216,13 +216,13 @@ macro_rules! bspline {
             }
 
             #[inline(always)]
-            fn patches_x4<S: Simd, const D: usize>(
+            fn patches_x4<S: Simd, W: Shape, const D: usize>(
                 simd: S,
                 grid: &Grid<D>,
                 locator: &CellLocator<D>,
                 particles: &Particles<D>,
                 lanes: FourLanes,
-                patches: &mut ProductBatch<D, $functions>,
+                patches: &mut ProductBatch<D, W>,
             ) -> u32 {
                 let FourLanes { particle: first, lane } = lanes;
                 let CellPositions { cell, xi, inside } =
@@ -231,7 +231,7 @@ macro_rules! bspline {
                 for axis in 0..D {
                     let (cell, xi) = (cell[axis], xi[axis]);
                     let weights = &mut patches.axes[axis];
-                    along(simd, xi, locator.h, locator.inverse_h).put(
+                    along::<S, $functions>(simd, xi, locator.h, locator.inverse_h).put(
                         lane / LANES,
                         locator.needs,
                         weights,
@@ -239,7 +239,14 @@ macro_rules! bspline {
                     let (low, high) =
                         uniform_cells($degree, locator.ends[axis], locator.periodic[axis]);
                     if !cell.are_in(low, high) {
-                        put_right(grid, axis, cell.into(), xi.into(), lane, weights);
+                        put_right::<D, $functions>(
+                            grid,
+                            axis,
+                            cell.into(),
+                            xi.into(),
+                            lane,
+                            weights,
+                        );
                     }
                 }
                 inside

@@ -2,16 +2,15 @@
 //! particle, and a batch of patches.
 
 use super::cell_locator::CellLocator;
+use super::product::{ProductBatch, Shape};
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
-use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, PackedNode};
+use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd;
 use crate::mpm::foundation::simd::{LANES, Register, Simd, SimdPass};
 use fearless_simd::Level;
-use std::fmt::Debug;
-use std::ops::Range;
 
 /// Particle domain over which a basis averages its functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,13 +79,13 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// bit-identical results. A basis overrides this method to compute the weights of four
     /// particles at once.
     #[inline(always)]
-    fn patches_x4<S: Simd, const D: usize>(
+    fn patches_x4<S: Simd, W: Shape, const D: usize>(
         _width: S,
         grid: &Grid<D>,
         locator: &CellLocator<D>,
         particles: &Particles<D>,
         lanes: FourLanes,
-        patches: &mut <Self::Patch<D> as Patch<D>>::Batch,
+        patches: &mut ProductBatch<D, W>,
     ) -> u32 {
         let FourLanes { particle: first, lane } = lanes;
         let mut stored = 0;
@@ -132,9 +131,23 @@ pub trait Basis: Sized + Sync + Send + 'static {
         simd::run(level, pass);
     }
 
+    /// Calls `user` with the basis whose compiled loops serve this basis, by default this basis.
+    fn with_loops<U: LoopsUser>(user: U) -> U::Output {
+        user.call::<Self>()
+    }
+
     /// Returns the maximum number of nodes of a particle, where a node counts once for each patch.
     /// The work counter uses this number.
     fn support(dimension: usize) -> u64;
+}
+
+/// Function with a basis as its type parameter ([`Basis::with_loops`]).
+pub trait LoopsUser {
+    /// Result of the function.
+    type Output;
+
+    /// Calls the function with basis `B`.
+    fn call<B: Basis>(self) -> Self::Output;
 }
 
 /// The basis function of one node, evaluated at a particle.
@@ -152,11 +165,11 @@ pub struct NodeWeight<'a, const D: usize> {
 
 /// Nodes of a particle, with the basis functions evaluated there.
 pub trait Patch<const D: usize>: Copy {
-    /// Patches of a batch of particles.
-    type Batch: PatchBatch<D>;
+    /// Shape of the patches of this type.
+    type Shape: Shape + Default;
 
     /// Stores this patch in lane `lane` of a batch.
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch);
+    fn put<W: Shape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>);
 
     /// Returns the moments of the weights.
     fn weight_moments(&self) -> WeightMoments<D>;
@@ -184,57 +197,4 @@ pub struct NodeTerm<F, const D: usize> {
 
 impl<F: Register, const D: usize> NodeTerm<F, D> {
     pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
-}
-
-/// Patches of a batch of particles. Weights are computed for four particles at once. The loops over
-/// nodes process one patch after another, with four components of a node at once.
-pub trait PatchBatch<const D: usize>: Debug {
-    /// Creates an empty batch.
-    fn none() -> Self;
-
-    /// Computes the products of weights that [`PatchBatch::scatter`] needs.
-    fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>);
-
-    /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
-    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used. This
-    /// is valid only for particles with a single patch.
-    fn compute_offsets<S: Simd>(
-        &mut self,
-        simd: S,
-        lanes: &Range<usize>,
-        h: f64,
-        mean: Option<&Vector<D>>,
-    );
-
-    /// Multiplies the matrix with these columns by the inverse inertia tensor of patch `lane`.
-    fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D];
-
-    /// Adds the term of the particle in each of the `lanes` to its nodes in `field`.
-    fn scatter<S: Simd, N: PackedNode>(
-        &self,
-        simd: S,
-        field: FieldViewMut<'_, N>,
-        lanes: Range<usize>,
-        term: impl Fn(usize) -> NodeTerm<N::Lanes<S>, D>,
-    );
-
-    /// Returns `sum_i field_i N_i`.
-    fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4;
-
-    /// Returns `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a N_i` for
-    /// each axis.
-    fn gather_moment<S: Simd>(
-        &self,
-        simd: S,
-        lane: usize,
-        field: &FieldView<'_>,
-    ) -> (S::F64x4, [S::F64x4; D]);
-
-    /// Returns `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each axis.
-    fn gather_gradient<S: Simd>(
-        &self,
-        simd: S,
-        lane: usize,
-        field: &FieldView<'_>,
-    ) -> (S::F64x4, [S::F64x4; D]);
 }

@@ -24,7 +24,7 @@
 //! sign of det R does not change. Moving single corners to the wall could change this sign.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
-use super::product::{Product, ProductBatch};
+use super::product::{Fixed, Product, ProductBatch, Shape};
 use super::weights_1d::Weights1d;
 use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor, times};
 use crate::mpm::foundation::grid::Grid;
@@ -98,12 +98,12 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weight
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
-    type Batch = ProductBatch<D, 2, 1>;
+    type Shape = Fixed<2, true>;
 
     #[inline(always)]
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut Self::Batch) {
-        self.hats.put_into(lane, layout, patches);
-        patches.outward[0][lane] = self.outward;
+    fn put<W: Shape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>) {
+        self.hats.put(lane, layout, patches);
+        patches.outward[lane] = self.outward;
     }
 
     #[inline(always)]

@@ -11,8 +11,8 @@
 //! axis. Otherwise one particle is processed at a time, in groups of three nodes.
 
 use super::cell_locator::{CellLocator, CellPositions};
-use super::contract::{Basis, Domain, FourLanes, NodeWeight, Patch};
-use super::product::{Product, ProductBatch};
+use super::contract::{Basis, Domain, FourLanes, LoopsUser, NodeWeight, Patch};
+use super::product::{Product, ProductBatch, Shape};
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
@@ -27,11 +27,11 @@ pub struct UniformGimp;
 #[derive(Debug, Clone, Copy)]
 pub struct ContiguousGimp;
 
-/// Returns the half-length (m) of the domain of particle `p` along `axis`.
+/// Returns the half-length (m) of the domain of particle `p` along `axis`. Particles of uGIMP have
+/// no column of domains, so both kinds of GIMP share their loops.
 #[inline(always)]
-fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize, follows: bool) -> f64 {
-    let followed = particles.domain.get(p).filter(|_| follows);
-    followed.map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)])
+fn half<const D: usize>(particles: &Particles<D>, p: usize, axis: usize) -> f64 {
+    particles.domain.get(p).map_or(0.5 * particles.spacing[axis], |r| r[(axis, axis)])
 }
 
 #[inline(always)]
@@ -39,7 +39,6 @@ fn patches<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
     p: usize,
-    follows: bool,
     mut visit: impl FnMut(&Product<D, AT_ONCE>),
 ) {
     let x = &particles.x[p];
@@ -47,7 +46,7 @@ fn patches<const D: usize>(
         return;
     }
     let alone = |axis: usize| {
-        let half = half(particles, p, axis, follows) * grid.inverse_h();
+        let half = half(particles, p, axis) * grid.inverse_h();
         Domain1d::new(grid, grid.wrapped(x, axis), half, axis)
     };
     let axes: [Domain1d; D] = array(alone(0), alone);
@@ -67,14 +66,13 @@ fn patches<const D: usize>(
 /// Computes the patches of four particles. Returns the mask of particles with at most [`AT_ONCE`]
 /// functions along each axis.
 #[inline(always)]
-fn patches_x4<S: Simd, const D: usize>(
+fn patches_x4<S: Simd, W: Shape, const D: usize>(
     simd: S,
     grid: &Grid<D>,
     locator: &CellLocator<D>,
     particles: &Particles<D>,
     lanes: FourLanes,
-    follows: bool,
-    patches: &mut ProductBatch<D, AT_ONCE>,
+    patches: &mut ProductBatch<D, W>,
 ) -> u32 {
     let FourLanes { particle: first, lane } = lanes;
     let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);
@@ -82,7 +80,7 @@ fn patches_x4<S: Simd, const D: usize>(
     let domains = particles.domain.get(first..).and_then(<[Matrix<D>]>::first_chunk::<LANES>);
     for axis in 0..D {
         let half = match domains {
-            _ if !follows => simd.splat(0.5 * particles.spacing[axis]),
+            _ if particles.domain.is_empty() => simd.splat(0.5 * particles.spacing[axis]),
             Some(four) => simd.load(array(0.0, |k| four[k][(axis, axis)])),
             None => simd.load(last(particles, first, axis)),
         };
@@ -107,7 +105,7 @@ fn patches_x4<S: Simd, const D: usize>(
 #[cold]
 #[inline(never)]
 fn last<const D: usize>(particles: &Particles<D>, first: usize, axis: usize) -> [f64; LANES] {
-    array(0.0, |k| half(particles, first + k, axis, true))
+    array(0.0, |k| half(particles, first + k, axis))
 }
 
 /// If the `first` node of a domain lies before the start of a periodic axis, wraps it.
@@ -149,20 +147,19 @@ macro_rules! gimp {
                 p: usize,
                 visit: impl FnMut(&Product<D, AT_ONCE>),
             ) {
-                patches(grid, particles, p, Self::DOMAIN == Domain::Follows, visit);
+                patches(grid, particles, p, visit);
             }
 
             #[inline(always)]
-            fn patches_x4<S: Simd, const D: usize>(
+            fn patches_x4<S: Simd, W: Shape, const D: usize>(
                 simd: S,
                 grid: &Grid<D>,
                 locator: &CellLocator<D>,
                 particles: &Particles<D>,
                 lanes: FourLanes,
-                patches: &mut ProductBatch<D, AT_ONCE>,
+                patches: &mut ProductBatch<D, W>,
             ) -> u32 {
-                let follows = Self::DOMAIN == Domain::Follows;
-                patches_x4(simd, grid, locator, particles, lanes, follows, patches)
+                patches_x4(simd, grid, locator, particles, lanes, patches)
             }
 
             fn visit_domain_end<const D: usize>(
@@ -172,7 +169,7 @@ macro_rules! gimp {
                 (axis, outwards): (usize, f64),
                 mut visit: impl FnMut(NodeWeight<'_, D>),
             ) {
-                let half = half(particles, p, axis, Self::DOMAIN == Domain::Follows);
+                let half = half(particles, p, axis);
                 if !is_bent(grid, &particles.x[p], axis, half) {
                     return;
                 }
@@ -186,6 +183,10 @@ macro_rules! gimp {
                     }
                     end.visit(grid, &mut visit);
                 });
+            }
+
+            fn with_loops<U: LoopsUser>(user: U) -> U::Output {
+                user.call::<ContiguousGimp>()
             }
 
             /// Counts three nodes along each axis, the number for domains of at most one cell.

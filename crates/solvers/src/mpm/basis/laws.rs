@@ -2,7 +2,7 @@
 //! walls, and on periodic axes.
 
 use super::{
-    Basis, BasisName, CellLocator, Domain, FourLanes, Patch, PatchBatch, WeightNeeds, contract,
+    Basis, BasisName, CellLocator, Domain, FourLanes, Patch, ProductBatch, WeightNeeds, contract,
     product, weights_1d, with_basis,
 };
 use crate::mpm::foundation::algebra::{Matrix, Vector, dyad};
@@ -151,7 +151,7 @@ fn fill<B: Basis, const D: usize>(periodic: bool) {
         let mut particles = particle(&grid, four[0]);
         particles.x = four.to_vec();
         particles.domain = vec![particles.domain[0]; LANES];
-        let none = <<B as Basis>::Patch<D> as Patch<D>>::Batch::none;
+        let none = || ProductBatch::new(<B::Patch<D> as Patch<D>>::Shape::default());
         let (mut together, mut alone) = (none(), none());
         let needs = WeightNeeds { slopes: true, offsets: true };
         let locator = CellLocator::new(&grid, layout, needs);

@@ -6,7 +6,7 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
-use super::product::{Product, ProductBatch};
+use super::product::{Product, ProductBatch, Shape};
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::grid::Grid;
@@ -49,13 +49,13 @@ impl Basis for Linear {
     }
 
     #[inline(always)]
-    fn patches_x4<S: Simd, const D: usize>(
+    fn patches_x4<S: Simd, W: Shape, const D: usize>(
         simd: S,
         grid: &Grid<D>,
         locator: &CellLocator<D>,
         particles: &Particles<D>,
         lanes: FourLanes,
-        patches: &mut ProductBatch<D, 2>,
+        patches: &mut ProductBatch<D, W>,
     ) -> u32 {
         let FourLanes { particle: first, lane } = lanes;
         let CellPositions { cell, xi, inside } = locator.locate(simd, grid, &particles.x, first);

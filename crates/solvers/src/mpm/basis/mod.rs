@@ -21,8 +21,8 @@ pub use weights_1d::Weights1d;
 #[doc(hidden)]
 pub use self::{
     cell_locator::CellLocator,
-    contract::{FourLanes, NodeTerm, PatchBatch},
-    product::ProductBatch,
+    contract::{FourLanes, LoopsUser, NodeTerm},
+    product::{Counted, Fixed, ProductBatch, Shape},
     weights_1d::Weights1dBatch,
 };
 

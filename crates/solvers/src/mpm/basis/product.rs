@@ -3,41 +3,30 @@
 //!
 //! G2P sums are computed axis by axis, so the work per node does not depend on the number of axes.
 
-use super::contract::{NodeTerm, NodeWeight, Patch, PatchBatch};
-use super::weights_1d::{Weights1d, Weights1dBatch, lane_functions, product};
+use super::contract::{NodeTerm, NodeWeight, Patch};
+use super::weights_1d::{MOST, Weights1d, Weights1dBatch, lane_functions, product};
 use crate::mpm::foundation::algebra::{Vector, array, zeros};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::{FieldView, FieldViewMut, Layout, Node4, PackedNode};
 use crate::mpm::foundation::simd::{BATCH, F64Batch, LANES, Register, Simd, registers_of};
+use std::fmt::Debug;
 use std::ops::Range;
 
 /// Products of one-dimensional functions, with K functions along each axis; K is at most 4.
 #[derive(Debug, Clone, Copy)]
 pub struct Product<const D: usize, const K: usize>(pub [Weights1d<K>; D]);
 
-impl<const D: usize, const K: usize> Product<D, K> {
+impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
+    type Shape = Fixed<K>;
+
     #[inline(always)]
-    pub(super) fn put_into<const OUTWARD: usize>(
-        &self,
-        lane: usize,
-        layout: &Layout,
-        patches: &mut ProductBatch<D, K, OUTWARD>,
-    ) {
+    fn put<W: Shape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>) {
         let first = array::<D, _>(0, |axis| self.0[axis].first);
         patches.start[lane] = layout.number(&first) as u32;
         for axis in 0..D {
             patches.axes[axis].put(lane, &self.0[axis]);
         }
-    }
-}
-
-impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
-    type Batch = ProductBatch<D, K>;
-
-    #[inline(always)]
-    fn put(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, K>) {
-        self.put_into(lane, layout, patches);
     }
 
     #[inline(always)]
@@ -94,18 +83,71 @@ impl<const D: usize, const K: usize> Patch<D> for Product<D, K> {
     }
 }
 
-/// Batch of [`Product`]s. If `OUTWARD` is 1, the gradient of a function is its weight times a
-/// vector of the patch, as for the corners of [CPDI](super::Cpdi). If `OUTWARD` is 0, the gradient
-/// is the derivative of the function.
+/// Shape of the patches of a batch: a constant of the compiler ([`Fixed`]), or numbers
+/// ([`Counted`]).
+pub trait Shape: Copy + Debug {
+    /// Number of functions along each axis, at most 4.
+    fn functions(self) -> usize;
+
+    /// Whether the gradient of a function is its weight times a vector of the patch, as for the
+    /// corners of [CPDI](super::Cpdi). Otherwise the gradient is the derivative of the function.
+    fn is_outward(self) -> bool;
+}
+
+/// Shape for loops that the compiler unrolls.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Fixed<const K: usize, const OUTWARD: bool = false>;
+
+impl<const K: usize, const OUTWARD: bool> Shape for Fixed<K, OUTWARD> {
+    #[inline(always)]
+    fn functions(self) -> usize {
+        K
+    }
+
+    #[inline(always)]
+    fn is_outward(self) -> bool {
+        OUTWARD
+    }
+}
+
+/// Shape for loops that are compiled once for all bases.
+#[derive(Debug, Clone, Copy)]
+pub struct Counted {
+    functions: usize,
+    is_outward: bool,
+}
+
+impl Counted {
+    pub(in crate::mpm) fn new(shape: impl Shape) -> Self {
+        Self { functions: shape.functions(), is_outward: shape.is_outward() }
+    }
+}
+
+impl Shape for Counted {
+    #[inline(always)]
+    fn functions(self) -> usize {
+        self.functions
+    }
+
+    #[inline(always)]
+    fn is_outward(self) -> bool {
+        self.is_outward
+    }
+}
+
+/// Patches of a batch of particles, as [`Product`]s. Weights are computed for four particles at
+/// once. The loops over nodes process one patch after another, with four components of a node at
+/// once.
 #[derive(Debug)]
-pub struct ProductBatch<const D: usize, const K: usize, const OUTWARD: usize = 0> {
+pub struct ProductBatch<const D: usize, W> {
+    shape: W,
     /// Index of the first node of each patch in a packed field.
     pub(in crate::mpm) start: [u32; BATCH],
-    pub(in crate::mpm) axes: [Weights1dBatch<K>; D],
-    /// Vectors that convert weights to gradients (1/m).
-    pub(in crate::mpm) outward: [[Vector<D>; BATCH]; OUTWARD],
+    pub(in crate::mpm) axes: [Weights1dBatch; D],
+    /// Vectors that convert weights to gradients (1/m), if the shape is outward.
+    pub(in crate::mpm) outward: [Vector<D>; BATCH],
     /// Product of row weight and plane weight, for each row.
-    row_weights: [[F64Batch; K]; K],
+    row_weights: [[F64Batch; MOST]; MOST],
 }
 
 #[inline(always)]
@@ -116,10 +158,17 @@ fn plus_product<F: Register>(sum: Option<F>, a: F, b: f64) -> F {
     }
 }
 
-impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
-    /// Number of rows in a plane; one in 1-D.
-    pub(in crate::mpm) const ROWS: usize = if D > 1 { K } else { 1 };
-    pub(in crate::mpm) const PLANES: usize = if D > 2 { K } else { 1 };
+impl<const D: usize, W: Shape> ProductBatch<D, W> {
+    /// Returns the number of rows in a plane; one in 1-D.
+    #[inline(always)]
+    fn rows(&self) -> usize {
+        if D > 1 { self.shape.functions() } else { 1 }
+    }
+
+    #[inline(always)]
+    fn planes(&self) -> usize {
+        if D > 2 { self.shape.functions() } else { 1 }
+    }
 
     #[inline(always)]
     pub(in crate::mpm) fn put_starts(&mut self, lane: usize, starts: [u32; LANES]) {
@@ -165,8 +214,8 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     /// value.
     #[inline(always)]
     fn fold_flux<F: Register>(&self, lane: usize, term: NodeTerm<F, D>) -> NodeTerm<F, D> {
-        let (Some(outward), Some(flux)) = (self.outward.first(), term.flux) else { return term };
-        let outward = &outward[lane % BATCH];
+        let (true, Some(flux)) = (self.shape.is_outward(), term.flux) else { return term };
+        let outward = &self.outward[lane % BATCH];
         let mut value = flux[0] * outward[0];
         for axis in 1..D {
             value += flux[axis] * outward[axis];
@@ -185,14 +234,14 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         &self,
         lane: usize,
         term: NodeTerm<N::Lanes<S>, D>,
-        accumulator: &mut NodeAccumulator<'_, S, N, K>,
+        accumulator: &mut NodeAccumulator<'_, S, N, W>,
     ) {
         let NodeTerm { value, slope, flux } = self.fold_flux(lane, term);
         let (start, x, weights) =
             (self.start(lane), &self.axes[0], lane_functions(&self.axes[0].weight, lane));
         // Loops are used, because closures are not always inlined.
-        let (mut first, mut rise) = ([None; K], [None; K]);
-        for i in 0..K {
+        let (mut first, mut rise) = ([None; MOST], [None; MOST]);
+        for i in 0..self.shape.functions() {
             if let Some(slope) = &slope {
                 first[i] = Some(slope[0] * x.weighted_offset[i].get(lane));
                 if D > 1 {
@@ -203,7 +252,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                 first[i] = Some(plus_product(first[i], flux[0], x.slope[i].get(lane)));
             }
         }
-        for k in 0..Self::PLANES {
+        for k in 0..self.planes() {
             let mut of_plane = value;
             if D > 2
                 && let (Some(value), Some(slope)) = (value, &slope)
@@ -211,7 +260,7 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
                 let offset = self.axes[2].offset_from_mean[k].get(lane);
                 of_plane = Some(value.plus_product(slope[2], offset));
             }
-            for j in 0..Self::ROWS {
+            for j in 0..self.rows() {
                 let (weight, mut of_row) = (self.row_weight(lane, j, k), of_plane);
                 if let (Some(value), Some(rise)) = (of_plane, rise[j]) {
                     of_row = Some(value + rise);
@@ -251,26 +300,27 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     }
 }
 
-impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
-    for ProductBatch<D, K, OUTWARD>
-{
+impl<const D: usize, W: Shape> ProductBatch<D, W> {
+    /// Creates an empty batch.
     #[inline]
-    fn none() -> Self {
+    pub(in crate::mpm) fn new(shape: W) -> Self {
         Self {
+            shape,
             start: [0; BATCH],
             axes: [Weights1dBatch::NONE; D],
-            outward: [[zeros(); BATCH]; OUTWARD],
-            row_weights: [[F64Batch::ZERO; K]; K],
+            outward: [zeros(); BATCH],
+            row_weights: [[F64Batch::ZERO; MOST]; MOST],
         }
     }
 
+    /// Computes the products of weights that [`scatter`](Self::scatter) needs.
     #[inline(always)]
-    fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>) {
+    pub(in crate::mpm) fn compute_row_weights<S: Simd>(&mut self, simd: S, lanes: &Range<usize>) {
         if D > 2 {
             for register in registers_of(lanes) {
-                for k in 0..K {
+                for k in 0..self.shape.functions() {
                     let plane = self.axes[2].weight[k].load(simd, register);
-                    for j in 0..K {
+                    for j in 0..self.shape.functions() {
                         let row = self.axes[1].weight[j].load(simd, register);
                         self.row_weights[k][j].store(register, row * plane);
                     }
@@ -279,8 +329,11 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
         }
     }
 
+    /// Computes offsets `x_i - x_p - mean` (m) and the inverse of the inertia tensor (1/m^2), for
+    /// cells of size `h` (m). Without `mean`, the mean over the nodes of each patch is used. This
+    /// is valid only for particles with a single patch.
     #[inline(always)]
-    fn compute_offsets<S: Simd>(
+    pub(in crate::mpm) fn compute_offsets<S: Simd>(
         &mut self,
         simd: S,
         lanes: &Range<usize>,
@@ -289,67 +342,83 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> PatchBatch<D>
     ) {
         for register in registers_of(lanes) {
             for axis in 0..D {
-                self.axes[axis].center_offsets(simd, register, h, mean.map(|mean| mean[axis]));
+                let (functions, mean) = (self.shape.functions(), mean.map(|mean| mean[axis]));
+                self.axes[axis].center_offsets(simd, register, functions, h, mean);
             }
         }
     }
 
+    /// Multiplies the matrix with these columns by the inverse inertia tensor of patch `lane`.
     #[inline(always)]
-    fn divide<S: Simd>(&self, lane: usize, columns: &[S::F64x4; D]) -> [S::F64x4; D] {
+    pub(in crate::mpm) fn divide<S: Simd>(
+        &self,
+        lane: usize,
+        columns: &[S::F64x4; D],
+    ) -> [S::F64x4; D] {
         array(columns[0], |axis| columns[axis] * self.axes[axis].inverse.get(lane))
     }
 
+    /// Adds the term of the particle in each of the `lanes` to its nodes in `field`.
     #[inline(always)]
-    fn scatter<S: Simd, N: PackedNode>(
+    pub(in crate::mpm) fn scatter<S: Simd, N: PackedNode>(
         &self,
         simd: S,
         field: FieldViewMut<'_, N>,
         lanes: Range<usize>,
         term: impl Fn(usize) -> NodeTerm<N::Lanes<S>, D>,
     ) {
-        let mut accumulator = NodeAccumulator::new(simd, field);
+        let mut accumulator = NodeAccumulator::new(simd, self.shape, field);
         for lane in lanes {
             self.add(lane, term(lane), &mut accumulator);
         }
         accumulator.flush();
     }
 
+    /// Returns `sum_i field_i N_i`.
     #[inline(always)]
-    fn gather<S: Simd>(&self, simd: S, lane: usize, field: &FieldView<'_>) -> S::F64x4 {
-        self.sums(simd, lane, field, &[[0.0; K]; D]).0
+    pub(in crate::mpm) fn gather<S: Simd>(
+        &self,
+        simd: S,
+        lane: usize,
+        field: &FieldView<'_>,
+    ) -> S::F64x4 {
+        self.sums(simd, lane, field, &[[0.0; MOST]; D]).0
     }
 
+    /// Returns `sum_i field_i N_i`, and the moments `sum_i field_i (x_i - x_p - mean)_a N_i` for
+    /// each axis.
     #[inline(always)]
-    fn gather_moment<S: Simd>(
+    pub(in crate::mpm) fn gather_moment<S: Simd>(
         &self,
         simd: S,
         lane: usize,
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]) {
         let axis = |axis: usize| lane_functions(&self.axes[axis].weighted_offset, lane);
-        self.sums(simd, lane, field, &array([0.0; K], axis))
+        self.sums(simd, lane, field, &array([0.0; MOST], axis))
     }
 
+    /// Returns `sum_i field_i N_i`, and the gradient `sum_i field_i dN_i/dx_a` for each axis.
     #[inline(always)]
-    fn gather_gradient<S: Simd>(
+    pub(in crate::mpm) fn gather_gradient<S: Simd>(
         &self,
         simd: S,
         lane: usize,
         field: &FieldView<'_>,
     ) -> (S::F64x4, [S::F64x4; D]) {
-        if let Some(outward) = self.outward.first() {
-            let (sum, outward) = (self.gather(simd, lane, field), &outward[lane % BATCH]);
+        if self.shape.is_outward() {
+            let (sum, outward) = (self.gather(simd, lane, field), &self.outward[lane % BATCH]);
             return (sum, array(sum, |axis| sum * outward[axis]));
         }
         let axis = |axis: usize| lane_functions(&self.axes[axis].slope, lane);
-        self.sums(simd, lane, field, &array([0.0; K], axis))
+        self.sums(simd, lane, field, &array([0.0; MOST], axis))
     }
 }
 
 #[inline(always)]
-fn dot<S: Simd, const K: usize>(simd: S, row: &[Node4], factors: &[f64; K]) -> S::F64x4 {
+fn dot<S: Simd>(simd: S, row: &[Node4], factors: &[f64; MOST]) -> S::F64x4 {
     let mut sum = simd.load(row[0].0) * factors[0];
-    for k in 1..K {
+    for k in 1..row.len() {
         sum = sum.plus_product(simd.load(row[k].0), factors[k]);
     }
     sum
@@ -360,7 +429,7 @@ fn put<F: Register>(sum: &mut F, k: usize, a: F, b: f64) {
     *sum = if k == 0 { a * b } else { sum.plus_product(a, b) };
 }
 
-impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OUTWARD> {
+impl<const D: usize, W: Shape> ProductBatch<D, W> {
     /// Returns `sum_i field_i N_i`, and for each axis the same sum with the functions of `others`
     /// along this axis.
     #[inline(always)]
@@ -369,15 +438,15 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
         simd: S,
         lane: usize,
         field: &FieldView<'_>,
-        others: &[[f64; K]; D],
+        others: &[[f64; MOST]; D],
     ) -> (S::F64x4, [S::F64x4; D]) {
         let (start, weights) = (self.start(lane), lane_functions(&self.axes[0].weight, lane));
         let zero = simd.splat(0.0);
         let (mut sum, mut other) = (zero, [zero; D]);
-        for k in 0..Self::PLANES {
+        for k in 0..self.planes() {
             let (mut plane, mut across, mut along) = (zero, zero, zero);
-            for j in 0..Self::ROWS {
-                let row = field.row::<K>(start + field.layout.row(j, k));
+            for j in 0..self.rows() {
+                let row = field.row(start + field.layout.row(j, k), self.shape.functions());
                 let (terms, others_of_row) = (dot(simd, row, &weights), dot(simd, row, &others[0]));
                 if D == 1 {
                     return (terms, [others_of_row; D]);
@@ -402,22 +471,23 @@ impl<const D: usize, const K: usize, const OUTWARD: usize> ProductBatch<D, K, OU
     }
 }
 
-/// Field that receives the sums of P2G. In 1-D, the sums of K consecutive nodes stay in registers.
+/// Field that receives the sums of P2G. In 1-D, the sums of a patch of nodes stay in registers.
 #[derive(Debug)]
-pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, const K: usize> {
+pub(super) struct NodeAccumulator<'a, S: Simd, N: PackedNode, W> {
     pub(in crate::mpm) simd: S,
+    shape: W,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
     /// First node whose sums are in registers; [`NONE`] if there are no such sums.
     start: usize,
-    sums: [N::Lanes<S>; K],
+    sums: [N::Lanes<S>; MOST],
 }
 
 const NONE: usize = usize::MAX;
 
-impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
+impl<'a, S: Simd, N: PackedNode, W: Shape> NodeAccumulator<'a, S, N, W> {
     #[inline(always)]
-    pub(in crate::mpm) fn new(simd: S, field: FieldViewMut<'a, N>) -> Self {
-        Self { simd, field, start: NONE, sums: [N::zero(simd); K] }
+    pub(in crate::mpm) fn new(simd: S, shape: W, field: FieldViewMut<'a, N>) -> Self {
+        Self { simd, shape, field, start: NONE, sums: [N::zero(simd); MOST] }
     }
 
     /// Adds a term to every node of row `j` in plane `k` of the box of nodes that starts at
@@ -434,7 +504,7 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
         if D == 1 {
             return self.add_in_registers(start, with_term);
         }
-        let row = self.field.row::<K>(start + self.field.layout.row(j, k));
+        let row = self.field.row(start + self.field.layout.row(j, k), self.shape.functions());
         for (i, node) in row.iter_mut().enumerate() {
             node.store::<S>(with_term(i, node.load(self.simd)));
         }
@@ -448,11 +518,13 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
     ) {
         if start != self.start {
             self.flush();
-            let row = self.field.row::<K>(start);
-            self.sums = array(self.sums[0], |i| row[i].load(self.simd));
+            let row = self.field.row(start, self.shape.functions());
+            for i in 0..self.shape.functions() {
+                self.sums[i] = row[i].load(self.simd);
+            }
             self.start = start;
         }
-        for i in 0..K {
+        for i in 0..self.shape.functions() {
             self.sums[i] = with_term(i, self.sums[i]);
         }
     }
@@ -460,8 +532,8 @@ impl<'a, S: Simd, N: PackedNode, const K: usize> NodeAccumulator<'a, S, N, K> {
     #[inline(always)]
     pub(in crate::mpm) fn flush(&mut self) {
         if self.start != NONE {
-            let row = self.field.row::<K>(self.start);
-            for i in 0..K {
+            let row = self.field.row(self.start, self.shape.functions());
+            for i in 0..self.shape.functions() {
                 row[i].store::<S>(self.sums[i]);
             }
             self.start = NONE;

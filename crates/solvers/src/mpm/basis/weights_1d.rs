@@ -3,6 +3,7 @@
 use super::cell_locator::WeightNeeds;
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::moments::SMALLEST;
+use crate::mpm::foundation::packed_grid::MARGIN;
 use crate::mpm::foundation::simd::{F64Batch, F64x4, Simd};
 
 /// K neighbouring functions along one axis.
@@ -82,7 +83,7 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
         self,
         register: usize,
         needs: WeightNeeds,
-        weights: &mut Weights1dBatch<K>,
+        weights: &mut Weights1dBatch,
     ) {
         for k in 0..K {
             weights.weight[k].store(register, self.weight[k]);
@@ -113,35 +114,40 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
     }
 }
 
-/// K neighbouring functions of a batch of particles, with the quantities of [`Weights1d`].
+/// Maximum number of functions of a patch along an axis.
+pub(in crate::mpm) const MOST: usize = MARGIN + 1;
+
+/// Up to [`MOST`] neighbouring functions of a batch of particles, with the quantities of
+/// [`Weights1d`]. The size does not depend on the number of functions, so that loops need not be
+/// compiled for each number.
 #[derive(Debug, Clone, Copy)]
-pub struct Weights1dBatch<const K: usize> {
-    pub(in crate::mpm) weight: [F64Batch; K],
-    pub(in crate::mpm) slope: [F64Batch; K],
-    pub(in crate::mpm) offset: [F64Batch; K],
+pub struct Weights1dBatch {
+    pub(in crate::mpm) weight: [F64Batch; MOST],
+    pub(in crate::mpm) slope: [F64Batch; MOST],
+    pub(in crate::mpm) offset: [F64Batch; MOST],
     /// Variance (m^2), as in [`Weights1d`].
     pub(in crate::mpm) variance: F64Batch,
     /// Offset of each function from the mean (m).
-    pub(in crate::mpm) offset_from_mean: [F64Batch; K],
+    pub(in crate::mpm) offset_from_mean: [F64Batch; MOST],
     /// Offset of each function from the mean, times the weight (m).
-    pub(in crate::mpm) weighted_offset: [F64Batch; K],
+    pub(in crate::mpm) weighted_offset: [F64Batch; MOST],
     /// Inverse of the variance (1/m^2); zero if the variance is zero.
     pub(in crate::mpm) inverse: F64Batch,
 }
 
-impl<const K: usize> Weights1dBatch<K> {
+impl Weights1dBatch {
     pub(in crate::mpm) const NONE: Self = Self {
-        weight: [F64Batch::ZERO; K],
-        slope: [F64Batch::ZERO; K],
-        offset: [F64Batch::ZERO; K],
+        weight: [F64Batch::ZERO; MOST],
+        slope: [F64Batch::ZERO; MOST],
+        offset: [F64Batch::ZERO; MOST],
         variance: F64Batch::ZERO,
-        offset_from_mean: [F64Batch::ZERO; K],
-        weighted_offset: [F64Batch::ZERO; K],
+        offset_from_mean: [F64Batch::ZERO; MOST],
+        weighted_offset: [F64Batch::ZERO; MOST],
         inverse: F64Batch::ZERO,
     };
 
     #[inline(always)]
-    pub(in crate::mpm) fn put(&mut self, lane: usize, along: &Weights1d<K>) {
+    pub(in crate::mpm) fn put<const K: usize>(&mut self, lane: usize, along: &Weights1d<K>) {
         for k in 0..K {
             self.weight[k].0[lane] = along.weight[k];
             self.slope[k].0[lane] = along.slope[k];
@@ -151,32 +157,33 @@ impl<const K: usize> Weights1dBatch<K> {
     }
 
     /// Computes offsets from `mean` (m), or from the mean of the functions of each particle, and
-    /// the inverse of the variance. Offsets are multiplied by weights before any sum, so that
-    /// rounding does not affect the inertia tensor near a wall.
+    /// the inverse of the variance, for the first `functions` functions. Offsets are multiplied by
+    /// weights before any sum, so that rounding does not affect the inertia tensor near a wall.
     #[inline(always)]
     pub(in crate::mpm) fn center_offsets<S: Simd>(
         &mut self,
         simd: S,
         register: usize,
+        functions: usize,
         h: f64,
         mean: Option<f64>,
     ) {
         let zero = simd.splat(0.0);
-        let load = |functions: &[F64Batch; K]| -> [S::F64x4; K] {
+        let load = |functions: &[F64Batch; MOST]| -> [S::F64x4; MOST] {
             array(zero, |k| functions[k].load(simd, register))
         };
         let (weight, offset) = (load(&self.weight), load(&self.offset));
         let mean = mean.map_or_else(
             || {
                 let mut mean = weight[0] * offset[0];
-                for k in 1..K {
+                for k in 1..functions {
                     mean += weight[k] * offset[k];
                 }
                 mean
             },
             |mean| simd.splat(mean),
         );
-        for k in 0..K {
+        for k in 0..functions {
             let from_mean = offset[k] - mean;
             self.offset_from_mean[k].store(register, from_mean);
             self.weighted_offset[k].store(register, from_mean * weight[k]);
@@ -187,7 +194,7 @@ impl<const K: usize> Weights1dBatch<K> {
 }
 
 #[inline(always)]
-pub(super) fn lane_functions<const K: usize>(functions: &[F64Batch; K], lane: usize) -> [f64; K] {
+pub(super) fn lane_functions(functions: &[F64Batch; MOST], lane: usize) -> [f64; MOST] {
     array(0.0, |k| functions[k].get(lane))
 }
 
@@ -198,11 +205,11 @@ mod tests {
 
     #[test]
     fn inverse_is_zero_without_a_second_moment() {
-        let mut weights = Weights1dBatch::<2>::NONE;
+        let mut weights = Weights1dBatch::NONE;
         for (lane, variance) in [0.25, 1e-20, 0.0, f64::NAN].into_iter().enumerate() {
             weights.variance.0[LANES + lane] = variance;
         }
-        weights.center_offsets(Plain, 1, 1.0, None);
+        weights.center_offsets(Plain, 1, 2, 1.0, None);
         assert_eq!(weights.inverse.0[LANES..2 * LANES], [4.0, 0.0, 0.0, 0.0]);
     }
 }

@@ -1,40 +1,45 @@
 //! Batches of particles: their patches of nodes, the moments of their weights, and the conversion
 //! of matrices to registers.
 
-use crate::mpm::basis::{Basis, CellLocator, FourLanes, Patch, PatchBatch, WeightNeeds};
+use super::source::PatchSource;
+use crate::mpm::basis::{CellLocator, FourLanes, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, array, zeros};
 use crate::mpm::foundation::grid::Grid;
-use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
+use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
-use std::marker::PhantomData;
+use std::hint::black_box;
 use std::ops::Range;
 
-pub(in crate::mpm) type Batch<B, const D: usize> = <<B as Basis>::Patch<D> as Patch<D>>::Batch;
+pub(in crate::mpm) type Batch<P, const D: usize> = ProductBatch<D, <P as PatchSource<D>>::Shape>;
+
+type Visitor<'a, P, const D: usize> =
+    dyn FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>) + 'a;
 
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
 /// Batches of particles, with the data that locates their patches. The patches are not stored in
 /// this struct, because its fields would then be reloaded after every store of a weight.
-pub(in crate::mpm) struct ParticleBatches<'a, B: Basis, const D: usize> {
+pub(in crate::mpm) struct ParticleBatches<'a, P, const D: usize> {
     pub(in crate::mpm) particles: &'a Particles<D>,
     grid: &'a Grid<D>,
     locator: CellLocator<D>,
     needs: WeightNeeds,
-    basis: PhantomData<B>,
+    source: P,
 }
 
-impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
+impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
     #[inline(always)]
     pub(in crate::mpm) fn new(
+        source: P,
         grid: &'a Grid<D>,
         layout: Layout,
         particles: &'a Particles<D>,
         needs: WeightNeeds,
     ) -> Self {
         let locator = CellLocator::new(grid, layout, needs);
-        Self { particles, grid, locator, needs, basis: PhantomData }
+        Self { particles, grid, locator, needs, source }
     }
 
     /// Calls `visit` for the patches of the batch that starts at particle `first`. The arguments of
@@ -49,18 +54,34 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
         &self,
         simd: S,
         first: usize,
-        patches: &mut Batch<B, D>,
-        mut visit: impl FnMut(&mut Batch<B, D>, Range<usize>, Option<&InertiaTensor<D>>),
+        patches: &mut Batch<P, D>,
+        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>),
     ) -> u32 {
-        let Self { particles, grid, locator, .. } = self;
+        if const { P::IS_DYN } {
+            // Without the type of `visit`, the compiler does not copy its loop to each call.
+            let visit: &mut Visitor<'_, P, D> = black_box(&mut visit);
+            return self.visit_with(simd, first, patches, visit);
+        }
+        self.visit_with(simd, first, patches, visit)
+    }
+
+    #[inline(always)]
+    fn visit_with<S: Simd>(
+        &self,
+        simd: S,
+        first: usize,
+        patches: &mut Batch<P, D>,
+        mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>),
+    ) -> u32 {
+        let Self { particles, grid, locator, source, .. } = self;
         let count = BATCH.min(particles.len() - first);
         let (mut one, mut lane) = (0, 0);
         while lane < count {
             let lanes = FourLanes { particle: first + lane, lane };
-            one |= B::patches_x4(simd, grid, locator, particles, lanes, patches) << lane;
+            one |= source.patches_x4(simd, grid, locator, particles, lanes, patches) << lane;
             lane += LANES;
         }
-        if B::ONE_PATCH {
+        if const { P::ONE_PATCH } || source.has_one_patch() {
             let (mut rest, mut lane) = (one, 0);
             while rest != 0 {
                 let from = lane + rest.trailing_zeros();
@@ -79,48 +100,23 @@ impl<'a, B: Basis, const D: usize> ParticleBatches<'a, B, D> {
                 continue;
             }
             let of_all = if self.needs.offsets {
-                Some(inertia::<D, B>(grid, particles, first + lane))
+                Some(source.inertia(grid, particles, first + lane))
             } else {
                 None
             };
-            B::patches(
+            source.each_patch(
                 grid,
+                &locator.layout,
                 particles,
-                first + lane,
+                (first + lane, lane),
+                patches,
                 #[inline(always)]
-                |patch| {
-                    patch.put(lane, &locator.layout, patches);
-                    visit(patches, lane..lane + 1, of_all.as_ref());
-                },
+                |patches| visit(patches, lane..lane + 1, of_all.as_ref()),
             );
             lane += 1;
         }
         ALL
     }
-}
-
-/// Computes mean and second moments of the weights of particle `p` over all its patches.
-#[inline(always)]
-pub(in crate::mpm) fn inertia<const D: usize, B: Basis>(
-    grid: &Grid<D>,
-    particles: &Particles<D>,
-    p: usize,
-) -> InertiaTensor<D> {
-    let mut all = WeightMoments { first: zeros(), second: zeros() };
-    let mut one = InertiaTensor { mean: zeros(), second: zeros() };
-    let mut patches = 0;
-    B::patches(grid, particles, p, |patch| {
-        let (mean, variance) = patch.variance();
-        one = InertiaTensor::diagonal(mean, variance);
-        patches += 1;
-        if !B::ONE_PATCH {
-            let weight_moments = patch.weight_moments();
-            all.first += weight_moments.first;
-            all.second += weight_moments.second;
-        }
-    });
-    // A single patch is a product of one-dimensional functions, so its tensor is diagonal.
-    if B::ONE_PATCH || patches == 1 { one } else { InertiaTensor::full(&all) }
 }
 
 /// Loads the columns of a matrix, each into a register, starting at lane `from`.
@@ -158,9 +154,9 @@ pub(super) fn put_columns<const D: usize, F: Into<[f64; 4]> + Copy>(
 /// Computes the columns of `matrix D_p^-1`, each in a register, starting at lane `from`. Uses the
 /// inertia tensor of all patches of the particle if given, otherwise the tensor of its only patch.
 #[inline(always)]
-pub(super) fn divide<B: Basis, S: Simd, const D: usize>(
+pub(super) fn divide<P: PatchSource<D>, S: Simd, const D: usize>(
     simd: S,
-    patches: &Batch<B, D>,
+    patches: &Batch<P, D>,
     lane: usize,
     of_all: Option<&InertiaTensor<D>>,
     matrix: &[S::F64x4; D],

@@ -2,25 +2,26 @@
 
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
-use crate::mpm::basis::{Basis, PatchBatch, WeightNeeds};
+use super::source::{DynBasis, PatchSource};
+use crate::mpm::basis::{ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::FieldView;
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Simd, SimdPass, components};
-use std::marker::PhantomData;
+use crate::mpm::foundation::simd::{BATCH, F64x4, LANES, Plain, Simd, SimdPass, components};
+use std::hint::black_box;
 use std::ops::Range;
 
 /// G2P pass. Velocities and accelerations are in one packed field if [`are_beside`] returns true,
 /// otherwise in two.
-pub(in crate::mpm) struct Gather<'a, const D: usize, B> {
+pub(in crate::mpm) struct Gather<'a, const D: usize, P> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: G2pRequest<'a, D>,
     pub(in crate::mpm) fields: [FieldView<'a>; 2],
-    pub(in crate::mpm) basis: PhantomData<B>,
+    pub(in crate::mpm) source: P,
 }
 
 /// Whether one packed field contains both velocities and accelerations, so that nodes are visited
@@ -73,15 +74,15 @@ impl<S: Simd, const D: usize> G2pSums<S, D> {
 
 /// Adds the term of a patch, or stores it if each particle has only one patch.
 #[inline(always)]
-fn put<B: Basis, F: F64x4>(sum: &mut F, term: F) {
-    if B::ONE_PATCH {
+fn put<F: F64x4>(sum: &mut F, term: F, has_one_patch: bool) {
+    if has_one_patch {
         *sum = term;
     } else {
         *sum += term;
     }
 }
 
-impl<const D: usize, B: Basis> Gather<'_, D, B> {
+impl<const D: usize, P: PatchSource<D>> Gather<'_, D, P> {
     /// Whether the request needs moments, either directly or divided by D_p.
     #[inline]
     fn takes_moments(&self) -> bool {
@@ -94,17 +95,18 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
     fn gather_patches<S: Simd>(
         &self,
         simd: S,
-        patches: &mut Batch<B, D>,
+        patches: &mut Batch<P, D>,
         lanes: Range<usize>,
         of_all: Option<&InertiaTensor<D>>,
         moments: bool,
         sums: &mut G2pSums<S, D>,
     ) {
         let ([velocity, acceleration], request) = (&self.fields, &self.request);
+        let one = self.source.has_one_patch();
         let beside = request.change.is_some() && are_beside::<D>();
         if const { !are_beside::<D>() } && request.change.is_some() {
             for lane in lanes.clone() {
-                put::<B, _>(&mut sums.change[lane], patches.gather(simd, lane, acceleration));
+                put(&mut sums.change[lane], patches.gather(simd, lane, acceleration), one);
             }
         }
         let mut is_summed = request.mix.is_none() && request.advected.is_none() && !beside;
@@ -114,16 +116,16 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             for lane in lanes.clone() {
                 let (sum, moment) = patches.gather_moment(simd, lane, velocity);
                 for axis in 0..D {
-                    put::<B, _>(&mut sums.moment[lane][axis], moment[axis]);
+                    put(&mut sums.moment[lane][axis], moment[axis], one);
                 }
                 if request.fit.is_some() {
-                    let fit = divide::<B, S, D>(simd, patches, lane, of_all, &moment, 0, h);
+                    let fit = divide::<P, S, D>(simd, patches, lane, of_all, &moment, 0, h);
                     for axis in 0..D {
-                        put::<B, _>(&mut sums.fit[lane][axis], fit[axis]);
+                        put(&mut sums.fit[lane][axis], fit[axis], one);
                     }
                 }
                 if !is_summed {
-                    put::<B, _>(&mut sums.velocity[lane], sum);
+                    put(&mut sums.velocity[lane], sum, one);
                 }
             }
             is_summed = true;
@@ -132,17 +134,17 @@ impl<const D: usize, B: Basis> Gather<'_, D, B> {
             for lane in lanes.clone() {
                 let (sum, gradient) = patches.gather_gradient(simd, lane, velocity);
                 for axis in 0..D {
-                    put::<B, _>(&mut sums.gradient[lane][axis], gradient[axis]);
+                    put(&mut sums.gradient[lane][axis], gradient[axis], one);
                 }
                 if !is_summed {
-                    put::<B, _>(&mut sums.velocity[lane], sum);
+                    put(&mut sums.velocity[lane], sum, one);
                 }
             }
             is_summed = true;
         }
         if !is_summed {
             for lane in lanes {
-                put::<B, _>(&mut sums.velocity[lane], patches.gather(simd, lane, velocity));
+                put(&mut sums.velocity[lane], patches.gather(simd, lane, velocity), one);
             }
         }
     }
@@ -196,7 +198,7 @@ fn put_all<const D: usize, F: F64x4>(matrices: &mut [Matrix<D>], columns: &[[F; 
     }
 }
 
-impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
+impl<const D: usize, P: PatchSource<D>> SimdPass for Gather<'_, D, P> {
     // In 3-D, the sums along several axes and their factors need more than 16 registers.
     const NEEDS_AVX512: bool = D == 3;
 
@@ -205,12 +207,12 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
         let slopes = self.request.gradient.is_some();
         let offsets = self.takes_moments();
         let layout = self.fields[0].layout;
-        let mut patches = Batch::<B, D>::none();
+        let mut patches = ProductBatch::new(self.source.shape());
         let needs = WeightNeeds { slopes, offsets };
-        let batches = ParticleBatches::<B, D>::new(self.grid, layout, self.particles, needs);
+        let batches = ParticleBatches::new(self.source, self.grid, layout, self.particles, needs);
         let mut sums = G2pSums::zero(simd);
         for first in self.range.clone().step_by(BATCH) {
-            if !B::ONE_PATCH {
+            if !self.source.has_one_patch() {
                 sums.reset(simd, offsets, slopes, |_| true);
             }
             let seen = batches.visit(
@@ -229,5 +231,19 @@ impl<const D: usize, B: Basis> SimdPass for Gather<'_, D, B> {
             }
             self.write(first - self.range.start, offsets, &sums);
         }
+    }
+
+    fn run_plain(self) {
+        let Self { grid, particles, range, request, fields, source } = self;
+        let source = black_box(source.as_dyn());
+        Gather { grid, particles, range, request, fields, source }.run_for_any_basis();
+    }
+}
+
+impl<const D: usize> Gather<'_, D, &dyn DynBasis<D>> {
+    /// Runs the loop, like `Scatter::run_for_any_basis`.
+    #[inline(never)]
+    fn run_for_any_basis(self) {
+        self.run(Plain);
     }
 }

@@ -26,11 +26,12 @@ mod colouring;
 mod g2p;
 mod p2g;
 mod parallel;
+mod source;
 mod workspace;
 
-use self::batch::inertia;
+use self::source::inertia;
 use self::workspace::Workspace;
-use super::basis::{Basis, BasisName, Domain, with_basis};
+use super::basis::{Basis, BasisName, Domain, LoopsUser, NodeWeight, with_basis};
 use super::foundation::algebra::{Matrix, Vector, zeros};
 use super::foundation::grid::Grid;
 use super::foundation::moments::{InertiaTensor, Moments};
@@ -57,22 +58,47 @@ pub fn kernel_with<const D: usize>(basis: BasisName, settings: LoopSettings) -> 
 /// loops are compiled only in this crate.
 fn kernel_in_dimension(dimension: usize, basis: BasisName, settings: LoopSettings) -> Box<dyn Any> {
     fn boxed<const D: usize>(basis: BasisName, settings: LoopSettings) -> Box<dyn Kernel<D>> {
-        with_basis!(basis, B => Box::new(Loops::<B>::new(settings)))
+        let domain = with_basis!(basis, B => B::DOMAIN);
+        with_basis!(basis, B => B::with_loops(NewLoops::<D> { settings, domain }))
     }
     with_dimension!(dimension, D => Box::new(boxed::<D>(basis, settings)))
+}
+
+/// Creates the kernel of a basis.
+struct NewLoops<const D: usize> {
+    settings: LoopSettings,
+    domain: Domain,
+}
+
+impl<const D: usize> LoopsUser for NewLoops<D> {
+    type Output = Box<dyn Kernel<D>>;
+
+    fn call<B: Basis>(self) -> Self::Output {
+        let Self { settings, domain } = self;
+        let workspace = Mutex::new(Workspace::new(settings));
+        Box::new(Loops::<B> { workspace, tally: Tally::default(), domain, basis: PhantomData })
+    }
 }
 
 struct Loops<B> {
     /// Memory reused by all passes. Results do not depend on the old contents.
     workspace: Mutex<Workspace>,
     tally: Tally,
+    domain: Domain,
     basis: PhantomData<B>,
 }
 
-impl<B> Loops<B> {
-    fn new(settings: LoopSettings) -> Self {
-        let workspace = Mutex::new(Workspace::new(settings));
-        Self { workspace, tally: Tally::default(), basis: PhantomData }
+impl<B: Basis> Loops<B> {
+    /// Calls `visit` for every node of particle `p`. For passes that are not frequent enough to be
+    /// compiled for each basis.
+    #[inline(never)]
+    fn visit<const D: usize>(
+        grid: &Grid<D>,
+        particles: &Particles<D>,
+        p: usize,
+        visit: &mut dyn FnMut(NodeWeight<'_, D>),
+    ) {
+        B::visit(grid, particles, p, visit);
     }
 
     fn workspace(&self) -> MutexGuard<'_, Workspace> {
@@ -130,7 +156,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     ) {
         self.tally.add("p2g point force", 1);
         let mut column = std::mem::take(&mut grid.force);
-        B::visit(grid, particles, p, |i| column[i.node] += force * i.weight);
+        Self::visit(grid, particles, p, &mut |i| column[i.node] += force * i.weight);
         grid.force = column;
     }
 
@@ -160,8 +186,10 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     ) {
         self.tally.add("mass matrix", particles.len());
         for (p, m) in particles.mass.iter().enumerate() {
-            B::visit(grid, particles, p, |i| {
-                B::visit(grid, particles, p, |j| entry(i.node, j.node, m * i.weight * j.weight));
+            Self::visit(grid, particles, p, &mut |i| {
+                Self::visit(grid, particles, p, &mut |j| {
+                    entry(i.node, j.node, m * i.weight * j.weight);
+                });
             });
         }
     }
@@ -174,7 +202,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         entry: &mut dyn FnMut(usize, f64, &Vector<D>),
     ) {
         self.tally.add("basis functions", 1);
-        B::visit(grid, particles, p, |i| entry(i.node, i.weight, i.gradient));
+        Self::visit(grid, particles, p, &mut |i| entry(i.node, i.weight, i.gradient));
     }
 
     fn p2g_point_moment(
@@ -186,7 +214,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     ) {
         self.tally.add("p2g point moment", 1);
         let mut column = std::mem::take(&mut grid.force);
-        B::visit(grid, particles, p, |i| column[i.node] += moment * i.gradient);
+        Self::visit(grid, particles, p, &mut |i| column[i.node] += moment * i.gradient);
         grid.force = column;
     }
 
@@ -265,7 +293,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
         column: &mut [f64],
     ) {
         self.tally.add("p2g scalar source", 1);
-        B::visit(grid, particles, p, |i| column[i.node] += amount * i.weight);
+        Self::visit(grid, particles, p, &mut |i| column[i.node] += amount * i.weight);
     }
 
     fn g2p_scalar(
@@ -307,7 +335,7 @@ impl<const D: usize, B: Basis> Kernel<D> for Loops<B> {
     }
 
     fn domain(&self) -> Domain {
-        B::DOMAIN
+        self.domain
     }
 
     fn grid(&self, origin: Vector<D>, h: f64, cells: [usize; D], periodic: [bool; D]) -> Grid<D> {

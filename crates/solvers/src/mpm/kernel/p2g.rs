@@ -2,23 +2,24 @@
 
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
-use crate::mpm::basis::{Basis, NodeTerm, PatchBatch, WeightNeeds};
+use super::source::{DynBasis, PatchSource};
+use crate::mpm::basis::{NodeTerm, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::InertiaTensor;
 use crate::mpm::foundation::packed_grid::{FieldViewMut, PackedNode, force_lane};
 use crate::mpm::foundation::particles::Particles;
-use crate::mpm::foundation::simd::{BATCH, Simd, SimdPass};
-use std::marker::PhantomData;
+use crate::mpm::foundation::simd::{BATCH, Plain, Simd, SimdPass};
+use std::hint::black_box;
 use std::ops::Range;
 
-pub(in crate::mpm) struct Scatter<'a, const D: usize, B, N> {
+pub(in crate::mpm) struct Scatter<'a, const D: usize, P, N> {
     pub(in crate::mpm) grid: &'a Grid<D>,
     pub(in crate::mpm) particles: &'a Particles<D>,
     pub(in crate::mpm) range: Range<usize>,
     pub(in crate::mpm) request: &'a P2gRequest<'a, D>,
     pub(in crate::mpm) field: FieldViewMut<'a, N>,
-    pub(in crate::mpm) basis: PhantomData<B>,
+    pub(in crate::mpm) source: P,
 }
 
 /// Whether a request needs nodes of eight numbers: in more than one dimension, four numbers cannot
@@ -97,15 +98,15 @@ impl<'a, const D: usize> ParticleColumns<'a, D> {
 
 /// Particles `first + lanes` with their patches. For a particle with several patches, `of_all`
 /// contains the moments of all its patches.
-struct Visit<'a, const D: usize, B: Basis> {
+struct Visit<'a, const D: usize, P: PatchSource<D>> {
     first: usize,
     lanes: Range<usize>,
-    patches: &'a Batch<B, D>,
+    patches: &'a Batch<P, D>,
     of_all: Option<&'a InertiaTensor<D>>,
     source: ParticleColumns<'a, D>,
 }
 
-impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
+impl<const D: usize, P: PatchSource<D>, N: PackedNode> Scatter<'_, D, P, N> {
     /// Whether a node has lanes for momentum and mass in addition to a force.
     const HOLDS_ALL: bool = N::IS_WIDE || D == 1;
 
@@ -116,7 +117,7 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     fn add<S: Simd, const SLOPE: bool, const FLUX: bool>(
         &mut self,
         simd: S,
-        Visit { first, lanes, patches, of_all, source }: Visit<'_, D, B>,
+        Visit { first, lanes, patches, of_all, source }: Visit<'_, D, P>,
     ) {
         let Self { grid, particles, request, .. } = self;
         let (zero, h) = (simd.splat(0.0), grid.h);
@@ -142,14 +143,14 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
                         Some(Affine::Slope(c)) => columns(simd, &c[p], 0),
                         Some(Affine::Moment(b)) => {
                             let b = columns(simd, &b[p], 0);
-                            divide::<B, S, D>(simd, patches, lane, of_all, &b, 0, h)
+                            divide::<P, S, D>(simd, patches, lane, of_all, &b, 0, h)
                         }
                     };
                     let (mut slope, mut fit) = ([N::zero(simd); D], None);
                     if is_fit {
                         let (force, from) =
                             (source.flux(simd, particles, first, lane), force_lane(D));
-                        fit = Some(divide::<B, S, D>(simd, patches, lane, of_all, &force, from, h));
+                        fit = Some(divide::<P, S, D>(simd, patches, lane, of_all, &force, from, h));
                     }
                     for axis in 0..D {
                         let growth = growth[axis] * source.mass[lane];
@@ -174,19 +175,19 @@ impl<const D: usize, B: Basis, N: PackedNode> Scatter<'_, D, B, N> {
     }
 }
 
-impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> {
+impl<const D: usize, P: PatchSource<D>, N: PackedNode> SimdPass for Scatter<'_, D, P, N> {
     const NEEDS_AVX512: bool = N::IS_WIDE;
 
     #[inline(always)]
     fn run<S: Simd>(mut self, simd: S) {
-        let Self { grid, particles, request, .. } = self;
+        let Self { grid, particles, request, source: basis, .. } = self;
         let range = std::mem::take(&mut self.range);
         let has_slope = request.momentum.is_some_and(|field| field.affine.is_some())
             || request.force == Some(Divergence::Fit);
         let has_flux = request.force == Some(Divergence::Gradient);
-        let mut patches = Batch::<B, D>::none();
+        let mut patches = ProductBatch::new(basis.shape());
         let needs = WeightNeeds { slopes: has_flux, offsets: has_slope };
-        let batches = ParticleBatches::<B, D>::new(grid, self.field.layout, particles, needs);
+        let batches = ParticleBatches::new(basis, grid, self.field.layout, particles, needs);
         for first in range.step_by(BATCH) {
             let source = ParticleColumns::new(particles, request, first);
             batches.visit(
@@ -213,5 +214,20 @@ impl<const D: usize, B: Basis, N: PackedNode> SimdPass for Scatter<'_, D, B, N> 
                 },
             );
         }
+    }
+
+    fn run_plain(self) {
+        let Self { grid, particles, range, request, field, source } = self;
+        let source = black_box(source.as_dyn());
+        Scatter { grid, particles, range, request, field, source }.run_for_any_basis();
+    }
+}
+
+impl<const D: usize, N: PackedNode> Scatter<'_, D, &dyn DynBasis<D>, N> {
+    /// Runs the loop. The function is not inlined, and callers hide the basis from the compiler.
+    /// Otherwise the compiler would optimise one loop for each basis.
+    #[inline(never)]
+    fn run_for_any_basis(self) {
+        self.run(Plain);
     }
 }

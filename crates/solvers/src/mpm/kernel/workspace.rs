@@ -5,6 +5,7 @@ use super::contract::{G2pRequest, LoopSettings, P2gRequest};
 use super::g2p::{Gather, are_beside};
 use super::p2g::{Scatter, wants_wide_nodes};
 use super::parallel::{Target, par_split, two_colour_schedule};
+use super::source::Static;
 use crate::mpm::basis::Basis;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
@@ -13,7 +14,6 @@ use crate::mpm::foundation::packed_grid::{
 };
 use crate::mpm::foundation::particles::Particles;
 use fearless_simd::Level;
-use std::marker::PhantomData;
 
 /// Memory of a pass, in addition to the particles and the grid.
 #[derive(Debug)]
@@ -50,8 +50,8 @@ impl<const D: usize> P2g<'_, D> {
         let Self { level, particles, request, grid, blocks } = self;
         let add = |block: &ParticleBlock, field: FieldViewMut<'_, N>| {
             let range = block.particles.clone();
-            let basis = PhantomData;
-            let pass = Scatter::<D, B, N> { grid, particles, range, request, field, basis };
+            let source = Static::<B>::BASIS;
+            let pass = Scatter { grid, particles, range, request, field, source };
             B::run(level, pass);
         };
         // On a periodic axis, the sums in the margins must be added to the nodes that the margins
@@ -109,8 +109,8 @@ impl Workspace {
         pack(fields, grid, field, request.change.is_some());
         let fields = [fields[0].view(), fields[1].view()];
         par_split(0..particles.len(), request, &|range, request| {
-            let basis = PhantomData;
-            let pass = Gather::<D, B> { grid, particles, range, request, fields, basis };
+            let source = Static::<B>::BASIS;
+            let pass = Gather { grid, particles, range, request, fields, source };
             B::run(*level, pass);
         });
     }

@@ -6,7 +6,7 @@ use crate::mpm::foundation::simd::{LANES, Plain, Register, Simd};
 use std::fmt::Debug;
 
 /// The numbers of one node of a packed field: momentum, mass and force, or some of these.
-pub trait PackedNode: Copy + Debug + Default + Send + Sync {
+pub(in crate::mpm) trait PackedNode: Copy + Debug + Default + Send + Sync {
     /// Whether the node has separate lanes for force, next to momentum and mass.
     const IS_WIDE: bool;
 
@@ -206,22 +206,22 @@ impl Layout {
 
 /// Shared view of a packed field, for loops that read it.
 #[derive(Debug, Clone, Copy)]
-pub struct FieldView<'a> {
+pub(in crate::mpm) struct FieldView<'a> {
     pub(in crate::mpm) nodes: &'a [Node4],
     pub(in crate::mpm) layout: Layout,
 }
 
 /// Mutable view of a packed field or of consecutive layers, for loops that add to it.
 #[derive(Debug)]
-pub struct FieldViewMut<'a, N> {
+pub(in crate::mpm) struct FieldViewMut<'a, N> {
     pub(in crate::mpm) nodes: &'a mut [N],
     pub(in crate::mpm) layout: Layout,
 }
 
 impl FieldView<'_> {
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&self, start: usize) -> &[Node4] {
-        &self.nodes[start..start + K]
+    pub(in crate::mpm) fn row(&self, start: usize, count: usize) -> &[Node4] {
+        &self.nodes[start..start + count]
     }
 }
 
@@ -232,8 +232,8 @@ impl<N: PackedNode> FieldViewMut<'_, N> {
     }
 
     #[inline(always)]
-    pub(in crate::mpm) fn row<const K: usize>(&mut self, start: usize) -> &mut [N] {
-        &mut self.nodes[start..start + K]
+    pub(in crate::mpm) fn row(&mut self, start: usize, count: usize) -> &mut [N] {
+        &mut self.nodes[start..start + count]
     }
 
     #[inline]

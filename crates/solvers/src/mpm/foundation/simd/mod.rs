@@ -32,6 +32,10 @@ pub trait SimdPass: Sized {
 
     /// Runs the loop.
     fn run<S: Simd>(self, simd: S);
+
+    /// Runs the loop on an x86 processor without AVX2. Such processors are rare, so the loop is
+    /// compiled for all bases at once.
+    fn run_plain(self);
 }
 
 /// Runs `pass` at `level`. [`Basis::run`](crate::mpm::Basis::run) describes where the loop is
@@ -55,9 +59,13 @@ pub(in crate::mpm) fn run<P: SimdPass>(level: Level, pass: P) {
                 || pass.run(avx2),
             );
         }
+        pass.run_plain();
     }
-    let _ = level;
-    pass.run(Plain);
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    {
+        let _ = level;
+        pass.run(Plain);
+    }
 }
 
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]

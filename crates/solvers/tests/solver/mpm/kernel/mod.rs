@@ -9,8 +9,8 @@ use crate::common::in_dimension;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use fearless_simd::Level;
 use mpm_verify::mpm::{
-    Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix, Moments,
-    P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
+    Affine, BasisName, Block, Divergence, Domain, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
+    Moments, P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
 };
 use rstest::rstest;
 
@@ -33,6 +33,9 @@ fn scene<const D: usize>(kernel: &dyn Kernel<D>, periodic: bool) -> (Grid<D>, Pa
         particles.v[p] = vector(p + 1);
         particles.sigma[p] = matrix(p);
         particles.domain[p] *= if p % 3 == 0 { 2.9 } else { 1.1 };
+    }
+    if kernel.domain() == Domain::Fixed {
+        particles.domain.clear();
     }
     grid.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = vector(i + 2));
     grid.acceleration.iter_mut().enumerate().for_each(|(i, a)| *a = vector(i + 3));
@@ -136,7 +139,8 @@ fn alone<const D: usize>(particles: &Particles<D>, p: usize) -> Particles<D> {
     let mut one = particles.clone();
     (one.x, one.v) = (vec![particles.x[p]], vec![particles.v[p]]);
     (one.mass, one.vol) = (vec![particles.mass[p]], vec![particles.vol[p]]);
-    (one.sigma, one.domain) = (vec![particles.sigma[p]], vec![particles.domain[p]]);
+    (one.sigma, one.domain) =
+        (vec![particles.sigma[p]], particles.domain.get(p).copied().into_iter().collect());
     one.x0.truncate(1);
     one
 }
