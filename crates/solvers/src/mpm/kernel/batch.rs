@@ -1,7 +1,7 @@
 //! Batches of particles: their patches of nodes, the moments of their weights, and the conversion
 //! of matrices to registers.
 
-use super::source::PatchSource;
+use super::source::{ParticlesOnGrid, PatchSource};
 use crate::mpm::basis::{CellLocator, FourLanes, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, array, zeros};
 use crate::mpm::foundation::grid::Grid;
@@ -14,17 +14,37 @@ use std::ops::Range;
 
 pub(in crate::mpm) type Batch<P, const D: usize> = ProductBatch<D, <P as PatchSource<D>>::Shape>;
 
-type Visitor<'a, P, const D: usize> =
-    dyn FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>) + 'a;
+/// Function that [`ParticleBatches::visit`] calls. A `dyn FnMut` would contain its code twice, the
+/// second time for `FnOnce`.
+trait Visitor<W, const D: usize> {
+    fn call(
+        &mut self,
+        patches: &mut ProductBatch<D, W>,
+        lanes: Range<usize>,
+        of_all: Option<&InertiaTensor<D>>,
+    );
+}
+
+impl<W, F, const D: usize> Visitor<W, D> for F
+where
+    F: FnMut(&mut ProductBatch<D, W>, Range<usize>, Option<&InertiaTensor<D>>),
+{
+    fn call(
+        &mut self,
+        patches: &mut ProductBatch<D, W>,
+        lanes: Range<usize>,
+        of_all: Option<&InertiaTensor<D>>,
+    ) {
+        self(patches, lanes, of_all);
+    }
+}
 
 pub(in crate::mpm) const ALL: u32 = (1 << BATCH) - 1;
 
 /// Batches of particles, with the data that locates their patches. The patches are not stored in
 /// this struct, because its fields would then be reloaded after every store of a weight.
 pub(in crate::mpm) struct ParticleBatches<'a, P, const D: usize> {
-    pub(in crate::mpm) particles: &'a Particles<D>,
-    grid: &'a Grid<D>,
-    locator: CellLocator<D>,
+    at: ParticlesOnGrid<'a, D>,
     needs: WeightNeeds,
     source: P,
 }
@@ -39,7 +59,7 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
         needs: WeightNeeds,
     ) -> Self {
         let locator = CellLocator::new(grid, layout, needs);
-        Self { particles, grid, locator, needs, source }
+        Self { at: ParticlesOnGrid { particles, grid, locator }, needs, source }
     }
 
     /// Calls `visit` for the patches of the batch that starts at particle `first`. The arguments of
@@ -59,8 +79,10 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
     ) -> u32 {
         if const { P::IS_DYN } {
             // Without the type of `visit`, the compiler does not copy its loop to each call.
-            let visit: &mut Visitor<'_, P, D> = black_box(&mut visit);
-            return self.visit_with(simd, first, patches, visit);
+            let visit: &mut dyn Visitor<P::Shape, D> = black_box(&mut visit);
+            return self.visit_with(simd, first, patches, |patches, lanes, of_all| {
+                visit.call(patches, lanes, of_all);
+            });
         }
         self.visit_with(simd, first, patches, visit)
     }
@@ -73,12 +95,12 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
         patches: &mut Batch<P, D>,
         mut visit: impl FnMut(&mut Batch<P, D>, Range<usize>, Option<&InertiaTensor<D>>),
     ) -> u32 {
-        let Self { particles, grid, locator, source, .. } = self;
-        let count = BATCH.min(particles.len() - first);
+        let Self { at, source, .. } = self;
+        let count = BATCH.min(at.particles.len() - first);
         let (mut one, mut lane) = (0, 0);
         while lane < count {
             let lanes = FourLanes { particle: first + lane, lane };
-            one |= source.patches_x4(simd, grid, locator, particles, lanes, patches) << lane;
+            one |= source.patches_x4(simd, at, lanes, patches) << lane;
             lane += LANES;
         }
         if const { P::ONE_PATCH } || source.has_one_patch() {
@@ -99,15 +121,10 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
                 lane = to;
                 continue;
             }
-            let of_all = if self.needs.offsets {
-                Some(source.inertia(grid, particles, first + lane))
-            } else {
-                None
-            };
+            let of_all =
+                if self.needs.offsets { Some(source.inertia(at, first + lane)) } else { None };
             source.each_patch(
-                grid,
-                &locator.layout,
-                particles,
+                at,
                 (first + lane, lane),
                 patches,
                 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::batch::{ALL, Batch, ParticleBatches, divide, put_columns};
 use super::contract::G2pRequest;
-use super::source::{DynBasis, PatchSource};
+use super::source::{AnyBasis, PatchSource};
 use crate::mpm::basis::{ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::Matrix;
 use crate::mpm::foundation::grid::Grid;
@@ -235,12 +235,12 @@ impl<const D: usize, P: PatchSource<D>> SimdPass for Gather<'_, D, P> {
 
     fn run_plain(self) {
         let Self { grid, particles, range, request, fields, source } = self;
-        let source = black_box(source.as_dyn());
+        let source = black_box(source.for_any_basis());
         Gather { grid, particles, range, request, fields, source }.run_for_any_basis();
     }
 }
 
-impl<const D: usize> Gather<'_, D, &dyn DynBasis<D>> {
+impl<const D: usize> Gather<'_, D, AnyBasis<D>> {
     /// Runs the loop, like `Scatter::run_for_any_basis`.
     #[inline(never)]
     fn run_for_any_basis(self) {

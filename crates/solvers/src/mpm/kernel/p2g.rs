@@ -2,7 +2,7 @@
 
 use super::batch::{Batch, ParticleBatches, columns, divide};
 use super::contract::{Affine, Divergence, P2gRequest};
-use super::source::{DynBasis, PatchSource};
+use super::source::{AnyBasis, PatchSource};
 use crate::mpm::basis::{NodeTerm, ProductBatch, WeightNeeds};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
@@ -218,12 +218,12 @@ impl<const D: usize, P: PatchSource<D>, N: PackedNode> SimdPass for Scatter<'_, 
 
     fn run_plain(self) {
         let Self { grid, particles, range, request, field, source } = self;
-        let source = black_box(source.as_dyn());
+        let source = black_box(source.for_any_basis());
         Scatter { grid, particles, range, request, field, source }.run_for_any_basis();
     }
 }
 
-impl<const D: usize, N: PackedNode> Scatter<'_, D, &dyn DynBasis<D>, N> {
+impl<const D: usize, N: PackedNode> Scatter<'_, D, AnyBasis<D>, N> {
     /// Runs the loop. The function is not inlined, and callers hide the basis from the compiler.
     /// Otherwise the compiler would optimise one loop for each basis.
     #[inline(never)]

@@ -1,25 +1,31 @@
 //! Patches of particles for the loops: from a basis that is known when the loops are compiled, or
-//! through virtual calls.
+//! through function pointers.
 
 use crate::mpm::basis::{Basis, CellLocator, Counted, FourLanes, Patch, ProductBatch, Shape};
 use crate::mpm::foundation::algebra::zeros;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
-use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{Plain, Simd};
 use std::marker::PhantomData;
 
+/// Particles, the grid, and the data that locates particles.
+pub(in crate::mpm) struct ParticlesOnGrid<'a, const D: usize> {
+    pub(in crate::mpm) particles: &'a Particles<D>,
+    pub(in crate::mpm) grid: &'a Grid<D>,
+    pub(in crate::mpm) locator: CellLocator<D>,
+}
+
 /// Source of the patches of particles.
-pub(in crate::mpm) trait PatchSource<const D: usize>: Copy + Sync {
+pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
     /// Shape of the patches.
     type Shape: Shape;
 
-    /// Whether it is known to the compiler that a single patch contains all nodes of a particle.
+    /// Whether the compiler knows that a single patch contains all nodes of a particle.
     const ONE_PATCH: bool;
 
     /// Whether the loops serve all bases.
-    const IS_DYN: bool;
+    const IS_DYN: bool = false;
 
     /// Returns the shape of the patches.
     fn shape(self) -> Self::Shape;
@@ -31,9 +37,7 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy + Sync {
     fn patches_x4<S: Simd>(
         self,
         simd: S,
-        grid: &Grid<D>,
-        locator: &CellLocator<D>,
-        particles: &Particles<D>,
+        at: &ParticlesOnGrid<'_, D>,
         lanes: FourLanes,
         patches: &mut ProductBatch<D, Self::Shape>,
     ) -> u32;
@@ -42,23 +46,25 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy + Sync {
     /// patch.
     fn each_patch(
         self,
-        grid: &Grid<D>,
-        layout: &Layout,
-        particles: &Particles<D>,
+        at: &ParticlesOnGrid<'_, D>,
         p_and_lane: (usize, usize),
         patches: &mut ProductBatch<D, Self::Shape>,
         visit: impl FnMut(&mut ProductBatch<D, Self::Shape>),
     );
 
     /// Computes the moments of the weights of particle `p` over all its patches.
-    fn inertia(self, grid: &Grid<D>, particles: &Particles<D>, p: usize) -> InertiaTensor<D>;
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D>;
 
-    /// Returns the basis behind virtual calls.
-    fn as_dyn(&self) -> &dyn DynBasis<D>;
+    /// Returns the source for loops that serve all bases.
+    fn for_any_basis(self) -> AnyBasis<D>;
 }
 
 /// A basis that is known when the loops are compiled.
 pub(in crate::mpm) struct Static<B>(PhantomData<B>);
+
+impl<B> Static<B> {
+    pub(in crate::mpm) const BASIS: Self = Self(PhantomData);
+}
 
 impl<B> Clone for Static<B> {
     fn clone(&self) -> Self {
@@ -68,15 +74,10 @@ impl<B> Clone for Static<B> {
 
 impl<B> Copy for Static<B> {}
 
-impl<B> Static<B> {
-    pub(in crate::mpm) const BASIS: Self = Self(PhantomData);
-}
-
 impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
     type Shape = <B::Patch<D> as Patch<D>>::Shape;
 
     const ONE_PATCH: bool = B::ONE_PATCH;
-    const IS_DYN: bool = false;
 
     #[inline(always)]
     fn shape(self) -> Self::Shape {
@@ -92,122 +93,81 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
     fn patches_x4<S: Simd>(
         self,
         simd: S,
-        grid: &Grid<D>,
-        locator: &CellLocator<D>,
-        particles: &Particles<D>,
+        at: &ParticlesOnGrid<'_, D>,
         lanes: FourLanes,
         patches: &mut ProductBatch<D, Self::Shape>,
     ) -> u32 {
-        B::patches_x4(simd, grid, locator, particles, lanes, patches)
+        B::patches_x4(simd, at.grid, &at.locator, at.particles, lanes, patches)
     }
 
     #[inline(always)]
     fn each_patch(
         self,
-        grid: &Grid<D>,
-        layout: &Layout,
-        particles: &Particles<D>,
-        (p, lane): (usize, usize),
+        at: &ParticlesOnGrid<'_, D>,
+        p_and_lane: (usize, usize),
         patches: &mut ProductBatch<D, Self::Shape>,
-        mut visit: impl FnMut(&mut ProductBatch<D, Self::Shape>),
+        visit: impl FnMut(&mut ProductBatch<D, Self::Shape>),
     ) {
-        B::patches(
-            grid,
-            particles,
-            p,
-            #[inline(always)]
-            |patch| {
-                patch.put(lane, layout, patches);
-                visit(patches);
-            },
-        );
+        each_patch::<D, B, _>(at, p_and_lane, patches, visit);
     }
 
     #[inline(always)]
-    fn inertia(self, grid: &Grid<D>, particles: &Particles<D>, p: usize) -> InertiaTensor<D> {
-        inertia::<D, B>(grid, particles, p)
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D> {
+        inertia::<D, B>(at.grid, at.particles, p)
     }
 
-    #[inline]
-    fn as_dyn(&self) -> &dyn DynBasis<D> {
-        self
+    fn for_any_basis(self) -> AnyBasis<D> {
+        AnyBasis {
+            shape: Counted::new(<Self as PatchSource<D>>::shape(self)),
+            has_one_patch: B::ONE_PATCH,
+            patches_x4: |at, lanes, patches| {
+                B::patches_x4(Plain, at.grid, &at.locator, at.particles, lanes, patches)
+            },
+            each_patch: |at, p_and_lane, patches, visit| {
+                each_patch::<D, B, _>(at, p_and_lane, patches, visit);
+            },
+            inertia: |at, p| inertia::<D, B>(at.grid, at.particles, p),
+        }
     }
 }
 
-/// A basis behind virtual calls, for loops that are compiled once for all bases.
-pub(in crate::mpm) trait DynBasis<const D: usize>: Sync {
-    /// Returns the shape of the patches.
-    fn shape(&self) -> Counted;
-
-    /// Whether a single patch contains all nodes of a particle.
-    fn has_one_patch(&self) -> bool;
-
-    /// See [`PatchSource::patches_x4`].
-    fn patches_x4(
-        &self,
-        grid: &Grid<D>,
-        locator: &CellLocator<D>,
-        particles: &Particles<D>,
-        lanes: FourLanes,
-        patches: &mut ProductBatch<D, Counted>,
-    ) -> u32;
-
-    /// See [`PatchSource::each_patch`].
-    fn each_patch(
-        &self,
-        grid: &Grid<D>,
-        layout: &Layout,
-        particles: &Particles<D>,
-        p_and_lane: (usize, usize),
-        patches: &mut ProductBatch<D, Counted>,
-        visit: &mut dyn FnMut(&mut ProductBatch<D, Counted>),
-    );
-
-    /// Computes the moments of the weights of particle `p` over all its patches.
-    fn inertia(&self, grid: &Grid<D>, particles: &Particles<D>, p: usize) -> InertiaTensor<D>;
-}
-
-impl<const D: usize, B: Basis> DynBasis<D> for Static<B> {
-    fn shape(&self) -> Counted {
-        Counted::new(<B::Patch<D> as Patch<D>>::Shape::default())
-    }
-
-    fn has_one_patch(&self) -> bool {
-        B::ONE_PATCH
-    }
-
-    fn patches_x4(
-        &self,
-        grid: &Grid<D>,
-        locator: &CellLocator<D>,
-        particles: &Particles<D>,
-        lanes: FourLanes,
-        patches: &mut ProductBatch<D, Counted>,
-    ) -> u32 {
-        B::patches_x4(Plain, grid, locator, particles, lanes, patches)
-    }
-
-    fn each_patch(
-        &self,
-        grid: &Grid<D>,
-        layout: &Layout,
-        particles: &Particles<D>,
-        (p, lane): (usize, usize),
-        patches: &mut ProductBatch<D, Counted>,
-        visit: &mut dyn FnMut(&mut ProductBatch<D, Counted>),
-    ) {
-        B::patches(grid, particles, p, |patch| {
-            patch.put(lane, layout, patches);
+#[inline(always)]
+fn each_patch<const D: usize, B: Basis, W: Shape>(
+    at: &ParticlesOnGrid<'_, D>,
+    (p, lane): (usize, usize),
+    patches: &mut ProductBatch<D, W>,
+    mut visit: impl FnMut(&mut ProductBatch<D, W>),
+) {
+    B::patches(
+        at.grid,
+        at.particles,
+        p,
+        #[inline(always)]
+        |patch| {
+            patch.put(lane, &at.locator.layout, patches);
             visit(patches);
-        });
-    }
-
-    fn inertia(&self, grid: &Grid<D>, particles: &Particles<D>, p: usize) -> InertiaTensor<D> {
-        inertia::<D, B>(grid, particles, p)
-    }
+        },
+    );
 }
 
-impl<const D: usize> PatchSource<D> for &dyn DynBasis<D> {
+type CountedBatch<const D: usize> = ProductBatch<D, Counted>;
+
+/// A basis behind function pointers, for loops that are compiled once for all bases.
+#[derive(Clone, Copy)]
+pub(in crate::mpm) struct AnyBasis<const D: usize> {
+    shape: Counted,
+    has_one_patch: bool,
+    patches_x4: fn(&ParticlesOnGrid<'_, D>, FourLanes, &mut CountedBatch<D>) -> u32,
+    each_patch: fn(
+        &ParticlesOnGrid<'_, D>,
+        (usize, usize),
+        &mut CountedBatch<D>,
+        &mut dyn FnMut(&mut CountedBatch<D>),
+    ),
+    inertia: fn(&ParticlesOnGrid<'_, D>, usize) -> InertiaTensor<D>,
+}
+
+impl<const D: usize> PatchSource<D> for AnyBasis<D> {
     type Shape = Counted;
 
     const ONE_PATCH: bool = false;
@@ -215,48 +175,43 @@ impl<const D: usize> PatchSource<D> for &dyn DynBasis<D> {
 
     #[inline(always)]
     fn shape(self) -> Counted {
-        DynBasis::shape(self)
+        self.shape
     }
 
     #[inline(always)]
     fn has_one_patch(self) -> bool {
-        DynBasis::has_one_patch(self)
+        self.has_one_patch
     }
 
     #[inline(always)]
     fn patches_x4<S: Simd>(
         self,
         _: S,
-        grid: &Grid<D>,
-        locator: &CellLocator<D>,
-        particles: &Particles<D>,
+        at: &ParticlesOnGrid<'_, D>,
         lanes: FourLanes,
-        patches: &mut ProductBatch<D, Counted>,
+        patches: &mut CountedBatch<D>,
     ) -> u32 {
-        DynBasis::patches_x4(self, grid, locator, particles, lanes, patches)
+        (self.patches_x4)(at, lanes, patches)
     }
 
     #[inline(always)]
     fn each_patch(
         self,
-        grid: &Grid<D>,
-        layout: &Layout,
-        particles: &Particles<D>,
+        at: &ParticlesOnGrid<'_, D>,
         p_and_lane: (usize, usize),
-        patches: &mut ProductBatch<D, Counted>,
-        mut visit: impl FnMut(&mut ProductBatch<D, Counted>),
+        patches: &mut CountedBatch<D>,
+        mut visit: impl FnMut(&mut CountedBatch<D>),
     ) {
-        DynBasis::each_patch(self, grid, layout, particles, p_and_lane, patches, &mut visit);
+        (self.each_patch)(at, p_and_lane, patches, &mut visit);
     }
 
     #[inline(always)]
-    fn inertia(self, grid: &Grid<D>, particles: &Particles<D>, p: usize) -> InertiaTensor<D> {
-        DynBasis::inertia(self, grid, particles, p)
+    fn inertia(self, at: &ParticlesOnGrid<'_, D>, p: usize) -> InertiaTensor<D> {
+        (self.inertia)(at, p)
     }
 
-    #[inline]
-    fn as_dyn(&self) -> &dyn DynBasis<D> {
-        *self
+    fn for_any_basis(self) -> Self {
+        self
     }
 }
 

@@ -25,7 +25,7 @@ use super::stress_update::{StressBlock, StressUpdate};
 use super::stretch::{HALF_LOG, PowerSeries, excess};
 use super::tangent::{StressResponse, isotropic_modulus};
 use crate::mpm::foundation::algebra::{
-    Matrix, Vector, det, dyad, identity, in_space, inverse, product,
+    Matrix, Vector, array, det, dyad, identity, in_space, inverse, product,
 };
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd::{BATCH, F64Batch, vectorized};
@@ -244,16 +244,24 @@ struct SmallTrial {
 /// With `H = F - I` and `P = Cp^-1 - I`, `be - I = P + W + W^T + H W` with `W = H^T + P H^T`.
 /// Before any plastic flow P is zero, so small strains suffer no cancellation.
 fn small_trial<const D: usize>(def_grad: &[Matrix<D>], flowed: &[Flowed]) -> SmallTrial {
+    let (mut f, mut j) = (MatrixBatch::identity(), F64Batch([1.0; BATCH]));
+    for (lane, own) in def_grad.iter().enumerate() {
+        f.set(lane, own);
+        j.0[lane % BATCH] = det(own);
+    }
+    small_trial_in_space(&f, j, flowed)
+}
+
+/// Computes [`small_trial`]. Compiled once for all dimensions.
+#[inline(never)]
+fn small_trial_in_space(f: &MatrixBatch<3>, j: F64Batch, flowed: &[Flowed]) -> SmallTrial {
     vectorized(
         #[inline(always)]
         || {
-            let (mut f, mut metric) = (MatrixBatch::<3>::identity(), MatrixBatch::identity());
-            let (mut j, mut before) = (F64Batch([1.0; BATCH]), F64Batch::ZERO);
-            for (lane, (own, flowed)) in def_grad.iter().zip(flowed).enumerate() {
-                f.set(lane, own);
+            let (mut metric, mut before) = (MatrixBatch::identity(), F64Batch::ZERO);
+            for (lane, flowed) in flowed.iter().enumerate() {
                 metric.set(lane, &flowed.inverse_metric);
                 before.0[lane % BATCH] = flowed.strain;
-                j.0[lane % BATCH] = det(own);
             }
             let (h, p) = (f.minus_identity(), metric.minus_identity());
             let w = h.transpose().plus(&p.times(&h.transpose()));
@@ -413,6 +421,16 @@ fn trial<const D: usize>(
     def_grad: &[Matrix<D>],
     flowed: &[Flowed],
 ) -> (VectorBatch<3>, MatrixBatch<3>) {
+    let in_space = |lane: usize| def_grad.get(lane).map_or(identity(), |f| in_space(f, 1.0));
+    trial_in_space(&array(identity(), in_space), flowed)
+}
+
+/// Computes [`trial`]. Compiled once for all dimensions.
+#[inline(never)]
+fn trial_in_space(
+    def_grad: &[Matrix<3>; BATCH],
+    flowed: &[Flowed],
+) -> (VectorBatch<3>, MatrixBatch<3>) {
     vectorized(
         #[inline(always)]
         || {
@@ -420,8 +438,7 @@ fn trial<const D: usize>(
             for (lane, (f, Flowed { inverse_metric, .. })) in
                 def_grad.iter().zip(flowed).enumerate()
             {
-                let f = in_space(f, 1.0);
-                trial.set(lane, &product(&product(&f, inverse_metric), &f.transpose()));
+                trial.set(lane, &product(&product(f, inverse_metric), &f.transpose()));
             }
             let (squares, axes) = spectral_batch(trial);
             (squares.map(half_log_batch), axes)

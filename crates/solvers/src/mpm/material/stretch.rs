@@ -256,19 +256,28 @@ pub(super) fn turned_by_steps<const C: usize, const D: usize>(
     dt: f64,
     tau: &MatrixBatch<D>,
 ) -> (MatrixBatch<D>, MatrixBatch<D>) {
+    let mut h = MatrixBatch::ZERO;
+    for (lane, grad_v) in grad_v.iter().enumerate() {
+        for j in 0..C {
+            for i in 0..C {
+                h.0[i][j].0[lane % BATCH] = grad_v[(i, j)] * dt;
+            }
+        }
+    }
+    turned(&h, tau)
+}
+
+/// Computes [`turned_by_steps`] for `h = grad v dt`. Compiled once for all dimensions of the body.
+#[inline(never)]
+fn turned<const D: usize>(
+    h: &MatrixBatch<D>,
+    tau: &MatrixBatch<D>,
+) -> (MatrixBatch<D>, MatrixBatch<D>) {
     vectorized(
         #[inline(always)]
         || {
-            let mut h = MatrixBatch::ZERO;
-            for (lane, grad_v) in grad_v.iter().enumerate() {
-                for j in 0..C {
-                    for i in 0..C {
-                        h.0[i][j].0[lane % BATCH] = grad_v[(i, j)] * dt;
-                    }
-                }
-            }
-            let step = MatrixBatch::identity().plus(&h);
-            let squares = SquaredStretch::new(&step, &h);
+            let step = MatrixBatch::identity().plus(h);
+            let squares = SquaredStretch::new(&step, h);
             let turn = squares.inverse_root().times(&step);
             (turn.times(tau).times(&turn.transpose()), squares.half_log())
         },
