@@ -2,14 +2,15 @@
 //! particle, and a batch of patches.
 
 use super::cell_locator::CellLocator;
-use super::product::{ProductBatch, Shape};
+use super::product_batch::ProductBatch;
+use super::shape::PatchShape;
 use crate::mpm::foundation::algebra::Vector;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::WeightMoments;
 use crate::mpm::foundation::packed_grid::Layout;
 use crate::mpm::foundation::particles::Particles;
 use crate::mpm::foundation::simd;
-use crate::mpm::foundation::simd::{LANES, Register, Simd, SimdPass};
+use crate::mpm::foundation::simd::{LANES, Simd, SimdPass};
 use fearless_simd::Level;
 
 /// Particle domain over which a basis averages its functions.
@@ -79,7 +80,7 @@ pub trait Basis: Sized + Sync + Send + 'static {
     /// bit-identical results. A basis overrides this method to compute the weights of four
     /// particles at once.
     #[inline(always)]
-    fn patches_x4<S: Simd, W: Shape, const D: usize>(
+    fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
         _width: S,
         grid: &Grid<D>,
         locator: &CellLocator<D>,
@@ -166,10 +167,10 @@ pub struct NodeWeight<'a, const D: usize> {
 /// Nodes of a particle, with the basis functions evaluated there.
 pub trait Patch<const D: usize>: Copy {
     /// Shape of the patches of this type.
-    type Shape: Shape + Default;
+    type ShapeOfPatch: PatchShape + Default;
 
     /// Stores this patch in lane `lane` of a batch.
-    fn put<W: Shape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>);
+    fn put<W: PatchShape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>);
 
     /// Returns the moments of the weights.
     fn weight_moments(&self) -> WeightMoments<D>;
@@ -180,21 +181,4 @@ pub trait Patch<const D: usize>: Copy {
 
     /// Calls `visit` for every node.
     fn visit(&self, grid: &Grid<D>, visit: impl FnMut(NodeWeight<'_, D>));
-}
-
-/// Contribution of a particle to each of its nodes, for all components of a node at once:
-/// `(value + sum_a slope_a (x_i - x_p - mean)_a) N_i + sum_a flux_a dN_i/dx_a`. Absent terms have
-/// no cost.
-#[derive(Debug, Clone, Copy)]
-pub struct NodeTerm<F, const D: usize> {
-    /// Constant part.
-    pub value: Option<F>,
-    /// Affine part. Requires a value, which may be zero.
-    pub slope: Option<[F; D]>,
-    /// Part along the gradient.
-    pub flux: Option<[F; D]>,
-}
-
-impl<F: Register, const D: usize> NodeTerm<F, D> {
-    pub(in crate::mpm) const NONE: Self = Self { value: None, slope: None, flux: None };
 }

@@ -24,7 +24,9 @@
 //! sign of det R does not change. Moving single corners to the wall could change this sign.
 
 use super::contract::{Basis, Domain, NodeWeight, Patch};
-use super::product::{Fixed, Product, ProductBatch, Shape};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::shape::{FixedShape, PatchShape};
 use super::weights_1d::Weights1d;
 use crate::mpm::foundation::algebra::{Matrix, Vector, array, cofactor, det, floor, times};
 use crate::mpm::foundation::grid::Grid;
@@ -98,10 +100,10 @@ fn hats<const D: usize>(grid: &Grid<D>, s: f64, own: f64, axis: usize) -> Weight
 }
 
 impl<const D: usize> Patch<D> for Corner<D> {
-    type Shape = Fixed<2, true>;
+    type ShapeOfPatch = FixedShape<2, true>;
 
     #[inline(always)]
-    fn put<W: Shape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>) {
+    fn put<W: PatchShape>(&self, lane: usize, layout: &Layout, patches: &mut ProductBatch<D, W>) {
         self.hats.put(lane, layout, patches);
         patches.outward[lane] = self.outward;
     }

@@ -12,7 +12,9 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes, LoopsUser, NodeWeight, Patch};
-use super::product::{Product, ProductBatch, Shape};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::shape::PatchShape;
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::{Matrix, Vector, array};
 use crate::mpm::foundation::grid::Grid;
@@ -66,7 +68,7 @@ fn patches<const D: usize>(
 /// Computes the patches of four particles. Returns the mask of particles with at most [`AT_ONCE`]
 /// functions along each axis.
 #[inline(always)]
-fn patches_x4<S: Simd, W: Shape, const D: usize>(
+fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
     simd: S,
     grid: &Grid<D>,
     locator: &CellLocator<D>,
@@ -151,7 +153,7 @@ macro_rules! gimp {
             }
 
             #[inline(always)]
-            fn patches_x4<S: Simd, W: Shape, const D: usize>(
+            fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
                 simd: S,
                 grid: &Grid<D>,
                 locator: &CellLocator<D>,

@@ -151,7 +151,7 @@ fn fill<B: Basis, const D: usize>(periodic: bool) {
         let mut particles = particle(&grid, four[0]);
         particles.x = four.to_vec();
         particles.domain = vec![particles.domain[0]; LANES];
-        let none = || ProductBatch::new(<B::Patch<D> as Patch<D>>::Shape::default());
+        let none = || ProductBatch::new(<B::Patch<D> as Patch<D>>::ShapeOfPatch::default());
         let (mut together, mut alone) = (none(), none());
         let needs = WeightNeeds { slopes: true, offsets: true };
         let locator = CellLocator::new(&grid, layout, needs);

@@ -6,7 +6,9 @@
 
 use super::cell_locator::{CellLocator, CellPositions};
 use super::contract::{Basis, Domain, FourLanes};
-use super::product::{Product, ProductBatch, Shape};
+use super::product::Product;
+use super::product_batch::ProductBatch;
+use super::shape::PatchShape;
 use super::weights_1d::{Weights1d, WeightsSimd};
 use crate::mpm::foundation::algebra::array;
 use crate::mpm::foundation::grid::Grid;
@@ -49,7 +51,7 @@ impl Basis for Linear {
     }
 
     #[inline(always)]
-    fn patches_x4<S: Simd, W: Shape, const D: usize>(
+    fn patches_x4<S: Simd, W: PatchShape, const D: usize>(
         simd: S,
         grid: &Grid<D>,
         locator: &CellLocator<D>,

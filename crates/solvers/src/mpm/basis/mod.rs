@@ -10,6 +10,8 @@ mod gimp;
 pub(in crate::mpm) mod laws;
 mod linear;
 mod product;
+mod product_batch;
+mod shape;
 mod weights_1d;
 
 pub use cell_locator::WeightNeeds;
@@ -21,8 +23,9 @@ pub use weights_1d::Weights1d;
 #[doc(hidden)]
 pub use self::{
     cell_locator::CellLocator,
-    contract::{FourLanes, LoopsUser, NodeTerm},
-    product::{Counted, Fixed, ProductBatch, Shape},
+    contract::{FourLanes, LoopsUser},
+    product_batch::{NodeTerm, ProductBatch},
+    shape::{CountedShape, FixedShape, PatchShape},
     weights_1d::Weights1dBatch,
 };
 

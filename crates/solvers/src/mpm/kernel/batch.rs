@@ -12,7 +12,7 @@ use crate::mpm::foundation::simd::{BATCH, LANES, Simd};
 use std::hint::black_box;
 use std::ops::Range;
 
-pub(in crate::mpm) type Batch<P, const D: usize> = ProductBatch<D, <P as PatchSource<D>>::Shape>;
+pub(in crate::mpm) type Batch<P, const D: usize> = ProductBatch<D, <P as PatchSource<D>>::Form>;
 
 /// Function that [`ParticleBatches::visit`] calls. A `dyn FnMut` would contain its code twice, the
 /// second time for `FnOnce`.
@@ -79,7 +79,7 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
     ) -> u32 {
         if const { P::IS_DYN } {
             // Without the type of `visit`, the compiler does not copy its loop to each call.
-            let visit: &mut dyn Visitor<P::Shape, D> = black_box(&mut visit);
+            let visit: &mut dyn Visitor<P::Form, D> = black_box(&mut visit);
             return self.visit_with(simd, first, patches, |patches, lanes, of_all| {
                 visit.call(patches, lanes, of_all);
             });

@@ -1,7 +1,9 @@
 //! Patches of particles for the loops: from a basis that is known when the loops are compiled, or
 //! through function pointers.
 
-use crate::mpm::basis::{Basis, CellLocator, Counted, FourLanes, Patch, ProductBatch, Shape};
+use crate::mpm::basis::{
+    Basis, CellLocator, CountedShape, FourLanes, Patch, PatchShape, ProductBatch,
+};
 use crate::mpm::foundation::algebra::zeros;
 use crate::mpm::foundation::grid::Grid;
 use crate::mpm::foundation::moments::{InertiaTensor, WeightMoments};
@@ -19,7 +21,7 @@ pub(in crate::mpm) struct ParticlesOnGrid<'a, const D: usize> {
 /// Source of the patches of particles.
 pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
     /// Shape of the patches.
-    type Shape: Shape;
+    type Form: PatchShape;
 
     /// Whether the compiler knows that a single patch contains all nodes of a particle.
     const ONE_PATCH: bool;
@@ -28,7 +30,7 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
     const IS_DYN: bool = false;
 
     /// Returns the shape of the patches.
-    fn shape(self) -> Self::Shape;
+    fn shape(self) -> Self::Form;
 
     /// Whether a single patch contains all nodes of a particle ([`Basis::ONE_PATCH`]).
     fn has_one_patch(self) -> bool;
@@ -39,17 +41,17 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
         simd: S,
         at: &ParticlesOnGrid<'_, D>,
         lanes: FourLanes,
-        patches: &mut ProductBatch<D, Self::Shape>,
+        patches: &mut ProductBatch<D, Self::Form>,
     ) -> u32;
 
-    /// Stores the patches of a particle, one after another, in the same lane. Calls `visit` for each
-    /// patch.
+    /// Stores the patches of a particle, one after another, in the same lane. Calls `visit` for
+    /// each patch.
     fn each_patch(
         self,
         at: &ParticlesOnGrid<'_, D>,
         p_and_lane: (usize, usize),
-        patches: &mut ProductBatch<D, Self::Shape>,
-        visit: impl FnMut(&mut ProductBatch<D, Self::Shape>),
+        patches: &mut ProductBatch<D, Self::Form>,
+        visit: impl FnMut(&mut ProductBatch<D, Self::Form>),
     );
 
     /// Computes the moments of the weights of particle `p` over all its patches.
@@ -75,13 +77,13 @@ impl<B> Clone for Static<B> {
 impl<B> Copy for Static<B> {}
 
 impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
-    type Shape = <B::Patch<D> as Patch<D>>::Shape;
+    type Form = <B::Patch<D> as Patch<D>>::ShapeOfPatch;
 
     const ONE_PATCH: bool = B::ONE_PATCH;
 
     #[inline(always)]
-    fn shape(self) -> Self::Shape {
-        Self::Shape::default()
+    fn shape(self) -> Self::Form {
+        <B::Patch<D> as Patch<D>>::ShapeOfPatch::default()
     }
 
     #[inline(always)]
@@ -95,7 +97,7 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
         simd: S,
         at: &ParticlesOnGrid<'_, D>,
         lanes: FourLanes,
-        patches: &mut ProductBatch<D, Self::Shape>,
+        patches: &mut ProductBatch<D, Self::Form>,
     ) -> u32 {
         B::patches_x4(simd, at.grid, &at.locator, at.particles, lanes, patches)
     }
@@ -105,8 +107,8 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
         self,
         at: &ParticlesOnGrid<'_, D>,
         p_and_lane: (usize, usize),
-        patches: &mut ProductBatch<D, Self::Shape>,
-        visit: impl FnMut(&mut ProductBatch<D, Self::Shape>),
+        patches: &mut ProductBatch<D, Self::Form>,
+        visit: impl FnMut(&mut ProductBatch<D, Self::Form>),
     ) {
         each_patch::<D, B, _>(at, p_and_lane, patches, visit);
     }
@@ -118,7 +120,7 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
 
     fn for_any_basis(self) -> AnyBasis<D> {
         AnyBasis {
-            shape: Counted::new(<Self as PatchSource<D>>::shape(self)),
+            shape: CountedShape::new(<Self as PatchSource<D>>::shape(self)),
             has_one_patch: B::ONE_PATCH,
             patches_x4: |at, lanes, patches| {
                 B::patches_x4(Plain, at.grid, &at.locator, at.particles, lanes, patches)
@@ -132,7 +134,7 @@ impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
 }
 
 #[inline(always)]
-fn each_patch<const D: usize, B: Basis, W: Shape>(
+fn each_patch<const D: usize, B: Basis, W: PatchShape>(
     at: &ParticlesOnGrid<'_, D>,
     (p, lane): (usize, usize),
     patches: &mut ProductBatch<D, W>,
@@ -150,12 +152,12 @@ fn each_patch<const D: usize, B: Basis, W: Shape>(
     );
 }
 
-type CountedBatch<const D: usize> = ProductBatch<D, Counted>;
+type CountedBatch<const D: usize> = ProductBatch<D, CountedShape>;
 
 /// A basis behind function pointers, for loops that are compiled once for all bases.
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct AnyBasis<const D: usize> {
-    shape: Counted,
+    shape: CountedShape,
     has_one_patch: bool,
     patches_x4: fn(&ParticlesOnGrid<'_, D>, FourLanes, &mut CountedBatch<D>) -> u32,
     each_patch: fn(
@@ -168,13 +170,13 @@ pub(in crate::mpm) struct AnyBasis<const D: usize> {
 }
 
 impl<const D: usize> PatchSource<D> for AnyBasis<D> {
-    type Shape = Counted;
+    type Form = CountedShape;
 
     const ONE_PATCH: bool = false;
     const IS_DYN: bool = true;
 
     #[inline(always)]
-    fn shape(self) -> Counted {
+    fn shape(self) -> CountedShape {
         self.shape
     }
 
