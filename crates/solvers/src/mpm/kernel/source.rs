@@ -154,18 +154,20 @@ fn each_patch<const D: usize, B: Basis, W: PatchShape>(
 
 type CountedBatch<const D: usize> = ProductBatch<D, CountedShape>;
 
+type EachPatch<const D: usize> = fn(
+    &ParticlesOnGrid<'_, D>,
+    (usize, usize),
+    &mut CountedBatch<D>,
+    &mut dyn FnMut(&mut CountedBatch<D>),
+);
+
 /// A basis behind function pointers, for loops that are compiled once for all bases.
 #[derive(Clone, Copy)]
 pub(in crate::mpm) struct AnyBasis<const D: usize> {
     shape: CountedShape,
     has_one_patch: bool,
     patches_x4: fn(&ParticlesOnGrid<'_, D>, FourLanes, &mut CountedBatch<D>) -> u32,
-    each_patch: fn(
-        &ParticlesOnGrid<'_, D>,
-        (usize, usize),
-        &mut CountedBatch<D>,
-        &mut dyn FnMut(&mut CountedBatch<D>),
-    ),
+    each_patch: EachPatch<D>,
     inertia: fn(&ParticlesOnGrid<'_, D>, usize) -> InertiaTensor<D>,
 }
 

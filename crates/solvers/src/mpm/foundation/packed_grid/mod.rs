@@ -301,13 +301,13 @@ mod tests {
             for (i, j) in (0..reach(1)).flat_map(|j| (0..reach(0)).map(move |i| (i, j))) {
                 let at = packed.layout.number(&[i, j]);
                 let node = grid.node(&[i % counts[0], j % counts[1]]);
-                let there = packed.view().row::<1>(at)[0].0;
+                let there = packed.view().row(at, 1)[0].0;
                 prop_assert_eq!(there, [node as f64, 1.0, node as f64, 1.0]);
 
                 let mut one = PackedField::<Node4>::default();
                 let mut view = one.shaped(&grid);
                 view.clear();
-                view.row::<1>(at)[0].0[3] = 1.0;
+                view.row(at, 1)[0].0[3] = 1.0;
                 one.fold(&grid);
                 let mut found = vec![0.0; grid.nodes()];
                 let columns = Columns { mass: Some(&mut found), ..Columns::default() };
