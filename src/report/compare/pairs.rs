@@ -130,7 +130,9 @@ fn otherwise(
     if refined {
         let (a, b) = (old.levels.len(), new.levels.len());
         let common = accuracy::common(old, new).len();
-        notes.push(format!("levels: {a} -> {b}, {common} in common"));
+        let note = format!("levels: {a} -> {b}, {common} in common");
+        // Without common levels, no error is compared, so this note explains the others.
+        notes.insert(if common == 0 { 0 } else { notes.len() }, note);
     }
     if rows.lone > 0 || old.stability.is_some() != new.stability.is_some() {
         notes.push("rows of one run only are not compared".to_owned());
@@ -172,6 +174,13 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
+/// Whether the observed order is lower than before. Smaller errors on the compared levels are then
+/// no improvement, because finer grids lose it.
+fn order_falls(found: &Moved) -> bool {
+    const CHANGE: f64 = 0.05;
+    matches!(found.order, [Some(old), Some(new)] if old - new > CHANGE)
+}
+
 /// Returns the kind and size of a change of errors, work or stability limits.
 fn figure_rank(found: &Moved, rows: &StabilityMove) -> Option<(Rank, f64)> {
     let (error, work) = (found.error.as_ref(), found.work);
@@ -180,6 +189,7 @@ fn figure_rank(found: &Moved, rows: &StabilityMove) -> Option<(Rank, f64)> {
         (Some(error), _) if error.worse => Some((Rank::LessAccurate, error.weight())),
         _ if rows.limit[0] => Some((Rank::LessStable, rows.weight)),
         (_, Some(work)) if !(work < 1.0) => Some((Rank::MoreExpensive, size)),
+        (Some(error), _) if order_falls(found) => Some((Rank::Otherwise, error.weight())),
         (Some(error), _) => Some((Rank::Better, error.weight())),
         (None, Some(_)) => Some((Rank::Better, size)),
         (None, None) if rows.limit[1] => Some((Rank::Better, rows.weight)),

@@ -97,6 +97,15 @@ fn set(path: &str, value: Value) -> impl Fn(&mut Value) {
     move |case| *case.pointer_mut(path).expect("a key") = value.clone()
 }
 
+#[test]
+fn smaller_error_of_a_lower_order_is_not_better() {
+    let found = after(&case("a", 1.0, 1.0), |case| {
+        set("/levels/3/judged", json!(1e-4))(case);
+        set("/observed_order", json!({"value": 1.67}))(case);
+    });
+    assert_eq!(rank(&found), Some(Rank::Otherwise), "{}", text(&found));
+}
+
 #[rstest]
 #[case::nothing("/axis", json!("space"), None)]
 #[case::another_reason("/passed", json!(true), None)]
