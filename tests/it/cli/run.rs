@@ -290,5 +290,8 @@ fn fail_fast_starts_no_further_suite() {
     let found = folder.call(&[&arguments[..], &["--fail-fast"]].concat());
     assert_eq!(found.code, FAILED);
     assert!(!found.out.contains("short-bar::"), "{}", found.out);
-    assert_contains(&found.errors, &["note: a case failed, so 1 suite did not start (--fail-fast)"]);
+    assert_contains(
+        &found.errors,
+        &["note: a case failed, so 1 suite did not start (--fail-fast)"],
+    );
 }
