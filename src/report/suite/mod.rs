@@ -12,7 +12,7 @@ use crate::verify::{self, SuiteOutcome};
 /// Suite whose figure represents a run with many suites.
 const PLOTTED: &str = "vibrating-bar";
 
-/// Returns the suite whose figure represents a run: [`PLOTTED`], or the last one without it.
+/// Returns the suite whose figure represents a run: `vibrating-bar`, or the last one without it.
 pub fn plotted<'a>(
     mut outcomes: impl Iterator<Item = &'a SuiteOutcome> + Clone,
 ) -> Option<&'a SuiteOutcome> {

@@ -117,9 +117,8 @@ impl<S: Simd, const K: usize> WeightsSimd<S, K> {
 /// Maximum number of functions of a patch along an axis.
 pub(in crate::mpm) const MOST: usize = MARGIN + 1;
 
-/// Up to [`MOST`] neighbouring functions of a batch of particles, with the quantities of
-/// [`Weights1d`]. The size does not depend on the number of functions, so that loops need not be
-/// compiled for each number.
+/// Neighbouring functions of a batch of particles, with the quantities of [`Weights1d`]. All
+/// patches have the size of the largest one, so that loops need not be compiled for each size.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights1dBatch {
     pub(in crate::mpm) weight: [F64Batch; MOST],
