@@ -39,6 +39,8 @@ pub(super) fn list(args: &ListArgs) -> Status {
         *suites += 1;
         *count += cases.len();
         let title = format!("{}: {}\n", suite.name, suite.title);
+        let is_long = title.chars().count() > WIDTH;
+        let title = if is_long { title.replacen(": ", ":\n    ", 1) } else { title };
         Ok(match (by_group, args.cases) {
             (true, _) => String::new(),
             (_, true) => format!("{title}  {}\n", cases.join("\n  ")),
@@ -59,6 +61,9 @@ pub(super) fn list(args: &ListArgs) -> Status {
     }
     code
 }
+
+/// Maximum width of a line (characters).
+const WIDTH: usize = 100;
 
 /// Maximum number of suites that are listed one by one.
 const MOST_LISTED: usize = 35;
@@ -111,8 +116,12 @@ pub(super) fn steps(args: &StepsArgs) -> Status {
             let plan = suite.convergence();
             let by_load_steps = plan.is_some_and(|plan| plan.steps == StepKind::Load);
             let row = if by_load_steps { load_steps_row } else { row };
-            let rows: String = of_suite(suite).iter().map(row).collect();
-            format!("{}\n{rows}", suite.name)
+            let mut text = format!("{}\n", suite.name);
+            for steps in of_suite(suite).chunk_by(|one, next| one.case == next.case) {
+                text += &format!("  {}\n", steps[0].case);
+                text.extend(steps.iter().map(row));
+            }
+            text
         })
     };
     let (all, off) = (all.get(), off.get());
@@ -132,11 +141,11 @@ fn beyond(step: &TimeStep) -> bool {
 }
 
 fn row(step: &TimeStep) -> String {
-    let TimeStep { case, level, wanted, clock } = step;
+    let TimeStep { level, wanted, clock, .. } = step;
     let cells = level.cells;
     let note = if beyond(step) { "  off" } else { "" };
     format!(
-        "  {case}, {cells} cells: {} steps of {:.4e} s, {:.4} x {wanted:.4e} s, {} instants{note}\n",
+        "    {cells} cells: {} steps of {:.4e} s, {:.4} x {wanted:.4e} s, {} instants{note}\n",
         clock.steps,
         clock.dt(),
         step.ratio(),
@@ -145,8 +154,8 @@ fn row(step: &TimeStep) -> String {
 }
 
 fn load_steps_row(step: &TimeStep) -> String {
-    let TimeStep { case, level, clock, .. } = step;
-    format!("  {case}, {} cells: {} load steps\n", level.cells, clock.steps)
+    let TimeStep { level, clock, .. } = step;
+    format!("    {} cells: {} load steps\n", level.cells, clock.steps)
 }
 
 fn level(step: &TimeStep) -> Value {

@@ -64,6 +64,9 @@ pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     }
     text += "\n";
     for ranking in &by_seconds {
+        if by_seconds.len() > 1 {
+            text += &format!("{}:\n", ranking.problem);
+        }
         text += &cheapest(ranking);
     }
     if by_seconds.is_empty() {
@@ -82,7 +85,7 @@ fn cheapest(ranking: &Ranking) -> String {
     let found = targets.find_map(|(k, target)| Some((target, least(k)?)));
     found.map_or_else(String::new, |(target, (row, work))| {
         let (name, work) = (&row.method.name, short(work));
-        format!("cheapest for an error of {target:e}, {}: {name}, {work} s\n", ranking.problem)
+        format!("cheapest for an error of {target:e}: {name}, {work} s\n")
     })
 }
 

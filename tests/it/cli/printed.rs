@@ -73,6 +73,8 @@ fn without_arguments_a_plot_and_the_next_commands_are_printed() {
 #[case(&["check", "vibrating-bar"], "vibrating-bar")]
 #[case(&["explain", "cooks-membrane"], "next: mpm-verify run cooks-membrane")]
 #[case(&["explain", "order-too-low"], "restores the order")]
+#[case(&["list", "--cases"], "suites, ")]
+#[case(&["steps", "the-talk"], "levels: 0 with a step that differs")]
 #[case(&["steps", "vibrating-bar"], "24 levels: 0 with a step that differs")]
 #[case(&["run", "vibrating-bar", "mms-fixed-bar-large"], "2 suites, 24 cases: ")]
 #[case(&["run", "--brief", "free-bar*"], ", 0 FAIL")]

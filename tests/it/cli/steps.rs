@@ -75,10 +75,11 @@ fn instants_do_not_change_the_step() {
     let out = folder.accepted(&["steps", "bar.yaml"]);
     insta::assert_snapshot!(out, @"
     short-bar
-      mpm-linear-flip-musl, 4 cells: 667 steps of 7.4963e-3 s, 0.9996 x 7.4993e-3 s, 50 instants
-      mpm-linear-flip-musl, 6 cells: 1000 steps of 5.0000e-3 s, 1.0001 x 4.9995e-3 s, 50 instants
-      mpm-linear-flip-musl, 8 cells: 1333 steps of 3.7509e-3 s, 1.0004 x 3.7496e-3 s, 50 instants
-      mpm-linear-flip-musl, 12 cells: 2000 steps of 2.5000e-3 s, 1.0001 x 2.4998e-3 s, 50 instants
+      mpm-linear-flip-musl
+        4 cells: 667 steps of 7.4963e-3 s, 0.9996 x 7.4993e-3 s, 50 instants
+        6 cells: 1000 steps of 5.0000e-3 s, 1.0001 x 4.9995e-3 s, 50 instants
+        8 cells: 1333 steps of 3.7509e-3 s, 1.0004 x 3.7496e-3 s, 50 instants
+        12 cells: 2000 steps of 2.5000e-3 s, 1.0001 x 2.4998e-3 s, 50 instants
     4 levels: 0 with a step that differs from the requested step by more than 1 %
     ");
 }
@@ -92,10 +93,11 @@ fn rounded_step_of_a_short_run_is_reported() {
     assert_eq!(found.code, FAILED);
     insta::assert_snapshot!(found.out, @"
     short-bar
-      mpm-linear-flip-musl, 4 cells: 2 steps of 3.0000e-3 s, 1.2000 x 2.5000e-3 s, 2 instants  off
-      mpm-linear-flip-musl, 6 cells: 4 steps of 1.5000e-3 s, 0.9000 x 1.6667e-3 s, 4 instants  off
-      mpm-linear-flip-musl, 8 cells: 5 steps of 1.2000e-3 s, 0.9600 x 1.2500e-3 s, 5 instants  off
-      mpm-linear-flip-musl, 12 cells: 7 steps of 8.5714e-4 s, 1.0286 x 8.3333e-4 s, 7 instants  off
+      mpm-linear-flip-musl
+        4 cells: 2 steps of 3.0000e-3 s, 1.2000 x 2.5000e-3 s, 2 instants  off
+        6 cells: 4 steps of 1.5000e-3 s, 0.9000 x 1.6667e-3 s, 4 instants  off
+        8 cells: 5 steps of 1.2000e-3 s, 0.9600 x 1.2500e-3 s, 5 instants  off
+        12 cells: 7 steps of 8.5714e-4 s, 1.0286 x 8.3333e-4 s, 7 instants  off
     4 levels: 4 with a step that differs from the requested step by more than 1 %
     ");
     let errors = folder.call(&["run", "bar.yaml"]).errors;
