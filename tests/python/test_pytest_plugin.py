@@ -58,7 +58,10 @@ def test_a_wrong_stress_fails_with_the_report(run, pytester) -> None:
     result = run("--mpm-verify", solver, "--mpm-verify-suites", "vibrating-bar")
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(["FAIL: expected order at least*", "vibrating-bar: Vibrating bar",
-                                 "*rms error of displacement at the end (m)"])
+                                 "*rms error of displacement at the end (m)",
+                                 "error*order-too-low*: vibrating-bar::*", "*vibrating-bar.yaml*",
+                                 "*mpm-verify explain order-too-low"])
+    result.stdout.no_fnmatch_line("wrote *")
 
 
 def test_a_named_suite_that_is_not_applicable_fails(run) -> None:

@@ -89,7 +89,7 @@ def _run(command: str, suites: list[str], config: pytest.Config, folder: str) ->
 
     report = results.load(run.stdout)
     # Diagnostics begin with `error[CODE]: SUITE::CASE: `.
-    diagnostics = re.split(r"(?=^error\[)", run.stderr, flags=re.M)
+    diagnostics = re.split(r"(?=^(?:error\[|wrote ))", run.stderr, flags=re.M)
     for suite in report["suites"]:
         for case in suite["cases"]:
             head = f"]: {suite['suite']}::{case['case']}: "
