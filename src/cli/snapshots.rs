@@ -63,7 +63,8 @@ fn pending(path: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Compares each report with its snapshot in `folder`, or next to the suite. A report that differs
-/// is written next to the snapshot, unless it violates an expectation. Returns whether all agree.
+/// is written next to the snapshot, unless it violates an expectation. `say` prints differences.
+/// Returns whether all agree.
 ///
 /// # Errors
 /// If a suite is in no folder, or if a file cannot be read or written.
@@ -71,6 +72,7 @@ pub(super) fn compare(
     folder: Option<&Path>,
     sources: &[Source],
     outcomes: &[SuiteOutcome],
+    say: fn(&str),
 ) -> Result<bool, CommandError> {
     let mut differ = 0;
     for (source, outcome) in sources.iter().zip(outcomes) {
@@ -99,17 +101,17 @@ pub(super) fn compare(
         differ += 1;
         let diff = TextDiff::from_lines(old.unwrap_or_default(), &text);
         let (old_name, new_name) = (path.display().to_string(), new.display().to_string());
-        output::print(&diff.unified_diff().header(&old_name, &new_name).to_string());
+        say(&diff.unified_diff().header(&old_name, &new_name).to_string());
         if outcome.passed() {
             fs::create_dir_all(folder).map_err(unusable)?;
             fs::write(&new, format!("{HEAD}{text}")).map_err(unusable)?;
         } else {
-            output::print(&format!("{new_name} is not written, because a case fails\n"));
+            say(&format!("{new_name} is not written, because a case fails\n"));
         }
     }
     if differ > 0 {
         let changed = counted(differ, "changed report");
-        output::print(&format!("{changed}; `mpm-verify accept` accepts the written ones\n"));
+        say(&format!("{changed}; `mpm-verify accept` accepts the written ones\n"));
     }
     Ok(differ == 0)
 }

@@ -142,7 +142,7 @@ fn report(
     let results = run_all(args, &runs, &judging, &bar, printing);
     let RunResults { outcomes, numbers, of_solvers, times } = results;
     let sources: Vec<Source> = numbers.iter().map(|number| sources[*number].clone()).collect();
-    if numbers.len() < runs.len() {
+    if args.fail_fast && numbers.len() < runs.len() {
         let rest = report::counted(runs.len() - numbers.len(), "suite");
         output::complain(&format!("note: a case failed, so {rest} did not start (--fail-fast)"));
     }
@@ -158,7 +158,8 @@ fn report(
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let compare = |SnapshotFolder(folder): &SnapshotFolder| {
-        snapshots::compare(folder.as_deref(), &sources, &outcomes)
+        let say = if printing.is_text() { output::print } else { output::complain };
+        snapshots::compare(folder.as_deref(), &sources, &outcomes, say)
     };
     let written = written.and(snapshots.map_or(Ok(true), compare).map(|same| passed &= same));
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));

@@ -44,6 +44,11 @@ impl Printing {
         }
     }
 
+    /// Whether people read standard output, not programs.
+    pub(super) fn is_text(self) -> bool {
+        !matches!(self, Self::Json | Self::Csv | Self::Latex)
+    }
+
     /// Prints the end of the text: the violated expectations with their positions in the files of
     /// the suites, the names of the written files, and the verdict on the run.
     pub(super) fn end(
@@ -53,7 +58,6 @@ impl Printing {
         outcomes: &[SuiteOutcome],
         time: Duration,
     ) {
-        let is_text = !matches!(self, Self::Json | Self::Csv | Self::Latex);
         for (source, suite, case) in failed(sources, outcomes) {
             for violation in violations(source, suite, case) {
                 match args.format {
@@ -63,10 +67,10 @@ impl Printing {
                 }
             }
         }
-        if !outcomes.is_empty() && !is_text {
+        if !outcomes.is_empty() && !self.is_text() {
             written(args).for_each(|line| output::complain(&line));
         }
-        if outcomes.is_empty() || self == Self::Failures || !is_text {
+        if outcomes.is_empty() || self == Self::Failures || !self.is_text() {
             return;
         }
         written(args).for_each(|line| output::print(&line));

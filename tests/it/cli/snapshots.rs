@@ -15,6 +15,9 @@ fn changed_report_is_written_and_accepted() {
     let changed = folder.call(&run);
     assert_eq!(changed.code, FAILED);
     assert_contains(&changed.out, &["\n-short-bar: Short bar\n+short-bar: Long bar\n"]);
+    let json = folder.call(&["run", "bar.yaml", "--snapshots", "--format", "json"]);
+    assert!(serde_json::from_str::<serde_json::Value>(&json.out).is_ok(), "{}", json.out);
+    assert_contains(&json.errors, &["+short-bar: Long bar\n", "1 changed report"]);
     assert_contains(&folder.accepted(&["accept", "."]), &["1 snapshot accepted"]);
     assert_contains(&folder.accepted(&["accept"]), &["0 snapshots accepted\nnext: mpm-verify"]);
 }
