@@ -19,6 +19,7 @@ pub(crate) mod json;
 mod junit;
 pub(crate) mod latex;
 pub(crate) mod matrix;
+pub(crate) mod names;
 pub mod page;
 pub(crate) mod study;
 pub(crate) mod suite;

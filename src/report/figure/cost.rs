@@ -2,7 +2,7 @@
 
 use super::series::coincident;
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
-use crate::report::text::table::together;
+use crate::report::names::together;
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 

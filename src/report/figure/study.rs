@@ -3,7 +3,7 @@
 use super::series::coincident;
 use super::{Figure, LogLogPlot, Mark, PlotPoint, PlotSeries};
 use crate::report::columns::level::NamedStudy;
-use crate::report::text::table::together;
+use crate::report::names::together;
 use crate::verify::{
     Axis, CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, Verdict, distinct,
 };

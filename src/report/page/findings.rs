@@ -4,8 +4,8 @@ use super::html::Html;
 use super::section::inline_svg;
 use super::tables::{SuiteSource, case_id, link, suite_id, titled};
 use crate::report::matrix::by_group;
+use crate::report::names::together;
 use crate::report::suite::verdicts::counts;
-use crate::report::text::table::together;
 use crate::report::{plotted, svg};
 use crate::verify::{CaseOutcome, CaseResult, SuiteOutcome, grouped};
 

@@ -1,9 +1,10 @@
 //! First part of a report: results and expectations of each case.
 
 use crate::report::columns::{TableColumn, decimals, level, scientific};
+use crate::report::names::together;
 use crate::report::study::KINDS;
 use crate::report::text::prose::{hanging, row};
-use crate::report::text::table::{Table, together};
+use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, CaseResult, distinct, grouped};
 
 /// Adds verdicts, unmet expectations, expectations with their reasons, and remarks.

@@ -1,11 +1,11 @@
 //! Convergence plot for a terminal: error against spacing on logarithmic axes, in braille
 //! characters.
 
-use super::table::together;
 use crate::report::columns::level;
 use crate::report::columns::short;
 use crate::report::figure::plot::scale::{Pad, Scale};
 use crate::report::figure::study::spacing_label;
+use crate::report::names::together;
 use crate::verify::{CaseOutcome, Convergence, LevelOutcome, SuiteOutcome, format_number, grouped};
 
 /// Size of the plot (characters). A braille character has two columns and four rows of dots.
