@@ -63,7 +63,7 @@ fn pending(path: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Compares each report with its snapshot in `folder`, or next to the suite. A report that differs
-/// is written next to the snapshot, unless it violates an expectation. `say` prints differences.
+/// is written next to the snapshot, unless it violates an expectation. `print` prints differences.
 /// Returns whether all agree.
 ///
 /// # Errors
@@ -72,7 +72,7 @@ pub(super) fn compare(
     folder: Option<&Path>,
     sources: &[Source],
     outcomes: &[SuiteOutcome],
-    say: fn(&str),
+    print: fn(&str),
 ) -> Result<bool, CommandError> {
     let mut differ = 0;
     for (source, outcome) in sources.iter().zip(outcomes) {
@@ -93,25 +93,25 @@ pub(super) fn compare(
             read => read.map(Some),
         };
         let stored = stored.map_err(unusable)?;
-        let old = stored.as_deref().map(|text| text.splitn(3, "---\n").last().unwrap_or_default());
-        if old.is_some_and(|old| drift::same(old, &text)) {
+        if stored.as_deref().is_some_and(|stored| drift::same_as_snapshot(stored, &text)) {
             let _ = fs::remove_file(&new);
             continue;
         }
         differ += 1;
-        let diff = TextDiff::from_lines(old.unwrap_or_default(), &text);
+        let old = stored.as_deref().map_or("", drift::contents);
+        let diff = TextDiff::from_lines(old, &text);
         let (old_name, new_name) = (path.display().to_string(), new.display().to_string());
-        say(&diff.unified_diff().header(&old_name, &new_name).to_string());
+        print(&diff.unified_diff().header(&old_name, &new_name).to_string());
         if outcome.passed() {
             fs::create_dir_all(folder).map_err(unusable)?;
             fs::write(&new, format!("{HEAD}{text}")).map_err(unusable)?;
         } else {
-            say(&format!("{new_name} is not written, because a case fails\n"));
+            print(&format!("{new_name} is not written, because a case fails\n"));
         }
     }
     if differ > 0 {
         let changed = counted(differ, "changed report");
-        say(&format!("{changed}; `mpm-verify accept` accepts the written ones\n"));
+        print(&format!("{changed}; `mpm-verify accept` accepts the written ones\n"));
     }
     Ok(differ == 0)
 }

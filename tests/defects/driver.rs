@@ -41,6 +41,5 @@ fn main() {
 
 /// Whether the report differs from its snapshot, below whose head it stands.
 fn has_drifted(outcome: &SuiteOutcome, snapshot: &str) -> bool {
-    let kept = snapshot.splitn(3, "---\n").last().unwrap_or_default();
-    !report::drift::same(kept, &report::text(outcome))
+    !report::drift::same_as_snapshot(snapshot, &report::text(outcome))
 }

@@ -158,8 +158,8 @@ fn report(
     let junit = |file| files::write_junit(file, &outcomes, &judging.required(), &times);
     let mut passed = outcomes.iter().all(SuiteOutcome::passed);
     let compare = |SnapshotFolder(folder): &SnapshotFolder| {
-        let say = if printing.is_text() { output::print } else { output::complain };
-        snapshots::compare(folder.as_deref(), &sources, &outcomes, say)
+        let print = if printing.is_text() { output::print } else { output::complain };
+        snapshots::compare(folder.as_deref(), &sources, &outcomes, print)
     };
     let written = written.and(snapshots.map_or(Ok(true), compare).map(|same| passed &= same));
     let written = written.and(args.html.as_deref().map_or(Ok(()), page));

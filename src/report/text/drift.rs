@@ -16,6 +16,16 @@ pub fn same(old: &str, new: &str) -> bool {
         && old.lines().zip(new.lines()).all(|(old, new)| same_line(old, new))
 }
 
+/// Whether a report equals its stored snapshot, which begins with a header of `insta`.
+pub fn same_as_snapshot(snapshot: &str, report: &str) -> bool {
+    same(contents(snapshot), report)
+}
+
+/// Returns a snapshot without its header.
+pub fn contents(snapshot: &str) -> &str {
+    snapshot.splitn(3, "---\n").last().unwrap_or_default()
+}
+
 fn same_line(old: &str, new: &str) -> bool {
     let (old, new) = (tokens(old), tokens(new));
     old.len() == new.len() && old.iter().zip(&new).all(|(old, new)| same_token(old, new))
