@@ -131,17 +131,12 @@ fn print_verdict(args: &ReportArgs, sources: &[Source], outcomes: &[SuiteOutcome
         if cases.iter().all(|case| case.passed()) { ", 0 FAIL" } else { "" }
     );
     let failed = failed(sources, outcomes).next();
+    let plotted = report::plotted(outcomes.iter()).map_or("", |suite| &suite.suite);
     let next = match failed.map(|(source, suite, case)| next_command(source, suite, case)) {
         Some(command) => vec![(command, "")],
         None if args.print.plot => vec![
             ("run".to_owned(), "all suites"),
-            (
-                format!(
-                    "run {}",
-                    report::plotted(outcomes.iter()).map_or("", |suite| &suite.suite)
-                ),
-                "one report",
-            ),
+            (format!("run {plotted}"), "one report"),
             ("doctor --solver COMMAND".to_owned(), "your own solver"),
         ],
         None => Vec::new(),

@@ -24,9 +24,7 @@ impl PlotPoint {
         let positive = |value: f64| value.is_finite() && value > 0.0;
         positive(self.x) && positive(self.error) && self.mark != Mark::Failed
     }
-}
 
-impl PlotPoint {
     /// Whether two points are drawn as one: they differ by at most 2 %, or by 10 % on a level that
     /// counts for neither method.
     fn coincides(&self, other: &Self) -> bool {
