@@ -103,7 +103,7 @@ impl<'a, P: PatchSource<D>, const D: usize> ParticleBatches<'a, P, D> {
             one |= source.patches_x4(simd, at, lanes, patches) << lane;
             lane += LANES;
         }
-        if const { P::ONE_PATCH } || source.has_one_patch() {
+        if source.has_one_patch() {
             let (mut rest, mut lane) = (one, 0);
             while rest != 0 {
                 let from = lane + rest.trailing_zeros();

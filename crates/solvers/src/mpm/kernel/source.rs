@@ -23,9 +23,6 @@ pub(in crate::mpm) trait PatchSource<const D: usize>: Copy {
     /// Shape of the patches.
     type Form: PatchShape;
 
-    /// Whether the compiler knows that a single patch contains all nodes of a particle.
-    const ONE_PATCH: bool;
-
     /// Whether the loops serve all bases.
     const IS_DYN: bool = false;
 
@@ -78,8 +75,6 @@ impl<B> Copy for Static<B> {}
 
 impl<const D: usize, B: Basis> PatchSource<D> for Static<B> {
     type Form = <B::Patch<D> as Patch<D>>::ShapeOfPatch;
-
-    const ONE_PATCH: bool = B::ONE_PATCH;
 
     #[inline(always)]
     fn shape(self) -> Self::Form {
@@ -174,7 +169,6 @@ pub(in crate::mpm) struct AnyBasis<const D: usize> {
 impl<const D: usize> PatchSource<D> for AnyBasis<D> {
     type Form = CountedShape;
 
-    const ONE_PATCH: bool = false;
     const IS_DYN: bool = true;
 
     #[inline(always)]
