@@ -9,7 +9,7 @@ use crate::report::text::prose::KEYS;
 pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
-    /// Reads the suites from the matrix in the overview, and their results from their reports.
+    /// Reads the names of the suites from the overview, and their results from their reports.
     /// `report` returns the report of a suite, given its group and name, or `None` if there is no
     /// report.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
@@ -18,6 +18,10 @@ impl ReportDocument {
         for line in rows.take_while(|line| !line.is_empty()) {
             if !line.starts_with(' ') {
                 group = line;
+                continue;
+            }
+            // Lines that continue a wrapped line have a wider indent.
+            if line.starts_with("   ") {
                 continue;
             }
             let name = line.split_whitespace().next().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Overview of all suites: the matrix of problems and methods.
+//! Overview of all suites: the findings for each basis.
 
 use super::verdicts;
 use crate::report::matrix::{COLUMNS, LEGEND, by_group, failures, finding, findings};
@@ -6,22 +6,9 @@ use crate::report::text::prose::{paragraph_lines, row, row_of_width};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, CaseResult, Convergence, SuiteOutcome};
 
-/// Column widths in the overview of all suites. The widths are fixed, because the overview is
-/// stored as a snapshot.
-const WIDTHS: [(&str, usize); 9] = [
-    ("suite", 31),
-    ("linear", BASIS),
-    ("uGIMP", BASIS),
-    ("cpGIMP", BASIS),
-    ("CPDI", BASIS),
-    ("quadratic B-spline", 18),
-    ("cubic B-spline", BASIS),
-    ("FEM", BASIS),
-    ("other", BASIS),
-];
-
-/// Width of a column with the orders and verdicts of one basis.
-const BASIS: usize = 15;
+/// Width of the column with the names of suites. The width is fixed, because the overview is stored
+/// as a snapshot.
+const SUITE: usize = 33;
 
 /// Maximum number of suites that [`glance`] lists one by one.
 const MOST_LISTED: usize = 25;
@@ -48,8 +35,8 @@ pub fn glance(outcomes: &[SuiteOutcome]) -> String {
     table.flush_left(&["orders", "results"]).lines().join("\n") + "\n"
 }
 
-/// Returns an overview of suites: a summary, and one line for each suite, in groups. Columns have
-/// fixed widths, so that a change of a suite changes only one line.
+/// Returns an overview of suites: a summary, and the findings of each suite by basis, in groups. A
+/// change of a suite changes only its own lines.
 pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     let mut lines = vec!["Overview of all suites".to_owned(), String::new()];
     let cases: Vec<&CaseOutcome> = outcomes.iter().flat_map(|suite| &suite.cases).collect();
@@ -75,7 +62,14 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     }
     lines.push(String::new());
     paragraph_lines(&mut lines, LEGEND);
-    grouped(&mut lines, outcomes, matrix(outcomes).lines_of_widths(&WIDTHS));
+    lines.push(String::new());
+    row_of_width(&mut lines, SUITE, "suite", "findings by basis");
+    for (group, suites) in groups(outcomes) {
+        lines.push(group.to_owned());
+        for suite in suites {
+            row_of_width(&mut lines, SUITE, &suite.suite, &by_basis(suite));
+        }
+    }
     lines.join("\n") + "\n"
 }
 
@@ -101,23 +95,8 @@ fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
 }
 
-fn matrix(outcomes: &[SuiteOutcome]) -> Table {
-    let headings = ["suite"].iter().chain(&COLUMNS).map(|heading| (*heading).to_owned());
-    let row = |suite: &&SuiteOutcome| {
-        std::iter::once(suite.suite.clone()).chain(findings(suite)).collect()
-    };
-    let suites = groups(outcomes).into_iter().flat_map(|(_, suites)| suites);
-    let rows = suites.map(|suite| row(&suite)).collect();
-    Table::of_cells(headings.collect(), rows).without_empty_columns()
-}
-
-/// Adds the lines of a table, with the name of each group above its suites.
-fn grouped(lines: &mut Vec<String>, outcomes: &[SuiteOutcome], table: Vec<String>) {
-    let mut table = table.into_iter();
-    lines.push(String::new());
-    lines.extend(table.next());
-    for (group, suites) in groups(outcomes) {
-        lines.push(group.to_owned());
-        lines.extend(table.by_ref().take(suites.len()));
-    }
+/// Lists the findings of a suite: `linear 1.96..2.01, FEM floor`.
+fn by_basis(suite: &SuiteOutcome) -> String {
+    let named = COLUMNS.iter().zip(findings(suite)).filter(|(_, finding)| finding != "-");
+    named.map(|(basis, finding)| format!("{basis} {finding}")).collect::<Vec<_>>().join(", ")
 }

@@ -31,11 +31,14 @@ pub fn text(outcome: &SuiteOutcome) -> String {
 
 /// Adds the description of the problem, one fact in each row.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The judged quantity is omitted, because the heading of the error table contains it.
-    let is_told = |(key, value): &&(String, String)| {
-        key == "judged" || (key == "crossing levels" && value == "counted")
+    // The heading of the error table contains the judged quantity. The equation follows from the
+    // material.
+    let is_known = |(key, value): &&(String, String)| match key.as_str() {
+        "judged" | "equation" => true,
+        "crossing levels" => value == "counted",
+        _ => false,
     };
-    let facts = statement.iter().filter(|row| !is_told(row));
+    let facts = statement.iter().filter(|row| !is_known(row));
     section(lines, "problem", facts.map(|(key, value)| (key.as_str(), value.as_str())));
 }
 

@@ -18,7 +18,7 @@ pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     lines.push(String::new());
     let expectations = expectations(cases);
     let verdicts = Table::new(&columns(&expectations), cases);
-    lines.extend(verdicts.without_empty_columns().merged().lines());
+    lines.extend(verdicts.without_empty_columns().merged_by_name().lines());
     lines.push(String::new());
     for (k, expectation) in expectations.iter().enumerate() {
         hanging(lines, &letter(k), expectation);
@@ -46,7 +46,7 @@ pub fn counts<'a>(cases: impl Iterator<Item = &'a CaseOutcome>) -> String {
 
 type CaseColumn<'a> = TableColumn<'a, CaseOutcome>;
 
-fn columns(expectations: &[String]) -> [CaseColumn<'_>; 9] {
+fn columns(expectations: &[String]) -> [CaseColumn<'_>; 7] {
     let order = |case: &CaseOutcome| case.convergence()?.judgement.order;
     [
         CaseColumn::text("case", "case", |case| case.case.clone()).flush_left(),
@@ -69,15 +69,6 @@ fn columns(expectations: &[String]) -> [CaseColumn<'_>; 9] {
                 None => scientific(level.error),
             })
         }),
-        CaseColumn::text("floor", "axis that causes a floor", |case| {
-            Some(case.convergence()?.floor.as_ref()?.cause()?.name())
-        })
-        .flush_left(),
-        CaseColumn::text("observed", "measured values of other studies", |case| {
-            let measured = case.reason.split("; ").next().map(str::to_owned);
-            measured.filter(|_| case.convergence().is_none())
-        })
-        .flush_left(),
     ]
 }
 

@@ -274,7 +274,8 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
          {answered} of {} cases have an estimate",
         rows.len()
     ));
-    lines.extend(Table::new(&limit_columns(), &rows).without_empty_columns().lines());
+    let table = Table::new(&limit_columns(), &rows).without_empty_columns();
+    lines.extend(table.merged().lines());
 }
 
 /// Rounds the limit to the second significant digit of its half-width.

@@ -3,7 +3,7 @@
 
 use super::prose::{hanging, paragraph_lines};
 use crate::subject::{ColumnSize, Holder, Profile};
-use crate::verify::{CaseOutcome, SuiteOutcome};
+use crate::verify::{CaseOutcome, SuiteOutcome, grouped};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Describes a profile in rows of name and text.
@@ -102,8 +102,8 @@ fn named(case: &CaseOutcome, keys: &[&str]) -> String {
     if words.is_empty() { case.subject.to_owned() } else { words.join(" ") }
 }
 
-/// Returns the distinct combinations of memory, visits and effects below each method. Rows have
-/// fixed widths, so that a new method changes no other row.
+/// Returns the distinct combinations of memory, visits and effects below the methods that have
+/// these combinations. Rows have fixed widths, so that a new method changes no other row.
 fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     let row = |case: &&CaseOutcome| {
         let profile = case.profile.as_ref()?;
@@ -121,10 +121,12 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     for (method, row) in cases.iter().filter_map(row) {
         methods.entry(method).or_default().insert(row);
     }
-    let lines = methods
-        .into_iter()
-        .flat_map(|(method, rows)| std::iter::once(format!("  {method}")).chain(rows));
-    lines.collect()
+    let mut lines = Vec::new();
+    for (rows, methods) in grouped(methods.into_iter().map(|(method, rows)| (rows, method))) {
+        hanging(&mut lines, "-", &methods.join("; "));
+        lines.extend(rows);
+    }
+    lines
 }
 
 /// Returns the bytes of the columns with an entry for each particle or node, and the bytes of the
@@ -156,28 +158,32 @@ fn columns(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
     }
 }
 
-/// Lists the passes, with the methods and effects that use them.
+/// Lists the passes, with the visited particles, and the methods and effects that use them.
 fn passes(lines: &mut Vec<String>, cases: &[&CaseOutcome]) {
-    let mut found: BTreeMap<String, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
+    type Methods<'a> = BTreeMap<String, BTreeSet<&'a str>>;
+    let mut found: BTreeMap<String, BTreeMap<String, Methods<'_>>> = BTreeMap::new();
     for case in cases {
         let Some(profile) = &case.profile else { continue };
         let visits: Vec<&str> = profile.visits.iter().map(|(name, _)| *name).collect();
-        let passes = format!("{}; visits: {}", profile.passes.join(", "), visits.join(", "));
         let method = named(case, &["transfer", "scheme", "mass matrix"]);
-        let of_method = found.entry(passes).or_default().entry(method).or_default();
-        of_method.extend(profile.effects.iter().map(|effect| (*effect).to_owned()));
+        let of_passes = found.entry(profile.passes.join(", ")).or_default();
+        let of_visits = of_passes.entry(visits.join(", ")).or_default();
+        of_visits.entry(method).or_default().extend(&profile.effects);
     }
-    for (passes, methods) in &found {
-        let method = |(method, effects): (&String, &BTreeSet<String>)| {
-            let effects: Vec<&str> = effects.iter().map(String::as_str).collect();
-            if effects.is_empty() {
-                method.clone()
-            } else {
-                format!("{method} ({})", effects.join(", "))
-            }
-        };
-        let methods: Vec<String> = methods.iter().map(method).collect();
-        hanging(lines, "-", &format!("{passes}. Of {}", methods.join("; ")));
+    let method = |(method, effects): (&String, &BTreeSet<&str>)| {
+        let effects: Vec<&str> = effects.iter().copied().collect();
+        if effects.is_empty() {
+            method.clone()
+        } else {
+            format!("{method} ({})", effects.join(", "))
+        }
+    };
+    for (passes, by_visits) in &found {
+        hanging(lines, "-", passes);
+        for (visits, methods) in by_visits {
+            let methods: Vec<String> = methods.iter().map(method).collect();
+            hanging(lines, "", &format!("visits: {visits}. Of {}", methods.join("; ")));
+        }
     }
 }
 

@@ -70,7 +70,7 @@ fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
 /// each value of the swept parameter. Stages whose entries are all rounding errors have no row.
 fn ledgers(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let Some((_, first)) = studies.first() else { return };
-    let values = first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value));
+    let values = first.rows.iter().map(|row| format!("{}={}", first.swept, row.value));
     let headings = ["case", "energy (J)"].map(str::to_owned).into_iter().chain(values).collect();
     let blocks = studies.iter().filter_map(|(name, study)| {
         let balance = |row: &StabilityRow| row.trial.as_ref().and_then(|trial| trial.ledger);
@@ -106,7 +106,7 @@ fn limits(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let sought = first.sought.as_deref().unwrap_or_default();
     let details = stability::limits(first, sought).into_iter().skip(1);
     for column in details {
-        let values = first.rows.iter().map(|row| format!("{} = {}", first.swept, row.value));
+        let values = first.rows.iter().map(|row| format!("{}={}", first.swept, row.value));
         let headings = std::iter::once(column.heading.to_string()).chain(values).collect();
         let cells = |(name, study): &NamedSweep<'_>| {
             let cells = study.rows.iter().map(|row| column.cell(row).text);

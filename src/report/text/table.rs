@@ -1,9 +1,9 @@
 //! Plain aligned tables.
 
-use super::prose::WIDTH;
+use super::prose::{WIDTH, wrap};
 use crate::report::columns::TableColumn;
 use crate::report::names::together;
-use crate::verify::grouped;
+use crate::verify::{distinct, grouped};
 use std::borrow::Borrow;
 
 /// A line of headings, and rows of cells. Cells are aligned to the right by default.
@@ -46,11 +46,27 @@ impl Table {
         self.rows.len() == 1
     }
 
-    /// Merges rows that are equal except for the first cell, the name. The name of a merged row
-    /// combines all names.
-    pub(crate) fn merged(mut self) -> Self {
-        let rows = self.rows.split_off(1);
-        self.rows.extend(merged(rows));
+    /// Merges rows that are equal except for the first cell, the name. A merged row has the
+    /// combined name, or `all other cases` if the name would be too long.
+    pub(crate) fn merged(self) -> Self {
+        self.merged_by(merged_blocks)
+    }
+
+    /// Merges rows like [`Table::merged`], but names every case.
+    pub(crate) fn merged_by_name(self) -> Self {
+        self.merged_by(|blocks| named_blocks(grouped(blocks.map(|(name, block)| (block, name)))))
+    }
+
+    fn merged_by(
+        mut self,
+        merge: impl FnOnce(std::vec::IntoIter<CaseRows>) -> Vec<Vec<String>>,
+    ) -> Self {
+        let block = |mut row: Vec<String>| {
+            let cells = row.split_off(1);
+            (row.pop().unwrap_or_default(), vec![cells])
+        };
+        let blocks: Vec<CaseRows> = self.rows.split_off(1).into_iter().map(block).collect();
+        self.rows.extend(merge(blocks.into_iter()));
         self
     }
 
@@ -103,31 +119,43 @@ impl Table {
         lines
     }
 
-    /// Returns the width of the widest cell of a column.
+    /// Returns the width of the widest cell of a column. A heading needs only the width of its
+    /// longest word, because headings are wrapped.
     fn widest(&self, column: usize) -> usize {
-        self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0)
+        let cells = self.rows[1..].iter().map(|row| row[column].as_str());
+        let words = self.rows[0][column].split(' ');
+        cells.chain(words).map(|text| text.chars().count()).max().unwrap_or(0)
     }
 
-    /// Returns the lines of the table, with the column widths that `widths` lists by heading. A
-    /// wider cell shifts only the rest of its line. Other columns are as wide as their headings.
-    pub(crate) fn lines_of_widths(&self, widths: &[(&str, usize)]) -> Vec<String> {
-        let width = |heading: &String| {
-            let listed = widths.iter().find(|(known, _)| known == heading);
-            listed.map_or(heading.chars().count(), |(_, width)| *width)
-        };
-        let columns: Vec<usize> = (0..self.columns()).collect();
-        self.aligned(&columns, &self.rows[0].iter().map(width).collect::<Vec<_>>())
-    }
-
+    /// Aligns the cells of some columns. Headings that are wider than their column are wrapped, and
+    /// end directly above the first row.
     fn aligned(&self, columns: &[usize], widths: &[usize]) -> Vec<String> {
-        let set = |row: &Vec<String>| {
-            let cells = columns.iter().map(|c| match (&row[*c], widths[*c], self.flush_left[*c]) {
-                (cell, width, true) => format!("{cell:<width$}"),
-                (cell, width, false) => format!("{cell:>width$}"),
+        let set = |cells: Vec<&str>| {
+            let cells = columns.iter().zip(cells).map(|(c, cell)| {
+                let width = widths[*c];
+                if self.flush_left[*c] {
+                    format!("{cell:<width$}")
+                } else {
+                    format!("{cell:>width$}")
+                }
             });
             format!("  {}", cells.collect::<Vec<_>>().join("  ")).trim_end().to_owned()
         };
-        self.rows.iter().map(set).collect()
+        let wrapped = |(heading, width): (&String, &usize)| {
+            let mut lines = Vec::new();
+            wrap(&mut lines, *width, heading);
+            lines
+        };
+        let headings: Vec<Vec<String>> = self.rows[0].iter().zip(widths).map(wrapped).collect();
+        let height = columns.iter().map(|c| headings[*c].len()).max().unwrap_or(0);
+        let heading = |line: usize, column: usize| {
+            let lines = &headings[column];
+            (line + lines.len()).checked_sub(height).map_or("", |line| lines[line].as_str())
+        };
+        let above =
+            (0..height).map(|line| set(columns.iter().map(|c| heading(line, *c)).collect()));
+        let row = |row: &Vec<String>| set(columns.iter().map(|c| row[*c].as_str()).collect());
+        above.chain(self.rows[1..].iter().map(row)).collect()
     }
 }
 
@@ -155,37 +183,55 @@ pub(crate) fn printable(text: &str) -> String {
 /// Maximum length (characters) of the combined name of merged rows.
 const LONGEST: usize = 44;
 
-/// Merges rows whose cells after the name are equal. The combined row has all names.
-fn merged(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
-    let block = |mut row: Vec<String>| {
-        let cells = row.split_off(1);
-        (row.pop().unwrap_or_default(), vec![cells])
-    };
-    merged_blocks(rows.into_iter().map(block))
-}
+/// Rows of one case: its name, and the cells of each row.
+type CaseRows = (String, Vec<Vec<String>>);
 
 /// Puts the name of the block in front of each of its rows. Equal blocks are merged and get a
-/// combined name.
-pub(crate) fn merged_blocks(
-    blocks: impl Iterator<Item = (String, Vec<Vec<String>>)>,
-) -> Vec<Vec<String>> {
-    let mut kept: Vec<(Vec<String>, Vec<Vec<String>>)> = Vec::new();
-    for (name, block) in blocks {
-        let fits = |names: &[String]| {
-            let names: Vec<&str> = names.iter().chain([&name]).map(String::as_str).collect();
-            together(&names).chars().count() <= LONGEST
-        };
-        match kept.iter_mut().rev().find(|(names, shown)| *shown == block && fits(names)) {
-            Some((names, _)) => names.push(name),
-            None => kept.push((vec![name], block)),
+/// combined name. If most blocks are equal and their combined name would be too long, they are
+/// called `all cases` or `all other cases`, and stand last.
+pub(crate) fn merged_blocks(blocks: impl Iterator<Item = CaseRows>) -> Vec<Vec<String>> {
+    let mut groups = grouped(blocks.map(|(name, block)| (block, name)));
+    let names: Vec<&String> = groups.iter().flat_map(|(_, names)| names).collect();
+    let is_most = |names: &[String], all: usize| 2 * names.len() > all && !is_short(names);
+    // A name with several different blocks would not be one of "all others".
+    let others = (distinct(names.iter()).len() == names.len())
+        .then(|| groups.iter().position(|(_, group)| is_most(group, names.len())))
+        .flatten()
+        .map(|at| groups.remove(at).0);
+    let name = if groups.is_empty() { "all cases" } else { "all other cases" };
+    let mut rows = named_blocks(groups);
+    rows.extend(others.into_iter().flatten().map(|cells| [vec![name.to_owned()], cells].concat()));
+    rows
+}
+
+/// Puts the combined name of each group in front of its rows. If it would be too long, the rows are
+/// repeated for several parts of the group.
+fn named_blocks(groups: Vec<(Vec<Vec<String>>, Vec<String>)>) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    for (block, names) in groups {
+        let mut parts: Vec<Vec<String>> = Vec::new();
+        for name in names {
+            match parts.last_mut() {
+                Some(part) if is_short(&[&part[..], std::slice::from_ref(&name)].concat()) => {
+                    part.push(name)
+                }
+                _ => parts.push(vec![name]),
+            }
+        }
+        for names in parts {
+            let name = combined(&names);
+            rows.extend(block.iter().map(|cells| [std::slice::from_ref(&name), cells].concat()));
         }
     }
-    let rows = |(names, block): (Vec<String>, Vec<Vec<String>>)| {
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        let name = together(&names);
-        block.into_iter().map(move |cells| std::iter::once(name.clone()).chain(cells).collect())
-    };
-    kept.into_iter().flat_map(rows).collect()
+    rows
+}
+
+fn combined(names: &[String]) -> String {
+    together(&names.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+fn is_short(names: &[String]) -> bool {
+    combined(names).chars().count() <= LONGEST
 }
 
 /// Lists the distinct values, each with its names in brackets. The brackets are omitted if all
@@ -227,28 +273,35 @@ mod tests {
     }
 
     #[test]
-    fn a_wide_cell_moves_only_its_own_line_between_fixed_widths() {
-        let rows = |name: &str| {
-            vec![vec![name.to_owned(), "1".to_owned()], vec!["b".to_owned(), "2".to_owned()]]
-        };
-        let lines = |name: &str| {
-            let table = Table::of_cells(vec!["case".to_owned(), "order".to_owned()], rows(name));
-            table.lines_of_widths(&[("case", 6)])
-        };
-        assert_eq!(lines("a"), ["  case    order", "  a           1", "  b           2"]);
-        assert_eq!(
-            lines("a long name"),
-            ["  case    order", "  a long name      1", "  b           2"]
-        );
+    fn headings_are_wrapped_to_the_width_of_their_column() {
+        let headings = ["case", "linf at end (m)"].map(str::to_owned).to_vec();
+        let table = Table::of_cells(headings, vec![vec!["a".to_owned(), "1.0".to_owned()]]);
+        let lines =
+            ["         linf", "           at", "          end", "  case    (m)", "  a       1.0"];
+        assert_eq!(table.lines(), lines);
     }
 
     #[test]
     fn equal_rows_are_merged() {
-        let rows = [["a-x", "1"], ["a-y", "2"], ["a-z", "1"], ["b-x", "1"]];
-        let rows = rows.map(|row| row.map(str::to_owned).to_vec()).to_vec();
-        assert_eq!(merged(rows), [vec!["{a-x,a-z,b-x}", "1"], vec!["a-y", "2"]]);
-        let long = |k: usize| vec![format!("{}-{k}", "word".repeat(6)), String::new()];
-        let rows = merged((0..20).map(long).collect());
-        assert!(rows.len() > 1 && rows.iter().all(|row| row[0].len() <= LONGEST));
+        let merged = |rows: Vec<[String; 2]>, by_name: bool| {
+            let headings = vec!["case".to_owned(), String::new()];
+            let table = Table::of_cells(headings, rows.into_iter().map(Vec::from).collect());
+            let table = if by_name { table.merged_by_name() } else { table.merged() };
+            table.rows[1..].to_vec()
+        };
+        let rows = || [["a-x", "1"], ["a-y", "2"], ["a-z", "1"], ["b-x", "1"]];
+        let rows = || rows().map(|row| row.map(str::to_owned)).to_vec();
+        for by_name in [false, true] {
+            assert_eq!(merged(rows(), by_name), [vec!["{a-x,a-z,b-x}", "1"], vec!["a-y", "2"]]);
+        }
+        let long = |k: usize| [format!("{}-{k}", "word".repeat(6)), String::new()];
+        let many = || (0..20).map(long).collect::<Vec<_>>();
+        let named = merged(many(), true);
+        assert!(named.len() > 1 && named.iter().all(|row| row[0].len() <= LONGEST));
+        assert_eq!(merged(many(), false), [["all cases", ""]]);
+        let rest = merged([rows(), many()].concat(), false);
+        assert_eq!(rest[2], ["all other cases", ""]);
+        // Rows of several values of the same case cannot be called "all others".
+        assert!(merged([many(), many()].concat(), false).len() > 1);
     }
 }

@@ -5,7 +5,7 @@ use crate::study::describe::{Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::LevelPlan;
-use crate::suite::model::{Case, ConvergencePlan, SameMethod};
+use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::numbers::with_unit;
 use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind, tuple};
@@ -142,11 +142,11 @@ fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     if study.steps == StepKind::Time {
         // A run can be compared with a reference run only at instants that both have in common.
         let between = if study.cases.iter().any(|case| case.against.is_computed()) {
-            ", or of steps between instants if compared with another run"
+            " between instants if compared with another run"
         } else {
             ""
         };
-        push(rows, "dt", &format!("{dt}, adjusted to a whole number of steps{between}"));
+        push(rows, "dt", &format!("{dt}, rounded to whole steps{between}"));
         push(rows, "instants", &format!("{instants}"));
     }
     if plan.has_particles() {
@@ -182,13 +182,14 @@ fn placed(scatter: &LatticeOffsets) -> String {
 
 pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     let mut rows = case.method.settings();
-    let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
-    rows.retain(|(key, _)| has_walls || key != "walls");
     match case.load_steps(plan) {
         Some(count) => push(&mut rows, "load steps", &count.to_string()),
         None => push(&mut rows, "until", &format!("t = {} s", stated(case.until))),
     }
-    push(&mut rows, "compared with", case.against.words());
+    // The exact solution is the default and omitted.
+    if !matches!(case.against, Against::Exact) {
+        push(&mut rows, "compared with", case.against.words());
+    }
     rows
 }
 

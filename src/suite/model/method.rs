@@ -117,17 +117,12 @@ impl Method {
         };
         match self {
             Self::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
-                let mass = match mass {
-                    MassName::Lumped => "lumped (row sum)",
-                    MassName::Consistent => "consistent",
-                };
                 let transfer = transfer.name();
                 let mut rows = vec![
                     ("basis", basis.name()),
                     ("transfer", transfer.as_str()),
                     ("scheme", scheme.name()),
-                    ("mass matrix", mass),
-                    ("walls", "conditions are imposed on the nodes of each face"),
+                    ("mass matrix", mass.name()),
                     ("start", start.name()),
                 ];
                 // The default frame is omitted.
@@ -145,7 +140,6 @@ impl Method {
             Self::QuasiStatic { basis, .. } => owned(vec![
                 ("basis", basis.name()),
                 ("scheme", "quasi_static, by Newton's method with the consistent tangent"),
-                ("walls", "conditions are imposed on the nodes of each face"),
             ]),
             Self::Heat { basis } => owned(vec![
                 ("basis", basis.name()),
@@ -153,7 +147,7 @@ impl Method {
                     "temperature transfer",
                     "to nodes with its gradient, and to particles as increments",
                 ),
-                ("capacity matrix", "lumped (row sum)"),
+                ("capacity matrix", "lumped"),
                 ("time integration", "forward Euler"),
             ]),
             Self::Fem { element, mass, law, start, sampling } => owned(vec![

@@ -58,7 +58,7 @@ fn local_suite_is_explained() {
       exact displacement 1e-3*sin(pi*X/2)*sin(omega*t)/omega
       equation          small strain, rho0 u_tt = Div P + rho0 b, P = C : sym(grad u)
       amplitude         largest |u| 4.502e-5 m, largest |grad u| 7.071e-5
-      dt                0.001 s, adjusted to a whole number of steps
+      dt                0.001 s, rounded to whole steps
       instants          50
       particles         4 per cell, equally spaced
       judged            rms error of the displacement

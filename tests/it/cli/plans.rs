@@ -116,7 +116,7 @@ fn reports_name_the_refined_axis() {
         &flat,
         &[
             "cells 8 on every level ",
-            "dt 0.001, 0.0005, 0.00025 s, adjusted to a whole number of steps ",
+            "dt 0.001, 0.0005, 0.00025 s, rounded to whole steps ",
             "further levels dt = 0.000125 s, with the option --full",
             "levels dt = 1.000e-03, 5.000e-04, 2.500e-04 s 8 cells along X ",
             "dt 1.000e-03 5.000e-04 2.500e-04",

@@ -39,7 +39,10 @@ fn a_run_of_many_suites_prints_a_line_for_each_and_the_failures() {
     let written = folder.call(&["--out", "results"]).out;
     assert_contains(&written, &["\nwrote results\n6 suites, "]);
     let matrix = folder.call(&["run", "--overview"]).out;
-    assert_contains(&matrix, &["\n  suite                                     linear", "\nbars\n"]);
+    assert_contains(
+        &matrix,
+        &["\n  suite                            findings by basis\nbars\n  bar-1  "],
+    );
 }
 
 /// The commands of the last lines are valid.
