@@ -213,7 +213,7 @@ fn named_blocks(groups: Vec<(Vec<Vec<String>>, Vec<String>)>) -> Vec<Vec<String>
         for name in names {
             match parts.last_mut() {
                 Some(part) if is_short(&[&part[..], std::slice::from_ref(&name)].concat()) => {
-                    part.push(name)
+                    part.push(name);
                 }
                 _ => parts.push(vec![name]),
             }
