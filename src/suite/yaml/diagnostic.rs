@@ -155,12 +155,13 @@ impl Diagnostic {
     }
 
     fn group(&self) -> Group<'_> {
-        let level = match self.severity() {
-            Severity::Note => Level::NOTE,
-            Severity::Warning => Level::WARNING,
-            Severity::Error => Level::ERROR,
+        let (level, name) = match self.severity() {
+            Severity::Note => (Level::NOTE, "note: "),
+            Severity::Warning => (Level::WARNING, "warning: "),
+            Severity::Error => (Level::ERROR, "error: "),
         };
-        let title = level.primary_title(self.message());
+        let indent = name.len() + self.0.code.map_or(0, |code| code.len() + 2);
+        let title = level.primary_title(folded(self.message(), WIDTH - indent));
         let title = match self.0.code {
             Some(code) => title.id(code),
             None => title,
@@ -179,7 +180,7 @@ impl Diagnostic {
             ),
         };
         match self.help() {
-            Some(help) => group.element(Level::HELP.message(help)),
+            Some(help) => group.element(Level::HELP.message(folded(help, WIDTH - HELP_INDENT))),
             None => group,
         }
     }
@@ -192,6 +193,32 @@ impl fmt::Display for Diagnostic {
 }
 
 impl std::error::Error for Diagnostic {}
+
+/// Breaks a text at spaces into lines of at most `most` characters, except for longer words.
+fn folded(text: &str, most: usize) -> String {
+    let (mut folded, mut column) = (String::new(), 0);
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        let fits = column + 1 + width <= most;
+        let separator = if folded.is_empty() {
+            ""
+        } else if fits {
+            " "
+        } else {
+            "\n"
+        };
+        column = if fits { column + separator.len() } else { 0 } + width;
+        folded.push_str(separator);
+        folded.push_str(word);
+    }
+    folded
+}
+
+/// Maximum length of a printed line (characters).
+const WIDTH: usize = 100;
+
+/// Maximum indent of advice (characters), below line numbers of five digits.
+const HELP_INDENT: usize = 15;
 
 /// Makes a text safe for a terminal: one line, no invisible characters, limited length.
 fn printable(words: &str) -> String {

@@ -43,6 +43,7 @@ mod truths;
 mod volume_ratios;
 mod vortex;
 
+use crate::common::folder::{assert_contains, flat};
 use crate::schema;
 use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Source};
@@ -75,9 +76,7 @@ fn refused(sound: &str, edits: Edits<'_>, words: &[&str]) {
     let shown = diagnostic.to_string();
     let excerpt = text.lines().nth(line - 1).expect("a line");
     points(&shown, line, column, excerpt);
-    for words in words {
-        assert!(shown.contains(words), "no `{words}` in\n{shown}");
-    }
+    assert_contains(&flat(&shown), words);
     schema::refuses_too(&text, &diagnostic);
 }
 

@@ -73,7 +73,7 @@ fn in_one_dimension() {
 fn a_linear_fluid_in_one_dimension() {
     assert!(COLUMN.contains("linear_fluid") && COLUMN.contains("dimension: 1"));
     let text = COLUMN.replacen("scheme:", "volume: averaged, scheme:", 1);
-    let refused = load(&text).expect_err("a column").to_string();
+    let refused = load(&text).expect_err("a column").one_line();
     assert!(
         refused.contains(
             "`volume: averaged` is not supported in 1-D: it would average the whole strain"

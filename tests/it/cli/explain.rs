@@ -1,6 +1,7 @@
 //! `explain`: the problem, its source, and the expectations with their reasons.
 
 use super::{BAR, Folder, SOUND, assert_contains, refusals};
+use crate::common::folder::flat;
 use rstest::rstest;
 
 #[rstest]
@@ -25,7 +26,6 @@ use rstest::rstest;
 ])]
 #[case::a_study_of_stability("courant-limit", &["mpm-linear-flip-usl\n  expected: predictions confirmed by runs; the limit 1/sqrt(2 - short) within"])]
 fn a_suite_that_is_built_in(#[case] name: &str, #[case] words: &[&str]) {
-    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let out = flat(&Folder::new().accepted(&["explain", name]));
     let words: Vec<String> = words.iter().map(|words| flat(words)).collect();
     assert_contains(&out, &words.iter().map(String::as_str).collect::<Vec<_>>());

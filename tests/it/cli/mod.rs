@@ -161,7 +161,8 @@ fn check_reports_valid_and_invalid_suites() {
       |   ^^^^^^^^^^ not a known key
       |
       = help: did you mean `dimension`?
-    error: initial condition u_X(X, 0) = 0 is violated at X = (0.913473), t = 0.000000: expected 0.000000e0, found 6.307486e-5 m (off by 6.307e-5, at most 6.4e-13 allowed)
+    error: initial condition u_X(X, 0) = 0 is violated at X = (0.913473), t = 0.000000: expected
+           0.000000e0, found 6.307486e-5 m (off by 6.307e-5, at most 6.4e-13 allowed)
       --> ./c.yaml:17:18
        |
     17 |   displacement: ["1e-3*sin(pi*X/2)*cos(omega*t)/omega"]

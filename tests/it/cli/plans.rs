@@ -1,6 +1,7 @@
 //! Refinement plans: the judged spacing, the cause of a floor, and the effect of `--full`.
 
 use super::{BAR, FAILED, Folder, SOUND, assert_contains};
+use crate::common::folder::flat;
 use serde_json::Value;
 
 /// Creates the bar with another plan and another time step, without expected orders.
@@ -111,7 +112,7 @@ fn reports_name_the_refined_axis() {
     let refine = "refine: {dt: [1e-3, 5e-4, 2.5e-4], cells: 8, ppc: 4, full: [1.25e-4]}";
     folder.write("bar.yaml", bar("run: {until: 0.05}", refine, TOO_FEW));
     let found = folder.call(&["run", "bar.yaml", "--out", "out"]);
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     assert_contains(
         &flat,
         &[

@@ -3,6 +3,7 @@
 use super::{
     BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains, mistaken, without_files,
 };
+use crate::common::folder::flat;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
@@ -38,7 +39,7 @@ fn unmet_expectation_is_reported_with_the_result() {
     let folder = Folder::with("bar.yaml", ambitious());
     let found = folder.call(&["run", "bar.yaml"]);
     assert_eq!((found.code, found.errors.as_str()), (FAILED, ""));
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     assert_contains(
         &flat,
         &[
@@ -62,7 +63,7 @@ fn violated_expectation_points_at_its_entry() {
     let line = suite.lines().count() + 4;
     let (first, second) = (format!("bar.yaml:{line}:5"), format!("bar.yaml:{}:5", line + 3));
     assert_contains(
-        &found.out,
+        &flat(&found.out),
         &[
             "error[order-too-low]: long-bar::mpm-linear-flip-musl: expected the verdict",
             &first,
@@ -109,7 +110,7 @@ fn invalid_file_does_not_suppress_other_reports() {
 fn failed_case_does_not_affect_other_cases() {
     let found = Folder::new().call(&["run", "steffen-bar"]);
     assert_eq!(found.code, SOUND, "the suite expects the failure");
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     assert_contains(
         &flat,
         &[

@@ -99,6 +99,11 @@ pub(crate) fn without_files(out: &str) -> String {
 
 /// Asserts that `text` has all of `parts`.
 #[track_caller]
+/// Puts a text that was wrapped on one line.
+pub(crate) fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 pub(crate) fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "no `{part}` in\n{text}");

@@ -2,6 +2,7 @@
 //! suites.
 
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
+use crate::common::folder::flat;
 use rstest::rstest;
 
 const SUITE: &str = include_str!("../../../verification/gradients/gradient-bar.yaml");
@@ -28,7 +29,7 @@ fn run(script: &str) -> (i32, String, String) {
     let found = folder.call(&arguments);
     let requests = std::fs::read_to_string(folder.path().join("requests")).unwrap_or_default();
     let said = found.out + &found.errors;
-    (found.code, said.split_whitespace().collect::<Vec<_>>().join(" "), requests)
+    (found.code, flat(&said), requests)
 }
 
 #[rstest]

@@ -3,7 +3,7 @@
 use super::bar;
 use super::program::HELLO;
 use crate::cli::{BAD_INPUT, BAR, FAILED, Folder, SOUND, on_one_grid};
-use crate::common::folder::Answer;
+use crate::common::folder::{Answer, flat};
 use rstest::rstest;
 
 /// A solver whose result is the exact solution of the bar times `1 + ERROR`, a formula in `h` (m)
@@ -402,7 +402,7 @@ fn diagnosis_recommends_doctor_for_errors_as_large_as_the_solution() {
     folder.write("bar.yaml", naming_the_solver());
     let found = folder.call(&["diagnose", "bar.yaml", "--solver", "sh solver.sh"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let words = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = flat(&found.out);
     assert!(words.contains("the solver solves another problem"), "{words}");
     assert!(words.contains("`mpm-verify doctor` with the same `--solver`"), "{words}");
     assert!(!words.contains("not smooth"), "{words}");

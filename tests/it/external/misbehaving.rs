@@ -4,6 +4,7 @@
 use super::bar;
 use super::program::HELLO;
 use crate::cli::{BAD_INPUT, FAILED, Folder, SOUND};
+use crate::common::folder::flat;
 use rstest::rstest;
 
 /// Creates a script that is correct until it receives `advance`, and then runs `then`.
@@ -96,7 +97,7 @@ fn what_breaks_the_protocol_fails_and_says_how(#[case] then: &str, #[case] words
     let (code, said) =
         run(&script(&then.replace("ZEROS", &zeros)), &["--solver-timeout", patience]);
     assert!(code == SOUND && said.contains("explored  short-bar::odd  failed"), "{said}");
-    let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&said);
     assert!(flat.contains(words), "no `{words}` in\n{said}");
 }
 

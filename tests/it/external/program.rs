@@ -2,6 +2,7 @@
 
 use super::bar;
 use crate::cli::{FAILED, Folder, SOUND, on_one_grid};
+use crate::common::folder::flat;
 
 /// First message of a solver of one-dimensional elasticity.
 pub(crate) const HELLO: &str = r#"{"type":"hello","protocol":1,"name":"odd","version":"1","capabilities":{"dimensions":[1],"laws":["linear_elastic"],"conditions":["free","fixed"]}}"#;
@@ -51,7 +52,7 @@ const SOLVER: &str = "sh solver.sh";
 fn a_program_is_judged_like_any_method() {
     let found = folder().call(&["run", "bar.yaml", "--solver", SOLVER]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     for words in [
         "solver odd version 1 precision double formal order 2, as stated by the solver",
         "odd explored a converging 2.00 [2.00, 2.00]",
@@ -224,7 +225,7 @@ fn of_first_order() -> Folder {
 fn a_program_is_diagnosed_without_changes_of_its_method() {
     let found = of_first_order().call(&["diagnose", "bar.yaml", "--solver", SOLVER]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     for words in [
         "the verdict is too low",
         "Settings of the method (start, scheme, basis, transfer, mass matrix, frame) are not changed",

@@ -3,6 +3,7 @@
 
 use super::program::{HELLO, SECOND_ORDER};
 use crate::cli::{Folder, SOUND};
+use crate::common::folder::flat;
 use mpm_verify::external::{
     Capabilities, FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
@@ -448,7 +449,7 @@ fn fails(script: &str, reason: &str) {
     folder.write("solver.sh", sound.replacen("echo '{\"type\":\"ready\"}'", branch, 1));
     let found = folder.call(&["run", "loaded.yaml", "bar.yaml", "--solver", "sh solver.sh"]);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
-    let flat = found.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&found.out);
     assert!(flat.contains(reason), "no `{reason}` in\n{}", found.out);
     assert!(flat.contains("explored short-bar::odd converging"), "{}", found.out);
 }

@@ -1,6 +1,7 @@
 //! Warnings about a suite before anything runs. Each rule is tested with a suite that just violates
 //! it, and one that just does not.
 
+use crate::common::folder::flat;
 use mpm_verify::study::{linearisation, preflight};
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
 use mpm_verify::suite::{Suite, embedded};
@@ -136,7 +137,7 @@ fn trips(
     let tripped = found.iter().find(|found| found.message().contains(message));
     let tripped = tripped.unwrap_or_else(|| panic!("no `{message}` in {found:#?}"));
     assert_eq!(tripped.severity(), severity);
-    let shown = tripped.to_string();
+    let shown = flat(&tripped.to_string());
     assert!(shown.contains(words) && shown.contains(key), "{shown}");
     assert!(tripped.place().is_some(), "{shown}");
 }
@@ -269,7 +270,7 @@ fn a_linearised_solution(
     let tripped = found.iter().find(|found| found.message().contains(message));
     let tripped = tripped.unwrap_or_else(|| panic!("no `{message}` in {found:#?}"));
     assert_eq!(tripped.severity(), severity);
-    assert!(tripped.to_string().contains(words), "{tripped}");
+    assert!(flat(&tripped.to_string()).contains(words), "{tripped}");
 }
 
 /// The stated stretch of a stiff rotating rod is the first term of a series. The omitted second

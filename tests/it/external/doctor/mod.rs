@@ -5,6 +5,7 @@ mod defect;
 #[cfg(unix)]
 mod program;
 
+use crate::common::folder::flat;
 use crate::testing::OwnSolver;
 use client::Clinic;
 use defect::Defect;
@@ -141,7 +142,7 @@ fn solver_of_the_example_has_no_defects() {
 #[test]
 fn report_ends_with_the_verdict() {
     let (_, _, page) = found(Defect::Drag);
-    let flat = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&page);
     assert!(flat.contains("speed is lost at a rate of 0.5"), "{page}");
     assert!(
         flat.ends_with(

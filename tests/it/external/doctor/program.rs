@@ -2,6 +2,7 @@
 //! initial velocity.
 
 use crate::cli::{BAD_INPUT, FAILED, Folder};
+use crate::common::folder::flat;
 use crate::external::program::HELLO;
 
 /// A solver that is exact for translation only, with an acceleration of `G`.
@@ -46,7 +47,7 @@ fn call(script: &str, more: &[&str]) -> (i32, String, String) {
 fn built_in_gravity_of_a_program_is_reported() {
     let (code, out, errors) = call(&MOVER.replace('G', "9.81"), &[]);
     assert_eq!(code, FAILED, "{out}{errors}");
-    let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let out = flat(&out);
     for words in ["solver: odd", "gravity-left-on", "an acceleration of (9.810) m/s2"] {
         assert!(out.contains(words), "no `{words}` in\n{out}");
     }
@@ -89,7 +90,7 @@ fn claimed_capabilities_without_an_examination_are_listed() {
     assert_eq!(unexamined.as_array().map(Vec::len), Some(1), "{unexamined}");
     assert_eq!(unexamined[0]["capability"], "varying_density");
     let (_, out, _) = call(&script, &["--verbose"]);
-    let out = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let out = flat(&out);
     assert!(out.contains("claimed, not examined: - varying_density; "), "{out}");
     assert!(out.contains("1 claimed capabilities not examined"), "{out}");
 }
@@ -98,7 +99,7 @@ fn claimed_capabilities_without_an_examination_are_listed() {
 fn terminated_program_cannot_be_examined() {
     let (code, out, _) = call("read -r m; echo 'HELLO'; read -r m; exit 3", &[]);
     assert_eq!(code, BAD_INPUT, "{out}");
-    let flat = out.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = flat(&out);
     let words = "verdict: odd cannot be examined: step 1 of 6: the solver ended without an answer \
                  (exit status 3)";
     assert!(flat.contains(words), "{out}");
