@@ -1,6 +1,7 @@
 //! Pulses much narrower than the body: correct solutions are accepted, and wrong ones are refused.
 
 use super::load;
+use crate::common::folder::flat;
 use rstest::rstest;
 
 const GAUSS: &str = "exp(-(s/w)^2)";
@@ -142,7 +143,7 @@ fn wrong_transmission_is_refused_at_the_interface(#[values(0.03, 0.01)] w: f64) 
 #[test]
 fn a_small_violation_shows_the_difference_and_the_tolerance() {
     let text = split(GAUSS, 0.1, &RIGHT.replace("A/2", "(1 + 1e-7)*A/2"));
-    let diagnostic = load(&text).expect_err("a violation").to_string();
+    let diagnostic = flat(&load(&text).expect_err("a violation").to_string());
     assert!(diagnostic.contains("m (off by 9.9"), "{diagnostic}");
     assert!(diagnostic.contains("state `tolerance: 2e-7` next to it"), "{diagnostic}");
     let value = |from: &str| {
