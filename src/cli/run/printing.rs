@@ -91,7 +91,9 @@ impl Printing {
             Self::Csv => output::print(&report::csv(outcomes)),
             Self::Latex => output::print(&report::latex(&labelled(args, outcomes))),
             _ if outcomes.is_empty() => {}
-            Self::Reports | Self::Verdicts => output::print(&report::summary(outcomes)),
+            // Each report begins with the results of its cases.
+            Self::Reports => {}
+            Self::Verdicts => output::print(&report::summary(outcomes)),
             Self::Overview => {
                 if args.print.overview {
                     output::print(&format!("{}\n", report::overview(outcomes)));

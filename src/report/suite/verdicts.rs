@@ -85,8 +85,9 @@ fn letter(k: usize) -> String {
 /// Adds the remarks on single cases. Equal remarks are merged.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
+        let reason = Some(case.reason.clone()).filter(|_| !case.is_tested());
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));
-        remarks.collect::<Vec<_>>()
+        remarks.chain(reason).collect::<Vec<_>>()
     };
     let all = cases
         .iter()

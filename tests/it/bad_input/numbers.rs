@@ -119,13 +119,13 @@ fn three_particles_per_cell_cannot_be_spaced_equally_in_2d() {
 }
 
 #[rstest]
-#[case::no_elements(&[("cells: 1280", "cells: ▸0")], &["the number of elements is 0"])]
+#[case::no_elements(&[("cells: 640", "cells: ▸0")], &["the number of elements is 0"])]
 #[case::no_time_step(
-    &[("cells: 1280, dt: \"0.3*h/c\"", "cells: 1280, dt: ▸0")],
-    &["with 1280 cells the time step is 0", "expected a positive step"]
+    &[("cells: 640, dt: \"0.3*h/c\"", "cells: 640, dt: ▸0")],
+    &["with 640 cells the time step is 0", "expected a positive step"]
 )]
 #[case::more_states_than_fit(
-    &[("cells: 1280", "cells: ▸1e7")],
+    &[("cells: 640", "cells: ▸1e7")],
     &["10000000 elements at 167 instants are too many to store", "expected at most 5e7"]
 )]
 fn a_reference_with(#[case] edits: Edits<'_>, #[case] words: &[&str]) {

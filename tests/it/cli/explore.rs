@@ -16,7 +16,7 @@ fn suite_without_expectations_reports_results_and_passes() {
     assert_contains(
         &found.out,
         &[
-            "explored  short-bar::mpm-linear-flip-musl",
+            "  mpm-linear-flip-musl  explored ",
             "  a   nothing: neither the suite nor a gate has an expectation for it",
             "result        2 explored",
             "conservation, all levels: largest change since t = 0, divided by the sum of magnitudes \

@@ -25,8 +25,8 @@ fn run(script: &str) -> (i32, String, String) {
     folder.write("solver.sh", script);
     // A test that waits for the whole timeout uses a short one.
     let timeout = if script.contains("sleep 99") { "0.3s" } else { "2s" };
-    let arguments = ["run", "bar.yaml", "--solver", "sh solver.sh", "--solver-timeout", timeout];
-    let found = folder.call(&arguments);
+    let solver = ["--solver", "sh solver.sh", "--solver-timeout", timeout];
+    let found = folder.call(&[&["run", "bar.yaml", "--brief"], &solver[..]].concat());
     let requests = std::fs::read_to_string(folder.path().join("requests")).unwrap_or_default();
     let said = found.out + &found.errors;
     (found.code, flat(&said), requests)

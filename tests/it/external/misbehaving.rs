@@ -20,7 +20,7 @@ fn run(script: &str, more: &[&str]) -> (i32, String) {
     let folder = Folder::new();
     folder.write("bar.yaml", bar());
     folder.write("solver.sh", script);
-    let mut arguments = vec!["run", "bar.yaml", "--solver", "sh solver.sh"];
+    let mut arguments = vec!["run", "bar.yaml", "--brief", "--solver", "sh solver.sh"];
     arguments.extend(more);
     let found = folder.call(&arguments);
     (found.code, found.out + &found.errors)
@@ -114,7 +114,7 @@ fn a_process_that_reads_nothing_is_silent() {
 
 #[test]
 fn a_gate_fails_with_its_solver() {
-    assert_eq!(run(&script("exit 1"), &["--gate", "--brief"]).0, FAILED);
+    assert_eq!(run(&script("exit 1"), &["--gate"]).0, FAILED);
 }
 
 /// Child processes of a solver must be killed with it.

@@ -447,7 +447,8 @@ fn fails(script: &str, reason: &str) {
     let branch = "case \"$problem\" in *'\"loaded\"'*) m=$problem; . ./wrong.sh; exit 0;; esac\n\
                   echo '{\"type\":\"ready\"}'";
     folder.write("solver.sh", sound.replacen("echo '{\"type\":\"ready\"}'", branch, 1));
-    let found = folder.call(&["run", "loaded.yaml", "bar.yaml", "--solver", "sh solver.sh"]);
+    let command = ["run", "loaded.yaml", "bar.yaml", "--brief", "--solver", "sh solver.sh"];
+    let found = folder.call(&command);
     assert_eq!(found.code, SOUND, "{}{}", found.out, found.errors);
     let flat = flat(&found.out);
     assert!(flat.contains(reason), "no `{reason}` in\n{}", found.out);
@@ -515,5 +516,5 @@ fn unknown_names_in_capabilities_are_reported(#[case] command: &str, #[case] cod
         assert!(found.errors.contains(words), "no `{words}` in\n{}", found.errors);
     }
     let lacking = "laws: linear_elastic (stated as `linear-elastic`)";
-    assert!(found.out.contains(lacking), "no `{lacking}` in\n{}", found.out);
+    assert!(flat(&found.out).contains(lacking), "no `{lacking}` in\n{}", found.out);
 }
