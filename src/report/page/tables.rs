@@ -22,7 +22,7 @@ pub struct SuiteSource<'a> {
 }
 
 /// Creates the table of the groups of suites: the results, and for each basis the number of cases
-/// with the order of theory.
+/// with the theoretical order.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let link = link(&format!("group-{}", plain(group)), group);
@@ -66,7 +66,7 @@ pub(super) fn heads<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>) -
     Html::tag("thead", &[], Html::tag("tr", &[], heads))
 }
 
-/// Creates the cell `K of N`: K of the N cases reach the order of theory. The background is a bar
+/// Creates the cell `K of N`: K of the N cases reach the theoretical order. The background is a bar
 /// of this length.
 fn share(kept: usize, all: usize) -> Html {
     if all == 0 {

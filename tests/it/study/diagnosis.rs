@@ -22,7 +22,7 @@ fn diagnosis(suite: &str, case: &str) -> Option<Diagnosis> {
 
 fn names(suite: &str, case: &str, cause: &str) {
     let found = diagnosis(suite, case).expect("an order to explain");
-    assert!(!found.is_sound(), "{suite}::{case} has the order of theory");
+    assert!(!found.is_sound(), "{suite}::{case} has the theoretical order");
     let causes = found.causes();
     let first = causes.first().unwrap_or_else(|| panic!("no cause: {found:#?}"));
     assert!(first.cause().starts_with(cause), "{first:#?}");

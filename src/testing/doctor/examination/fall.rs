@@ -11,8 +11,8 @@ use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
-    expected: "a body without stress falls with the velocity v = g t, exact in any scheme, and the \
-               displacement u = g t^2/2",
+    expected: "a body without stress falls with the velocity v = g t and the displacement \
+               u = g t^2/2",
     after: &["translation"],
     covers: &["loads: gravity"],
     examine,
@@ -110,7 +110,7 @@ fn of_force(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
             format!("the acceleration is {} times the gravity of the problem", shown(factor)),
             cause,
             "the code that adds body forces: add mass times `body_force_value` (m/s2) to the nodal \
-             force, once and with the sign of the problem",
+             force, once and with the sign given in the problem",
         ));
     }
     None

@@ -154,7 +154,7 @@ impl Expectation {
     /// Returns the expectation in one line, for reports.
     pub fn summary(&self) -> String {
         let verdict = |verdict: &Verdict| match verdict {
-            Verdict::TooLow => "too low (below the order of theory)".to_owned(),
+            Verdict::TooLow => "too low (below the theoretical order)".to_owned(),
             other => other.to_string(),
         };
         let mut parts: Vec<String> = self.verdict.iter().map(verdict).collect();

@@ -86,15 +86,15 @@ impl Floor {
         let probe = |probe: &Probe| {
             let axis = probe.axis.noun();
             match &probe.error {
-                Ok(error) => format!("{} with half the {axis}", format_number(*error)),
-                Err(reason) => format!("not available with half the {axis} ({reason})"),
+                Ok(error) => format!("with half the {axis} it is {}", format_number(*error)),
+                Err(reason) => format!("with half the {axis} it is not available ({reason})"),
             }
         };
         let (told, failed): (Vec<_>, Vec<_>) =
             self.probes.iter().partition(|probe| probe.error.is_ok());
         let probes: Vec<String> = told.into_iter().chain(failed).map(probe).collect();
         let error = format_number(self.error);
-        format!("on the finest level {finding}; the error is {error}, {}", probes.join(", "))
+        format!("on the finest level {finding}; the error is {error}; {}", probes.join(", "))
     }
 }
 
@@ -134,13 +134,13 @@ mod tests {
     fn sentences() {
         assert_eq!(
             floor(1.0, &[(Time, Ok(0.5)), (Particles, Ok(1.0))]).sentence(),
-            "on the finest level the main cause of the error is the time step; the error is 1, 0.5 \
-             with half the time step, 1 with half the particle spacing"
+            "on the finest level the main cause of the error is the time step; the error is 1; \
+             with half the time step it is 0.5, with half the particle spacing it is 1"
         );
         assert_eq!(
             floor(1.0, &[(Space, Err("J"))]).sentence(),
-            "on the finest level the cause of the error is unknown; the error is 1, not available \
-             with half the cell size (J)"
+            "on the finest level the cause of the error is unknown; the error is 1; with half \
+             the cell size it is not available (J)"
         );
     }
 }
