@@ -14,6 +14,7 @@
 //! exact_motion     amplitude, extremes and linearisation of an exact motion
 //! handover         converts a level to a problem for any solver
 //! preflight        warnings about a suite before anything runs
+//! particle_motion  draws the particles of a run as an animated picture
 //! time_series      writes particles and grid of a case over time as files for ParaView
 //! ```
 
@@ -27,6 +28,7 @@ pub(crate) mod gradient;
 pub(crate) mod handover;
 pub(crate) mod internal_force;
 pub(crate) mod kind;
+mod particle_motion;
 pub(crate) mod preflight;
 pub(crate) mod runner;
 pub(crate) mod setup;

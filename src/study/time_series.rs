@@ -1,6 +1,7 @@
 //! Writes a run as files for ParaView: particles and grid nodes at several instants, and a list of
-//! these files.
+//! these files. An animated picture shows the particles without ParaView.
 
+use super::particle_motion::ParticleMotion;
 use crate::exact::Truth;
 use crate::subject::{BodyFields, Samples, StateField, Subject, SubjectError};
 use crate::verify::{Quantity, is_instant};
@@ -27,7 +28,7 @@ pub(crate) struct ShownRun<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SeriesFile {
     /// Path relative to the folder of all series. The file name ends in `.vtu` (particles), `.vti`
-    /// (grid nodes) or `.pvd` (list of all files).
+    /// (grid nodes), `.svg` (animated particles) or `.pvd` (list of all files).
     pub path: String,
     /// Contents of the file.
     pub bytes: Vec<u8>,
@@ -57,7 +58,8 @@ impl From<&str> for SeriesError {
 }
 
 /// Runs `run` until its end or failure. Writes the state at the start, at up to [`INSTANTS`]
-/// instants and at a failure. The list of the files, `NAME.RUN.pvd`, is written last.
+/// instants and at a failure, and an animated picture of the particles. The list of the files,
+/// `NAME.RUN.pvd`, is written last.
 ///
 /// # Errors
 /// [`SeriesError::Write`] with the first error of `write`.
@@ -70,11 +72,13 @@ pub(super) fn time_series(
     let name = format!("{name}.{}", file_name(&level));
     let folder = name.rsplit('/').next().unwrap_or(&name).to_owned();
     let mut listed: Vec<(f64, usize, String)> = Vec::new();
+    let mut motion = ParticleMotion::default();
     let mut write = |path: String, bytes: Vec<u8>| {
         let file = SeriesFile { path, bytes };
         write(&file).map_err(|error| SeriesError::Write { path: file.path, error })
     };
     let mut frame = |subject: &dyn Subject, number: u64, t: f64| -> Result<(), SeriesError> {
+        motion.add(subject);
         for (part, (file, bytes)) in files(subject, truth, t).into_iter().enumerate() {
             let file = file.replace('#', &format!("{number:04}"));
             write(format!("{name}/{file}"), bytes)?;
@@ -97,6 +101,9 @@ pub(super) fn time_series(
         if failed {
             break;
         }
+    }
+    if let Some(svg) = motion.to_svg(&name) {
+        write(format!("{name}.svg"), svg.into_bytes())?;
     }
     let list = vtk::series(&listed);
     write(format!("{name}.pvd"), list.into_bytes())

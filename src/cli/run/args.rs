@@ -35,8 +35,8 @@ pub(in crate::cli) struct RunArgs {
     /// count for the order
     #[arg(help_heading = RUNS, long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
-    /// Write particles and grid over time into this folder, as files for ParaView: for failing
-    /// cases or those that `--case` selects, on the first level that failed or else the finest
+    /// Write particles and grid over time into this folder, as files for ParaView, and an animated
+    /// picture of the particles (SVG): for failing cases, or for those that --case selects
     #[arg(help_heading = FILES, long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     /// Compare reports with snapshots (SUITE.snap) in DIR, or else next to the suites; changed
@@ -125,7 +125,7 @@ pub(in crate::cli) struct PrintArgs {
     /// Print only the failing cases, and no progress
     #[arg(help_heading = PRINTED, long, short)]
     pub(super) quiet: bool,
-    /// Also print the matrix of suites and bases
+    /// Also print the findings of each suite by basis
     #[arg(help_heading = PRINTED, long, conflicts_with_all = ["brief", "quiet", "reports"])]
     pub(super) overview: bool,
     /// Whether to draw a convergence plot.
