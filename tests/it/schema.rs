@@ -88,10 +88,21 @@ fn shorten(value: &mut Value) {
     }
 }
 
-/// Every key of every suite is tested: left out, misspelt, and with values of other types. Neither
-/// the schema nor the program may be stricter than the other about keys and types.
+/// Every key of every suite is tested: left out, misspelt, and with a value of another type, one
+/// after the other. Neither the schema nor the program may be stricter about keys and types.
 #[test]
 fn schema_and_program_agree_about_each_key() {
+    schema_and_program_agree(1);
+}
+
+#[test]
+#[ignore = "ci/nightly runs it"]
+fn schema_and_program_agree_about_each_type() {
+    schema_and_program_agree(5);
+}
+
+/// Tests `types` of the five other types for each key.
+fn schema_and_program_agree(types: usize) {
     let (mut tried, mut counts) = (HashSet::new(), [0, 0]);
     let read = |name| {
         let source = embedded::source(name).expect("a suite").expect("a text");
@@ -115,8 +126,10 @@ fn schema_and_program_agree_about_each_key() {
             if !tried.insert((study.clone(), place, key.clone())) {
                 continue;
             }
-            let others = [json!(true), json!({}), json!([]), json!("word"), json!(1)].map(Some);
-            for (new_key, value) in others.into_iter().map(|value| (key.clone(), value)).chain([
+            let mut others = [json!(true), json!({}), json!([]), json!("word"), json!(1)].map(Some);
+            others.rotate_left(tried.len() % 5);
+            let others = others.into_iter().take(types);
+            for (new_key, value) in others.map(|value| (key.clone(), value)).chain([
                 (key.clone(), None),
                 (format!("{key}s"), suite.pointer(&pointer).map(|map| map[&key].clone())),
             ]) {
@@ -143,5 +156,5 @@ fn schema_and_program_agree_about_each_key() {
             }
         }
     }
-    assert!(counts.iter().all(|count| *count > 300), "accepted and refused: {counts:?}");
+    assert!(counts.iter().all(|count| *count > 150), "accepted and refused: {counts:?}");
 }

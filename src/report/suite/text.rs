@@ -13,7 +13,9 @@ use crate::verify::{CaseOutcome, SuiteOutcome, Verdict};
 
 /// Returns the complete report of a suite.
 pub fn text(outcome: &SuiteOutcome) -> String {
-    let mut lines = vec![format!("{}: {}", outcome.suite, outcome.title), String::new()];
+    let mut lines = Vec::new();
+    paragraph_lines(&mut lines, &format!("{}: {}", outcome.suite, outcome.title));
+    lines.push(String::new());
     verdicts::head(&mut lines, &outcome.cases);
     lines.push(String::new());
     if !outcome.about.is_empty() {

@@ -1,6 +1,6 @@
 //! Tables of convergence studies, with a row for each case and a column for each level.
 
-use super::prose::row;
+use super::prose::{indented, row};
 use super::table::{Table, shared};
 use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
 use crate::report::columns::{TableColumn, decimals, level, short};
@@ -176,7 +176,7 @@ fn by_level<'a>(
     let rows: Vec<Vec<String>> = studies.iter().map(cells).collect();
     let table = Table::of_cells(headings, rows).without_empty_columns();
     if table.columns() > 1 {
-        lines.extend([String::new(), format!("  {heading}")]);
+        heading_lines(lines, heading);
         lines.extend(table.merged().lines());
     }
 }
@@ -211,7 +211,7 @@ fn by_case<'a>(
     let table = Table::new(&columns, studies.iter().filter_map(finest));
     let table = table.without_columns_of("0").without_empty_columns().merged();
     if table.columns() > 1 {
-        lines.extend([String::new(), format!("  {heading}")]);
+        heading_lines(lines, heading);
         lines.extend(table.lines());
     }
 }
@@ -268,14 +268,20 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
         return;
     }
     let answered = rows.iter().filter(|row| row.result.is_ok()).count();
-    lines.push(String::new());
-    lines.push(format!(
-        "  u at X = {place} m at the end, extrapolated from the four finest levels to zero spacing; \
+    let heading = format!(
+        "u at X = {place} m at the end, extrapolated from the four finest levels to zero spacing; \
          {answered} of {} cases have an estimate",
         rows.len()
-    ));
+    );
+    heading_lines(lines, &heading);
     let table = Table::new(&limit_columns(), &rows).without_empty_columns();
     lines.extend(table.merged().lines());
+}
+
+/// Adds an empty line and the heading of a table.
+fn heading_lines(lines: &mut Vec<String>, heading: &str) {
+    lines.push(String::new());
+    lines.extend(indented(heading).lines().map(str::to_owned));
 }
 
 /// Rounds the limit to the second significant digit of its half-width.

@@ -19,8 +19,8 @@ fn suite_without_expectations_reports_results_and_passes() {
             "  mpm-linear-flip-musl  explored ",
             "  a   nothing: neither the suite nor a gate has an expectation for it",
             "result        2 explored",
-            "conservation, all levels: largest change since t = 0, divided by the sum of magnitudes \
-             over the body\n",
+            "\n  conservation, all levels: largest change since t = 0, divided by the sum of magnitudes \
+             over the\n  body\n",
         ],
     );
     let note = "note: short-bar has no expectations, so it is not a gate";
