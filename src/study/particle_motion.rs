@@ -92,9 +92,11 @@ impl ParticleMotion {
         for axis in 0..self.dimension {
             let cell = |x: f64| libm::floor((x - origin[axis]) / h) as i64;
             for line in cell(low[axis])..=cell(high[axis]) + 1 {
-                let mut ends = [low, high];
-                ends.iter_mut().for_each(|end| end[axis] = origin[axis] + line as f64 * h);
-                let [[x1, y1], [x2, y2]] = ends.map(place);
+                let at = |mut end: [f64; 2]| {
+                    end[axis] = origin[axis] + line as f64 * h;
+                    place(end)
+                };
+                let [[x1, y1], [x2, y2]] = [low, high].map(at);
                 let _ = writeln!(
                     svg,
                     "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" \
