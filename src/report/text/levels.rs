@@ -28,7 +28,7 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
 /// Lists the levels. Levels that all cases have in common are listed once.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
-        lines.push(format!("  levels{names}"));
+        lines.extend(indented(&format!("levels{names}")).lines().map(str::to_owned));
         lines.extend(levels.lines().map(|fact| format!("    {fact}")));
     }
 }

@@ -250,7 +250,11 @@ pub(crate) fn shared<'a>(
             count if count == most && count > 2 && is_largest_alone => {
                 " (all other cases)".to_owned()
             }
-            _ => format!(" ({})", together(&names)),
+            _ => match together(&names) {
+                // A long name can be wrapped only at spaces.
+                long if long.len() > WIDTH - 20 => format!(" ({})", long.replace(',', ", ")),
+                name => format!(" ({name})"),
+            },
         };
         (value, of)
     })

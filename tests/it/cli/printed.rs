@@ -2,7 +2,9 @@
 
 use super::{BAD_INPUT, BAR, FAILED, Folder, SOUND, ambitious, assert_contains};
 use rstest::rstest;
+use std::fs;
 use std::io::Write;
+use std::path::PathBuf;
 use std::process::Stdio;
 
 /// Creates six suites, which are too many for full reports. The last one has an expectation that
@@ -91,6 +93,21 @@ fn lines_fit_in_100_columns_and_end_with_the_verdict(#[case] words: &[&str], #[c
     let lines: Vec<&str> = out.lines().filter(|line| !line.is_empty()).collect();
     let end = lines[lines.len().saturating_sub(2)..].join(" ");
     assert!(end.contains(last), "{end}");
+}
+
+#[test]
+fn lines_of_snapshots_fit_in_100_columns() {
+    let groups = fs::read_dir("verification").expect("the suites").flatten();
+    let in_group = |path: PathBuf| fs::read_dir(path).into_iter().flatten().flatten();
+    let files = groups.flat_map(|group| in_group(group.path())).map(|file| file.path());
+    let snapshots: Vec<PathBuf> =
+        files.filter(|path| path.extension().is_some_and(|end| end == "snap")).collect();
+    assert!(snapshots.len() > 200, "{} snapshots", snapshots.len());
+    for path in snapshots {
+        let text = fs::read_to_string(&path).expect("text");
+        let wide = text.lines().find(|line| line.chars().count() > 100);
+        assert_eq!(wide, None, "{}", path.display());
+    }
 }
 
 #[test]
