@@ -91,7 +91,7 @@ pub(crate) fn largest_error<'a>(of: Quantity) -> [LevelColumn<'a>; 2] {
             let shown = row.error(row.linf()).text;
             (shown != row.error(row.level.error).text).then_some(shown)
         }),
-        LevelColumn::text("linf order, two finest levels", about, |row| {
+        LevelColumn::text("linf order", about, |row| {
             let index = row.index.checked_sub(1)?;
             let coarser = LevelRow { study: row.study, index, level: row.study.levels.get(index)? };
             let level = |row: &LevelRow<'_>| Level::new(row.level.spacing, row.linf());
