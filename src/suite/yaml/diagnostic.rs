@@ -180,7 +180,9 @@ impl Diagnostic {
             ),
         };
         match self.help() {
-            Some(help) => group.element(Level::HELP.message(folded(help, WIDTH - HELP_INDENT))),
+            Some(help) => {
+                group.element(Level::HELP.message(folded_advice(help, WIDTH - HELP_INDENT)))
+            }
             None => group,
         }
     }
@@ -212,6 +214,15 @@ fn folded(text: &str, most: usize) -> String {
         folded.push_str(word);
     }
     folded
+}
+
+/// Folds advice. A part of several, such as a command, begins a line of its own, so that it can be
+/// copied.
+fn folded_advice(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.split("; ").map(|part| folded(part, most)).collect::<Vec<_>>().join(";\n")
 }
 
 /// Maximum length of a printed line (characters).

@@ -50,8 +50,8 @@ fn an_acknowledged_warning_is_not_printed() {
     19 | run: {until: 0.05, dt: "1.3*h/10"}
        |                        ^^^^^^^^^^ expected a stable step
        |
-       = help: `dt: {courant: 0.5}` uses half of the stable time step on every level; if the suite
-               intends this, `acknowledge` `time_step`
+       = help: `dt: {courant: 0.5}` uses half of the stable time step on every level;
+               if the suite intends this, `acknowledge` `time_step`
     note: the exact solution assumes small strains, but MPM computes finite strains: at a strain of
           7.1e-5 an error of about 9.8e-10 m remains, which would become visible from about 70 cells on
       --> bar.yaml:17:17
