@@ -1,11 +1,14 @@
 //! Animated picture of the particles of a run, as an SVG document. Particles light up when they
 //! change their cell.
 
-use crate::subject::{Samples, Subject};
+use crate::subject::BodyFields;
 use std::fmt::Write;
 
 /// Maximum number of drawn particles.
 const PARTICLES: usize = 2000;
+
+/// Maximum number of drawn cell boundaries along an axis.
+const LINES: f64 = 1000.0;
 
 /// Larger side of the picture (px), without its margin.
 const SIDE: f64 = 800.0;
@@ -21,25 +24,23 @@ pub(crate) struct ParticleMotion {
 }
 
 impl ParticleMotion {
-    /// Adds the current state of a solver.
-    pub(crate) fn add(&mut self, subject: &dyn Subject) {
-        let mut samples = Samples::default();
-        subject.sample(&mut samples);
-        let bodies = subject.fields();
-        let body = bodies.iter().find(|body| body.h > 0.0);
+    /// Adds the positions (m) of an instant, `dimension` numbers for each particle.
+    pub(crate) fn add(&mut self, dimension: usize, positions: &[f64], bodies: &[BodyFields]) {
         let padded = |x: &[f64]| [x[0], x.get(1).copied().unwrap_or(0.0)];
+        let body = bodies.iter().find(|body| body.h > 0.0);
         self.grid = body.map(|body| (padded(&body.origin), body.h));
-        let d = samples.dimension.max(1);
-        self.dimension = d.min(2);
-        let positions: Vec<f64> =
-            samples.label.iter().zip(&samples.displacement).map(|(x, u)| x + u).collect();
-        let each = samples.len().div_ceil(PARTICLES).max(1);
+        self.dimension = dimension;
+        let d = dimension.max(1);
+        let each = (positions.len() / d).div_ceil(PARTICLES).max(1);
         self.instants.push(positions.chunks_exact(d).step_by(each).map(padded).collect());
     }
 
-    /// Returns the document; `None` without two instants with finite positions. The pictures of the
-    /// instants follow each other at equal intervals.
+    /// Returns the document; `None` in three dimensions, or without two instants with finite
+    /// positions. The pictures of the instants follow each other at equal intervals.
     pub(crate) fn to_svg(&self, title: &str) -> Option<String> {
+        if self.dimension > 2 {
+            return None;
+        }
         let (low, high) = self.extent().filter(|_| self.instants.len() > 1)?;
         let scale = SIDE / (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
         let in_a_row = libm::pow(self.instants[0].len() as f64, 1.0 / self.dimension as f64);
@@ -90,6 +91,10 @@ impl ParticleMotion {
     ) {
         let Some((origin, h)) = self.grid else { return };
         for axis in 0..self.dimension {
+            // Particles of a failed run can be far away.
+            if !((high[axis] - low[axis]) / h <= LINES) {
+                continue;
+            }
             let cell = |x: f64| libm::floor((x - origin[axis]) / h) as i64;
             for line in cell(low[axis])..=cell(high[axis]) + 1 {
                 let at = |mut end: [f64; 2]| {
@@ -149,7 +154,10 @@ mod tests {
         assert!(svg.contains(&path(10.0 + 0.75 / 1.25 * 800.0)), "{svg}");
         assert_eq!(svg.matches("<line ").count(), 3, "0, 1 and 2 m\n{svg}");
         assert!(svg.contains("<title>a &lt; b</title>"));
+        let far = motion(1e300).to_svg("").expect("a picture");
+        assert_eq!(far.matches("<line ").count(), 0, "too many cells");
         assert_eq!(motion(f64::NAN).to_svg(""), None);
+        assert_eq!(ParticleMotion { dimension: 3, ..motion(1.25) }.to_svg(""), None);
         assert_eq!(ParticleMotion::default().to_svg(""), None);
     }
 }

@@ -78,8 +78,8 @@ pub(super) fn time_series(
         write(&file).map_err(|error| SeriesError::Write { path: file.path, error })
     };
     let mut frame = |subject: &dyn Subject, number: u64, t: f64| -> Result<(), SeriesError> {
-        motion.add(subject);
-        for (part, (file, bytes)) in files(subject, truth, t).into_iter().enumerate() {
+        let written = files(subject, truth, t, &mut motion);
+        for (part, (file, bytes)) in written.into_iter().enumerate() {
             let file = file.replace('#', &format!("{number:04}"));
             write(format!("{name}/{file}"), bytes)?;
             listed.push((t, part, format!("{folder}/{file}")));
@@ -110,8 +110,13 @@ pub(super) fn time_series(
 }
 
 /// Creates the files of one instant: the particles of each body, then the grid. The names contain
-/// `#` in place of the number of the instant.
-fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(String, Vec<u8>)> {
+/// `#` in place of the number of the instant. The positions are added to `motion`.
+fn files(
+    subject: &dyn Subject,
+    truth: Option<&dyn Truth>,
+    t: f64,
+    motion: &mut ParticleMotion,
+) -> Vec<(String, Vec<u8>)> {
     let mut samples = Samples::default();
     subject.sample(&mut samples);
     let d = samples.dimension;
@@ -126,6 +131,7 @@ fn files(subject: &dyn Subject, truth: Option<&dyn Truth>, t: f64) -> Vec<(Strin
         }],
         bodies => bodies,
     };
+    motion.add(d, &position, &bodies);
     let (several, mut first, mut files) = (bodies.len() > 1, 0, Vec::new());
     for (number, body) in bodies.into_iter().enumerate() {
         let behind = first + body.particles;

@@ -36,7 +36,8 @@ pub(in crate::cli) struct RunArgs {
     #[arg(help_heading = RUNS, long, value_name = "N", value_parser = whole, allow_negative_numbers = true)]
     pub(super) repeat: Option<usize>,
     /// Write particles and grid over time into this folder, as files for ParaView, and an animated
-    /// picture of the particles (SVG): for failing cases, or for those that --case selects
+    /// picture of the particles (SVG): for failing cases or those that `--case` selects, on the
+    /// first level that failed or else the finest
     #[arg(help_heading = FILES, long, value_name = "DIR")]
     pub(super) vtu: Option<PathBuf>,
     /// Compare reports with snapshots (SUITE.snap) in DIR, or else next to the suites; changed
