@@ -5,7 +5,7 @@ use crate::report::names::together;
 use crate::report::study::KINDS;
 use crate::report::text::prose::{hanging, row};
 use crate::report::text::table::Table;
-use crate::verify::{CaseOutcome, CaseResult, distinct, grouped};
+use crate::verify::{CaseOutcome, CaseResult, Verdict, distinct, grouped};
 
 /// Adds verdicts, unmet expectations, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
@@ -85,7 +85,9 @@ fn letter(k: usize) -> String {
 /// Adds the remarks on single cases. Equal remarks are merged.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
-        let reason = Some(case.reason.clone()).filter(|_| !case.is_tested());
+        // Convergence studies have a remark for each failed level.
+        let fails = case.convergence().is_none() && case.verdict == Verdict::Failed.name();
+        let reason = Some(case.reason.clone()).filter(|_| !case.is_tested() || fails);
         let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));
         remarks.chain(reason).collect::<Vec<_>>()
     };
