@@ -1,7 +1,7 @@
 //! A small MPM in the plane with a defect. It uses linear functions, FLIP and USL.
 
 use super::defect::{Defect, Defect::*};
-use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::external::{Capabilities, LevelProblem, ProblemFace, ProblemNeeds, SolverFactory};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -50,7 +50,22 @@ struct Client {
     steps: u64,
     /// Number of this run among the runs of the factory.
     run: u32,
+    /// Lame's parameters.
+    lame: [f64; 2],
+    walls: Vec<Wall>,
 }
+
+/// A face of the grid at which nodes are held.
+struct Wall {
+    axis: usize,
+    high: bool,
+    /// Number of the plane of nodes.
+    node: usize,
+    holds_all: bool,
+}
+
+/// A node around a particle, with its weight and gradient.
+type Weight = (usize, f64, Vector);
 
 fn vectors(column: &[f64]) -> Vec<Vector> {
     column.chunks_exact(2).map(|v| [v[0], v[1]]).collect()
@@ -61,6 +76,31 @@ impl Client {
         let (x, v) = (vectors(&problem.particles.position), vectors(&problem.particles.velocity));
         let n = x.len();
         let stress = if defect == StressAtStart { 0.01 } else { 0.0 };
+        let material = &problem.materials[0];
+        let (e, nu) = (material.parameter("young"), material.parameter("poisson"));
+        let mut lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        let mut mu = e / (2.0 * (1.0 + nu));
+        match defect {
+            PlaneStress => lambda = 2.0 * lambda * mu / (lambda + 2.0 * mu),
+            LameExchanged => (lambda, mu) = (mu, lambda),
+            BulkForLambda => lambda += 2.0 * mu / 3.0,
+            MuTwice => mu *= 2.0,
+            NoVolumeTerm => lambda = 0.0,
+            _ => {}
+        }
+        let grid = &problem.grid;
+        let held = problem.faces.iter().filter(|face| {
+            ["fixed", "roller"].contains(&face.condition)
+                && defect != NoWalls
+                && !(defect == LowWallsOnly && face.high)
+        });
+        let wall = |face: &ProblemFace| Wall {
+            axis: face.axis,
+            high: face.high,
+            node: libm::round((face.at - grid.origin[face.axis]) / grid.h) as usize,
+            holds_all: defect == StickyRollers
+                || face.condition == "fixed" && defect != FixedHoldsNormal,
+        };
         let mut client = Self {
             defect,
             x,
@@ -69,6 +109,8 @@ impl Client {
             sigma: vec![[stress, 0.0, 0.0, stress]; n],
             steps: 0,
             run,
+            lame: [lambda, mu],
+            walls: held.map(wall).collect(),
             problem,
         };
         if defect == PositionsHalfAStepOn {
@@ -85,13 +127,13 @@ impl Client {
         [0, 1].map(|i| ((x[i] - grid.origin[i]) / grid.h).floor() as isize)
     }
 
-    /// Returns the nodes around a particle, with weights and gradients.
-    fn weights(&self, p: usize) -> Vec<(usize, f64, Vector)> {
+    /// Returns the nodes around a particle, or `None` for a particle without a cell.
+    fn weights(&self, p: usize) -> Option<[Weight; 4]> {
         let grid = &self.problem.grid;
         let cell = self.cell(self.x[p]);
         let s = [0, 1].map(|i| (self.x[p][i] - grid.origin[i]) / grid.h - cell[i] as f64);
         if self.defect == NoCellOnFaces && s.contains(&0.0) {
-            return Vec::new();
+            return None;
         }
         let value = |i: usize, high: usize| match (high, self.defect) {
             (0, _) => 1.0 - s[i],
@@ -116,7 +158,7 @@ impl Client {
             let gradient = [slope(high[0]) * value(1, high[1]), value(0, high[0]) * slope(high[1])];
             (at[0] + width * at[1], value(0, high[0]) * value(1, high[1]), gradient)
         };
-        (0..4).map(corner).collect()
+        Some([0, 1, 2, 3].map(corner))
     }
 
     fn nodes(&self) -> [usize; 2] {
@@ -158,18 +200,7 @@ impl Client {
 
     /// Updates volume and stress with the velocity gradient `l`.
     fn strain(&mut self, p: usize, l: [f64; 4], dt: f64) {
-        let material = &self.problem.materials[0];
-        let (e, nu) = (material.parameter("young"), material.parameter("poisson"));
-        let mut lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        let mut mu = e / (2.0 * (1.0 + nu));
-        match self.defect {
-            PlaneStress => lambda = 2.0 * lambda * mu / (lambda + 2.0 * mu),
-            LameExchanged => (lambda, mu) = (mu, lambda),
-            BulkForLambda => lambda += 2.0 * mu / 3.0,
-            MuTwice => mu *= 2.0,
-            NoVolumeTerm => lambda = 0.0,
-            _ => {}
-        }
+        let [lambda, mu] = self.lame;
         let shear = match self.defect {
             EngineeringShear => l[1] + l[2],
             OneSidedShear => 0.5 * l[1],
@@ -194,27 +225,18 @@ impl Client {
     }
 
     fn hold(&self, node: usize, v: &mut Vector) {
-        let grid = &self.problem.grid;
         let width = self.nodes()[0];
         let at = [node % width, node / width];
-        for face in &self.problem.faces {
-            let wall = libm::round((face.at - grid.origin[face.axis]) / grid.h) as usize;
-            let is_there = if face.high { at[face.axis] >= wall } else { at[face.axis] <= wall };
-            let holds = ["fixed", "roller"].contains(&face.condition);
-            if !is_there || !holds || self.defect == NoWalls {
+        for wall in &self.walls {
+            let at = at[wall.axis];
+            let is_there = if wall.high { at >= wall.node } else { at <= wall.node };
+            if !is_there || self.defect == WallsLetGo && (v[wall.axis] > 0.0) != wall.high {
                 continue;
             }
-            if self.defect == LowWallsOnly && face.high {
-                continue;
-            }
-            if self.defect == WallsLetGo && (v[face.axis] > 0.0) != face.high {
-                continue;
-            }
-            let holds_all = face.condition == "fixed" && self.defect != FixedHoldsNormal;
-            if holds_all || self.defect == StickyRollers {
+            if wall.holds_all {
                 *v = [0.0; 2];
             } else {
-                v[face.axis] = 0.0;
+                v[wall.axis] = 0.0;
             }
         }
     }
@@ -228,7 +250,7 @@ impl Subject for Client {
         let t = self.steps as f64 * dt;
         let [width, height] = self.nodes();
         let particles = &self.problem.particles;
-        let (masses, volumes) = (particles.mass.clone(), particles.volume.clone());
+        let (masses, volumes) = (&particles.mass, &particles.volume);
         let mut mass = vec![0.0; width * height];
         let mut momentum = vec![[0.0; 2]; width * height];
         let mut force = vec![[0.0; 2]; width * height];
@@ -248,7 +270,7 @@ impl Subject for Client {
                     _ => 1.0,
                 };
             let m = if defect == NoDensity { volumes[p] } else { masses[p] };
-            for (node, weight, gradient) in weights {
+            for (node, weight, gradient) in weights.iter().flatten() {
                 mass[*node] += weight * m;
                 for i in 0..2 {
                     momentum[*node][i] += weight * m * self.v[p][i];
@@ -290,7 +312,7 @@ impl Subject for Client {
         }
         for (p, weights) in all.iter().enumerate() {
             let (mut l, mut v, mut change) = ([0.0; 4], [0.0; 2], [0.0; 2]);
-            for (node, weight, gradient) in weights {
+            for (node, weight, gradient) in weights.iter().flatten() {
                 for i in 0..2 {
                     v[i] += weight * velocity[*node][i];
                     change[i] += dt * weight * acceleration[*node][i];
