@@ -6,8 +6,9 @@
 //! set-up. Each level first runs once to check its error.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use mpm_verify::embedded;
 use mpm_verify::study::cost::{Goal, goals};
-use mpm_verify::suite::{Suite, embedded};
+use mpm_verify::suite::Suite;
 use std::time::Duration;
 
 /// Suites, each with targets that some of its methods reach within a tenth of a second.

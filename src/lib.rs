@@ -108,12 +108,9 @@ pub use mpm_judge::{exact, verify};
 pub use mpm_solvers::{fem, mpm};
 pub use mpm_subject as subject;
 pub use mpm_subject::nearest;
+pub use mpm_suites::{external, study, suite};
 
-pub mod external;
+pub mod embedded;
 pub mod prelude;
 pub mod report;
-pub mod study;
-pub mod suite;
 pub mod testing;
-
-mod vtk;

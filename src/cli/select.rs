@@ -1,8 +1,9 @@
 //! Finds and loads the suites that the command line names.
 
+use mpm_verify::embedded;
 use mpm_verify::nearest;
 use mpm_verify::suite::yaml::{self, Diagnostic, Source};
-use mpm_verify::suite::{Suite, embedded, pattern};
+use mpm_verify::suite::{Suite, pattern};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;

@@ -19,9 +19,9 @@ const MADE_LATER: &[(&str, &str)] = &[
 const KEYS_IN: &[&str] = &[
     "src/report/",
     "crates/judge/src/verify/",
-    "src/external/",
+    "crates/suites/src/external/",
     "crates/solvers/src/mpm/material/",
-    "src/suite/scene/load/",
+    "crates/suites/src/suite/scene/load/",
 ];
 
 /// The repository as documents may speak of it.
@@ -116,7 +116,7 @@ impl Repository {
 }
 
 /// The paths that `path` may stand for, one in each package.
-fn in_sources(path: &str) -> [String; 4] {
+fn in_sources(path: &str) -> [String; 5] {
     SOURCES.map(|folder| format!("{folder}/{path}"))
 }
 

@@ -108,9 +108,9 @@ fn only_one_file_lists_all_dimensions() {
 fn only_the_yaml_module_names_the_yaml_libraries() {
     for library in ["serde_yaml", "yaml_serde", "saphyr_parser"] {
         hold(
-            "only src/suite/yaml/ names the YAML libraries",
+            "only crates/suites/src/suite/yaml/ names the YAML libraries",
             "every text passes the same checks, and another library would change one folder",
-            &rules::mentions(&source::OF_PACKAGES, &[&[library]], "src/suite/yaml/"),
+            &rules::mentions(&source::OF_PACKAGES, &[&[library]], "crates/suites/src/suite/yaml/"),
         );
     }
 }

@@ -34,7 +34,7 @@ fn cycle_and_forbidden_import_are_found() {
             "crates/judge/src/exact/mod.rs",
             "const A: &str = \"crate::suite::A\";\nuse crate::mpm::Grid;\npub struct Claim;",
         ),
-        ("src/suite/mod.rs", "pub struct A;"),
+        ("crates/suites/src/suite/mod.rs", "pub struct A;"),
     ]));
     assert_eq!(cycles(&edges).iter().map(Vec::len).collect::<Vec<_>>(), [2]);
     let breaches = IMPORT_RULES.iter().flat_map(|rule| rules::forbidden_imports(rule, &edges));
@@ -63,7 +63,7 @@ fn breaches_of_code_rules_are_found() {
         places(&rules::platform_calls(&planted)),
         ["crates/solvers/src/mpm/utils.rs:1", "src/a.rs:1"]
     );
-    assert!(rules::mentions(&planted, &[&["serde_yaml"]], "src/suite/").is_empty(), "only tests");
+    assert!(rules::mentions(&planted, &[&["serde_yaml"]], "crates/suites/src/suite/").is_empty(), "only tests");
     assert_eq!(places(&words::twice(&planted, &[])), ["src/b.rs:3"]);
     let tests = with_tests(&owned(&[(
         "crates/solvers/src/fem/tests/time.rs",

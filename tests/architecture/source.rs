@@ -27,8 +27,8 @@ pub(crate) struct Source {
 }
 
 /// Folders with the sources of the packages.
-pub(crate) const SOURCES: [&str; 4] =
-    ["src", "crates/judge/src", "crates/solvers/src", "crates/subject/src"];
+pub(crate) const SOURCES: [&str; 5] =
+    ["src", "crates/judge/src", "crates/solvers/src", "crates/subject/src", "crates/suites/src"];
 
 /// Every source file of all packages, including those that are compiled for tests only.
 pub(crate) static ALL: LazyLock<Vec<Source>> = LazyLock::new(|| with_tests(&of_sources()));

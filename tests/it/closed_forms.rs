@@ -2,8 +2,9 @@
 //! eigenfunction series of Wobbes & Tielen (2015) and with values computed by hand.
 
 use approx::assert_abs_diff_eq;
+use mpm_verify::embedded;
 use mpm_verify::exact::Truth;
-use mpm_verify::suite::{Suite, embedded};
+use mpm_verify::suite::Suite;
 use rstest::rstest;
 use std::f64::consts::{PI, SQRT_2};
 

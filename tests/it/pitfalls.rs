@@ -1,10 +1,11 @@
 //! Fourteen mistakes that were found in public verification tools. For each one, a test runs the
 //! critical case and shows that this crate does not make the mistake.
 
+use mpm_verify::embedded;
 use mpm_verify::report::drift;
 use mpm_verify::study::Runner;
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::{Level, Norms, OrderHypothesis, Verdict, judge};
 use rstest::rstest;
 

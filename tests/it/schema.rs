@@ -1,8 +1,9 @@
 //! Tests of the printed schemas on valid and invalid suites.
 
 use crate::common::json_schema::JsonSchema;
+use mpm_verify::embedded;
 use mpm_verify::suite::yaml::{self, Diagnostic, Source};
-use mpm_verify::suite::{Suite, embedded, suite_schema};
+use mpm_verify::suite::{Suite, suite_schema};
 use serde_json::{Value, json};
 use std::collections::HashSet;
 use std::sync::LazyLock;

@@ -12,10 +12,11 @@ mod record;
 
 pub use record::Breach;
 
+use crate::embedded;
 use crate::external::{LevelProblem, SolverFactory};
 use crate::study::{lacking, level_problem};
 use crate::subject::SubjectError;
-use crate::suite::{Suite, embedded};
+use crate::suite::Suite;
 use record::{RunState, record};
 
 const STEPS: usize = 6;

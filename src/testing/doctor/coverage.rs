@@ -2,9 +2,10 @@
 
 use super::examination::ALL;
 use super::finding::{ExaminationReport, ExaminationResult, UnexaminedCapability};
+use crate::embedded;
 use crate::external::{Capabilities, SolverFactory};
-use crate::study::{self, kind::study};
-use crate::suite::{Suite, embedded};
+use crate::study::{needs_of_suite, under};
+use crate::suite::Suite;
 use rayon::prelude::*;
 
 /// Maximum number of suites that are listed for a capability.
@@ -46,9 +47,9 @@ pub(super) fn unexamined(
 /// run the suite.
 fn required(name: &str, solver: &dyn SolverFactory) -> Option<Vec<String>> {
     let suite = Suite::load(&embedded::source(name)?.ok()?.trusted()).ok()?;
-    let needs = study(&suite).needs()?;
-    let can_run = solver.lacks(&needs).is_empty()
-        && !study::under(&suite, solver, false)?.case_names().is_empty();
+    let needs = needs_of_suite(&suite)?;
+    let can_run =
+        solver.lacks(&needs).is_empty() && !under(&suite, solver, false)?.case_names().is_empty();
     can_run.then(|| Capabilities::default().lacking(&needs))
 }
 

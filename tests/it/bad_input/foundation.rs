@@ -1,7 +1,7 @@
 //! Loads that depend on the displacement: invalid names, and exact solutions for another load.
 
 use super::{load, refused};
-use mpm_verify::suite::embedded;
+use mpm_verify::embedded;
 use rstest::rstest;
 
 fn bar() -> String {

@@ -2,7 +2,7 @@
 //! default tolerance.
 
 use super::refused;
-use mpm_verify::suite::embedded;
+use mpm_verify::embedded;
 use rstest::rstest;
 
 /// Creates a column of water. Its relative residual is 2e-6, and its tolerance is 5e-6.

@@ -1,11 +1,12 @@
 //! Solvers that a user of the library implements in Rust.
 
 use super::bar;
+use mpm_verify::embedded;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, level_problem};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, ExternalMethod, Suite, embedded};
+use mpm_verify::suite::{Extent, ExternalMethod, Suite};
 use mpm_verify::verify::CaseOutcome;
 
 /// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.

@@ -1,10 +1,11 @@
 //! Spectrum studies of external solvers.
 
+use mpm_verify::embedded;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::CaseOutcome;
 use std::f64::consts::TAU;
 

@@ -4,13 +4,14 @@
 use super::program::{HELLO, SECOND_ORDER};
 use crate::cli::{Folder, SOUND};
 use crate::common::folder::flat;
+use mpm_verify::embedded;
 use mpm_verify::external::{
     Capabilities, FieldName, FieldPlaces, LevelProblem, ProgramLimits, SolverFactory, SolverProgram,
 };
 use mpm_verify::study::{level_problem, needs};
 use mpm_verify::subject::Samples;
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 use serde_json::{Value, json};
 

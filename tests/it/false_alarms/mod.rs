@@ -7,11 +7,12 @@ mod known;
 
 use change::{CHANGES, Change, gcd};
 use changed_solver::{ChangedSolver, is_known};
+use mpm_verify::embedded;
 use mpm_verify::external::{LevelProblem, ProblemNeeds, SolverFactory};
 use mpm_verify::study::{Runner, lacking};
 use mpm_verify::subject::{BodyFields, Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Case, Extent, Suite, embedded};
+use mpm_verify::suite::{Case, Extent, Suite};
 use mpm_verify::testing::{
     ExaminationReport, ExaminationResult, FindingWeight, SolverFinding, doctor, page,
 };

@@ -14,11 +14,12 @@
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
+use mpm_verify::embedded;
 use mpm_verify::exact::Truth;
 use mpm_verify::prelude::{Extent, Suite};
 use mpm_verify::study::{TimeStep, subject, time_steps};
 use mpm_verify::subject::Samples;
-use mpm_verify::suite::{Against, Case, ConvergencePlan, embedded};
+use mpm_verify::suite::{Against, Case, ConvergencePlan};
 use mpm_verify::verify::{Axis, Richardson, SeriesPoint, displacement_at, estimate_limit};
 use rayon::prelude::*;
 

@@ -1,9 +1,10 @@
 //! Diagnoses of cases in the suites of this repository. Their authors state the causes in
 //! `because`, which a diagnosis does not read.
 
+use mpm_verify::embedded;
 use mpm_verify::study::diagnose;
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Suite, embedded};
 use mpm_verify::verify::Diagnosis;
 use rstest::rstest;
 

@@ -2,9 +2,10 @@
 //! it, and one that just does not.
 
 use crate::common::folder::flat;
+use mpm_verify::embedded;
 use mpm_verify::study::{linearisation, preflight};
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::{Diagnostic, Place, Severity, Source};
-use mpm_verify::suite::{Suite, embedded};
 use rstest::rstest;
 
 /// A suite without findings.

@@ -10,10 +10,11 @@
 //! difference of their displacements at the end. `docs/single-precision.md` derives the prediction
 //! and contains the table.
 
+use mpm_verify::embedded;
 use mpm_verify::prelude::{Extent, Suite};
 use mpm_verify::study::{TimeStep, subject, time_steps};
 use mpm_verify::subject::{Precision, Samples};
-use mpm_verify::suite::{Against, ConvergencePlan, Method, embedded};
+use mpm_verify::suite::{Against, ConvergencePlan, Method};
 use mpm_verify::verify::{NormName, rounding_bound, single_precision_spacing};
 use rayon::prelude::*;
 

@@ -2,9 +2,9 @@
 //! violates only this rule.
 
 use super::own_solver::{OwnSolver, SWINGING_BAR, suite};
+use mpm_verify::embedded;
 use mpm_verify::prelude::*;
 use mpm_verify::study;
-use mpm_verify::suite::embedded;
 use mpm_verify::testing::conformance_on;
 use rstest::rstest;
 use std::sync::atomic::{AtomicUsize, Ordering};

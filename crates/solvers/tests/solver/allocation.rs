@@ -3,19 +3,19 @@
 use crate::common::effect::add;
 use crate::common::{DT, H, free_body, in_dimension, methods};
 use allocation_counter::measure;
-use mpm_verify::exact::formula::{Expr, Formula, Scope};
-use mpm_verify::exact::heat::{Conduction, HeatForcing, Temperature};
-use mpm_verify::exact::{Forcing, InitialStress, Motion, NeoHookeanLaw, Problem};
-use mpm_verify::fem;
-use mpm_verify::fem::{Bar, Element, Mass, Sampling};
-use mpm_verify::mpm::{
+use mpm_judge::exact::formula::{Expr, Formula, Scope};
+use mpm_judge::exact::heat::{Conduction, HeatForcing, Temperature};
+use mpm_judge::exact::{Forcing, InitialStress, Motion, NeoHookeanLaw, Problem};
+use mpm_solvers::fem;
+use mpm_solvers::fem::{Bar, Element, Mass, Sampling};
+use mpm_solvers::mpm::{
     ArtificialViscosity, BasisName, Block, Bodies, BodyForce, Damping, Fixed, Friction, Gravity,
     Grid, Heat, HeatSolver, LocalDamping, MaterialPlan, Matrix, Particles, Placement, Prescribed,
     PrescribedVelocity, Pressure, Roller, ScalarField, SchemeName, SetForce, Setup, Side, Solver,
     Thermal, ThermalBoundary, ThermalExpansion, Traction, TransferName, Vector, VelocityField,
 };
-use mpm_verify::subject::{Holder, PlaneState, Samples, Start, Subject};
-use mpm_verify::suite::EffectName;
+use mpm_subject::{Holder, PlaneState, Samples, Start, Subject};
+use mpm_suites::suite::EffectName;
 use rstest::rstest;
 
 /// Steps `subject` once. Asserts that further steps and samples allocate no memory.

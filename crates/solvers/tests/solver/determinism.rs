@@ -2,8 +2,8 @@
 
 use crate::common::columns::columns;
 use crate::common::{DT, H, free_body, in_dimension, methods};
-use mpm_verify::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};
-use mpm_verify::subject::Subject;
+use mpm_solvers::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};
+use mpm_subject::Subject;
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
 use std::sync::Barrier;

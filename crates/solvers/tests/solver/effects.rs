@@ -5,14 +5,14 @@
 use crate::common::columns::columns;
 use crate::common::effect::add;
 use crate::common::{DT, free_body, in_dimension, methods};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Bodies, BodyOnGrid, Boundary, Effect, Fixed, Friction, Grid, Particles,
     Placement, Prescribed, Pressure, PressureField, Roller, SchemeName, Setup, Side, Solver,
     TransferName, Vector, kernel,
 };
-use mpm_verify::study;
-use mpm_verify::subject::{ColumnSize, Holder, Profile, Subject};
-use mpm_verify::suite::{EffectName, Suite, embedded};
+use mpm_subject::{ColumnSize, Holder, Profile, Subject};
+use mpm_suites::study;
+use mpm_suites::suite::EffectName;
 use rstest::rstest;
 
 /// Returns every column of the particles as bits. 0 and -0 have equal bits, because `f + 0` changes
@@ -173,14 +173,9 @@ fn row_of(name: &str, empty: &Profile, with: &Profile) -> String {
     format!("| `{name}` | {particle} | {node} | {visits} |")
 }
 
-fn load(suite: &str) -> Suite {
-    let source = embedded::source(suite).unwrap_or_else(|| panic!("there is no suite `{suite}`"));
-    Suite::load(&source.unwrap()).unwrap()
-}
-
 /// Whether a case of a suite has the effect. Every case is gated.
 fn lists(suite: &str, effect: EffectName) -> bool {
-    let suite = load(suite);
+    let suite = crate::common::suite(suite);
     suite.case_names().iter().any(|case| {
         study::profile(&suite, case, None)
             .is_some_and(|profile| profile.effects.contains(&effect.name()))
@@ -189,7 +184,7 @@ fn lists(suite: &str, effect: EffectName) -> bool {
 
 /// Whether a suite has a wall with this name.
 fn has_wall(suite: &str, name: &str) -> bool {
-    let suite = load(suite);
+    let suite = crate::common::suite(suite);
     let Some(plan) = suite.convergence() else { return false };
     plan.scene.faces.iter().any(|face| face.condition() == name)
 }
@@ -245,7 +240,7 @@ fn taken_by_two(friction: Option<f64>) -> Profile {
 fn page_lists_columns_and_suites_of_contact() {
     let row = row_of("contact", &taken_by_two(None), &taken_by_two(Some(0.3)));
     let has_contact = |suite: &str, _: &str| {
-        load(suite).convergence().is_some_and(|plan| plan.scene.contact.is_some())
+        crate::common::suite(suite).convergence().is_some_and(|plan| plan.scene.contact.is_some())
     };
     are_on_the_page(&[("contact", row)], has_contact);
 }

@@ -2,7 +2,7 @@
 //! message must not matter.
 
 use super::force::ramp;
-use crate::external::{LevelProblem, ProblemNeeds};
+use crate::external::ProblemNeeds;
 use crate::testing::doctor::course::{
     AffineField, Course, Field, displacement, largest_difference, minus, shown, size, velocity,
 };
@@ -35,8 +35,9 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let mut finding =
         wrong_weights(&stepwise, &scene).or_else(|| repeated(&stepwise, &second, patient));
     if finding.is_none() {
-        let at_once = LevelProblem { instants: vec![STEPS], ..problem };
-        let at_once = patient.run_problem(&scene, at_once)?;
+        let mut problem = problem;
+        problem.instants = vec![STEPS];
+        let at_once = patient.run_problem(&scene, problem)?;
         finding = grouped(&stepwise, &at_once, patient, "at constant speed");
     }
     let (n, d, law) = (stepwise.states[0].len(), scene.dimension, scene.law);
@@ -134,7 +135,8 @@ fn grouped_under_acceleration(
     if is_manufactured {
         ramp(&mut problem);
     }
-    let at_once = LevelProblem { instants: vec![STEPS], ..problem.clone() };
+    let mut at_once = problem.clone();
+    at_once.instants = vec![STEPS];
     let stepwise = match patient.run_problem(&scene, problem).and_then(complete) {
         Ok(stepwise) => stepwise,
         // A failed run is not reported here, because other examinations report it.

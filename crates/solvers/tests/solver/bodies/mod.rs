@@ -3,11 +3,11 @@
 mod viscosity;
 
 use crate::common::{DT, H, free_body, in_dimension, methods};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Bodies, LinearElastic, Matrix, Particles, SchemeName, Setup, Solver,
     TransferKind, TransferName, Vector,
 };
-use mpm_verify::subject::{Samples, Start, Subject, Totals};
+use mpm_subject::{Samples, Start, Subject, Totals};
 use rstest::rstest;
 
 /// Returns the methods for these tests; in 3-D only fast ones.

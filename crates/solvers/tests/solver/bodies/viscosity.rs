@@ -1,11 +1,11 @@
 //! Artificial viscosity at the front of a shock.
 
 use crate::common::free_body;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     ArtificialViscosity, BasisName, Block, Bodies, Effect, LinearElastic, Particles, SchemeName,
     TransferName,
 };
-use mpm_verify::subject::Subject;
+use mpm_subject::Subject;
 use rstest::rstest;
 
 /// Collides two bars with rho = c = 1 and the velocity `v0`. Returns the largest pressure over rho

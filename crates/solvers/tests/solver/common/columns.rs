@@ -1,7 +1,7 @@
 //! Lists every number that particles store. If a column is added to particles, this file does not
 //! compile without it.
 
-use mpm_verify::mpm::Particles;
+use mpm_solvers::mpm::Particles;
 
 /// Returns the temperatures, and all other numbers.
 pub(crate) fn columns<const D: usize>(particles: &Particles<D>) -> (&[f64], Vec<f64>) {

@@ -1,10 +1,10 @@
 //! Effects of every kind, built from the examples that are registered with their keys.
 
 use super::H;
-use mpm_verify::mpm::{BasisName, Setup};
-use mpm_verify::study;
-use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{EffectName, Suite};
+use mpm_solvers::mpm::{BasisName, Setup};
+use mpm_suites::study;
+use mpm_suites::suite::yaml::Source;
+use mpm_suites::suite::{EffectName, Suite};
 
 /// Adds the example of an effect with strength `size` to a body of [`free_body`](super::free_body)
 /// with `basis`, after the effects that it requires. With strength 0 it changes nothing.

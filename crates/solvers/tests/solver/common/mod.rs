@@ -3,11 +3,12 @@
 pub(crate) mod columns;
 pub(crate) mod effect;
 
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup,
     TransferName, Vector, VolumeName, combine, kernel, mass_matrix, transfer,
 };
-use mpm_verify::subject::Start;
+use mpm_subject::Start;
+use mpm_suites::suite::{Suite, yaml::Source};
 
 /// Cell size (m).
 pub(crate) const H: f64 = 0.25;
@@ -16,6 +17,15 @@ pub(crate) const H: f64 = 0.25;
 /// Courant number of 0.1 (but not at 0.05), USL inverts a body like this one in 3-D within 200
 /// steps.
 pub(crate) const DT: f64 = 2e-3;
+
+/// Loads a suite of the repository.
+pub(crate) fn suite(name: &str) -> Suite {
+    let folders = std::fs::read_dir("../../verification").expect("the folder of suites");
+    let files = folders.map(|folder| folder.expect("a folder").path().join(format!("{name}.yaml")));
+    let file = files.into_iter().find(|file| file.is_file());
+    let file = file.unwrap_or_else(|| panic!("there is no suite `{name}`"));
+    Suite::load(&Source::read(&file).expect("a text")).unwrap()
+}
 
 /// Calls a function that is generic in the dimension.
 macro_rules! in_dimension {

@@ -4,11 +4,11 @@
 //! has an affine field.
 
 use crate::common::{H, body, pairs};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, FrameName, LinearElastic, MassName, Matrix, Particles, SchemeName, Setup, Solver,
     Transfer, TransferName, Vector, combine,
 };
-use mpm_verify::subject::Subject;
+use mpm_subject::Subject;
 use rstest::rstest;
 
 const CELLS: usize = 12;
@@ -21,7 +21,7 @@ const DT: f64 = 0.01;
 fn turning<const D: usize>() -> Particles<D> {
     let side = H * CELLS as f64;
     let centre = Vector::<D>::from_fn(|axis, _| 0.5 * side + 0.01 * axis as f64);
-    let block = mpm_verify::mpm::Block {
+    let block = mpm_solvers::mpm::Block {
         from: centre.add_scalar(-0.25 * side),
         to: centre.add_scalar(0.25 * side),
         density: 2.0,

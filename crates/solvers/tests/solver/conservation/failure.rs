@@ -1,11 +1,11 @@
 //! A failed step names the quantity and the particle, and never panics.
 
 use crate::common::{DT, body, free_body, in_dimension, methods};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Fixed, LinearElastic, Matrix, Particles, SchemeName, Setup, Side, Solver,
     TransferName, Vector,
 };
-use mpm_verify::subject::{Failure, Samples, Site, Subject};
+use mpm_subject::{Failure, Samples, Site, Subject};
 use proptest::prelude::*;
 use rstest::rstest;
 

@@ -6,8 +6,8 @@ mod scene;
 mod step_input;
 
 use crate::common::in_dimension;
-use mpm_verify::mpm::{Matrix, Particles, SchemeName, Vector};
-use mpm_verify::subject::{Failure, Site, Start};
+use mpm_solvers::mpm::{Matrix, Particles, SchemeName, Vector};
+use mpm_subject::{Failure, Site, Start};
 use proptest::prelude::*;
 use rstest::rstest;
 use scene::{Scene, body, every_method, materials};

@@ -9,7 +9,7 @@ mod transfer;
 mod walls;
 
 use crate::common::{methods, pairs};
-use mpm_verify::mpm::{BasisName, TransferName};
+use mpm_solvers::mpm::{BasisName, TransferName};
 
 /// Taylor least squares is excluded. It conserves the momentum of every cell in P2G, but G2P would
 /// need other nodal masses to return the change of momentum. No other transfer has such a weak

@@ -3,11 +3,11 @@
 use super::{conservative, some};
 use crate::common::{DT, body, free_body, in_dimension};
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Damping, Gravity, LinearElastic, Matrix, Particles, SchemeName, Setup,
     Solver, TransferName, Vector,
 };
-use mpm_verify::subject::{Start, Subject};
+use mpm_subject::{Start, Subject};
 use rstest::rstest;
 
 const STEPS: usize = 40;

@@ -6,11 +6,11 @@
 //! changes.
 
 use crate::common::{H, body};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Fixed, Hencky, LinearElastic, Particles, SchemeName, Setup, Side, Solver,
     TransferName, Vector,
 };
-use mpm_verify::subject::{Start, Subject};
+use mpm_subject::{Start, Subject};
 use proptest::prelude::*;
 
 const YOUNG: f64 = 100.0;

@@ -2,7 +2,7 @@
 
 use crate::common::{H, in_dimension, pairs};
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Stage, Vector, g2p, kernel, transfer};
+use mpm_solvers::mpm::{Grid, Kernel, Matrix, Particles, Stage, Vector, g2p, kernel, transfer};
 use proptest::array::uniform3;
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -2,11 +2,11 @@
 
 use super::{conservative, some};
 use crate::common::{DT, H, free_body, in_dimension};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Fixed, Gravity, Matrix, Particles, Prescribed, PrescribedVelocity, Roller,
     SchemeName, SetForce, Setup, Side, Solver, TransferName, Vector, VelocityField,
 };
-use mpm_verify::subject::{Start, Subject};
+use mpm_subject::{Start, Subject};
 use rstest::rstest;
 
 const CELLS: usize = 4;

@@ -1,6 +1,6 @@
 //! Generalized interpolation (GIMP).
 
-use mpm_verify::mpm::{BasisName, Block, Particles, Vector, kernel};
+use mpm_solvers::mpm::{BasisName, Block, Particles, Vector, kernel};
 use rstest::rstest;
 
 /// The fuzzer found this case: a particle domain that extends far outside the grid.

@@ -1,11 +1,11 @@
 //! Conduction of heat on the grid.
 
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Effect, Grid, Heat, HeatSource, Kernel, Particles, Side, Thermal,
     ThermalBoundary, Vector, kernel,
 };
-use mpm_verify::subject::Failure;
+use mpm_subject::Failure;
 use rstest::rstest;
 
 const H: f64 = 0.25;

@@ -2,8 +2,8 @@
 //! independently.
 
 use approx::assert_relative_eq;
-use mpm_verify::exact::Equation;
-use mpm_verify::mpm::{Block, MaterialPlan, Matrix, Particles, StressUpdate, Vector};
+use mpm_judge::exact::Equation;
+use mpm_solvers::mpm::{Block, MaterialPlan, Matrix, Particles, StressUpdate, Vector};
 use rstest::rstest;
 
 /// Duration (s) of a step so slow that viscous stresses are negligible.

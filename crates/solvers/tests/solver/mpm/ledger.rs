@@ -2,11 +2,11 @@
 //! transfers the entries have closed forms.
 
 use crate::common::{DT, free_body, pairs};
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, FrameName, NeoHookean, ParticleField, Particles, SchemeName, Setup, Solver,
     TransferName, Vector, kernel, kinetic_energy,
 };
-use mpm_verify::subject::{EnergyBalance, LedgerStage, Perturbable, Subject};
+use mpm_subject::{EnergyBalance, LedgerStage, Perturbable, Subject};
 use rstest::rstest;
 
 /// Maximum difference, relative to the sum of the magnitudes of all entries.

@@ -2,10 +2,10 @@
 
 use crate::common;
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, ParticleField, Particles, SchemeName, Solver, TransferName, Vector, kernel,
 };
-use mpm_verify::subject::Perturbable;
+use mpm_subject::Perturbable;
 use rstest::rstest;
 
 const CELLS: usize = 4;

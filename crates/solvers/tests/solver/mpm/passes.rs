@@ -1,8 +1,8 @@
 //! Compares the passes of steps.
 
 use crate::common::{DT, H, body};
-use mpm_verify::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};
-use mpm_verify::subject::Subject;
+use mpm_solvers::mpm::{BasisName, Block, Particles, SchemeName, Solver, TransferName, Vector};
+use mpm_subject::Subject;
 use rstest::rstest;
 
 fn solver(scheme: SchemeName) -> Solver<2> {

@@ -1,11 +1,11 @@
 //! Quasi-static load steps: columns with closed forms, Newton's convergence, and failures.
 
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Boundary, Effect, Fixed, Gravity, MaterialPlan, Matrix, Particles, Placement,
     Quadrilateral, QuasiStatic, QuasiStaticSetup, Roller, Side, Traction, Vector, kernel,
 };
-use mpm_verify::subject::{Failure, PlaneState, Site, Subject};
+use mpm_subject::{Failure, PlaneState, Site, Subject};
 use rstest::rstest;
 
 /// A column along the first axis under its own weight, with a fixed bottom and between rollers.

@@ -2,11 +2,11 @@
 
 use crate::common::{DT, H, body, in_dimension};
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Fixed, Matrix, Particles, Prescribed, Roller, SchemeName, Setup, Side,
     Solver, TransferName, Vector,
 };
-use mpm_verify::subject::{Start, Subject};
+use mpm_subject::{Start, Subject};
 use rstest::rstest;
 
 const CELLS: usize = 3;

@@ -1,13 +1,13 @@
 //! Compares the solver with an independent implementation, `tests/second_opinion`: errors and
 //! fields on some levels of the suites must agree to 1e-9.
 
-use mpm_verify::mpm::{
+use mpm_judge::verify::{Clock, errors};
+use mpm_solvers::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
 };
-use mpm_verify::study;
-use mpm_verify::subject::{Failure, Precision, Samples, Start, Subject};
-use mpm_verify::suite::{ConvergencePlan, Method, Suite, embedded};
-use mpm_verify::verify::{Clock, errors};
+use mpm_subject::{Failure, Precision, Samples, Start, Subject};
+use mpm_suites::study;
+use mpm_suites::suite::{ConvergencePlan, Method};
 use rstest::rstest;
 use std::fs;
 use std::path::PathBuf;
@@ -171,7 +171,7 @@ fn hold_level(plan: &ConvergencePlan, level: &Level) {
 #[rstest]
 fn independent_implementation_agrees(#[files("../../tests/second_opinion/*.txt")] file: PathBuf) {
     let name = file.file_stem().and_then(|stem| stem.to_str()).expect("a name");
-    let suite = Suite::load(&embedded::source(name).expect("a suite").expect("its text")).unwrap();
+    let suite = crate::common::suite(name);
     let plan = suite.convergence().expect("a convergence study");
     let levels = read(&fs::read_to_string(&file).expect("a file"));
     assert!(levels.len() >= 6, "linear, contiguous GIMP and cubic functions, USL and MUSL");

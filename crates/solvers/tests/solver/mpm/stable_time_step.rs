@@ -2,7 +2,7 @@
 
 use crate::common;
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     ArtificialViscosity, BasisName, Block, BodyForce, Effect, MaterialPlan, Particles, SchemeName,
     Solver, TransferChoice, TransferName, Vector, simplest_with_same_response,
 };

@@ -1,7 +1,7 @@
 //! Taylor least squares, tested by the sums at nodes.
 
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Grid, Matrix, Particles, Stage, Tls, Transfer, Vector, kernel,
 };
 use rstest::rstest;

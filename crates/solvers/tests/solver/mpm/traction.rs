@@ -1,7 +1,7 @@
 //! Tractions on faces, tested by the forces on nodes.
 
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, BodyOnGrid, Effect, Matrix, Particles, Placement, Quadrilateral, Side,
     Traction, Vector, kernel,
 };

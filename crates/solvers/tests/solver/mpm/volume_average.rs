@@ -4,12 +4,12 @@
 
 use crate::common::{DT, H, body, free_body};
 use allocation_counter::measure;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     Advance, BasisName, Block, Boundary, Hencky, LinearFluid, LoopSettings, Material, Matrix,
     NeoHookean, Particles, SchemeName, Setup, Solver, StressUpdate, TransferName, Vector,
     VolumeName, det, kernel_with,
 };
-use mpm_verify::subject::{Column, Failure, Subject};
+use mpm_subject::{Column, Failure, Subject};
 use rayon::ThreadPoolBuilder;
 use rstest::rstest;
 

@@ -1,12 +1,12 @@
 //! A small body with its methods and laws. For any state of the particles, all numbers after a step
 //! must be finite, or an error must name the particle. Shared by the fuzz target and the tests.
 
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, Damping, Fixed, FrameName, Gravity, MassName, MaterialPlan, Particles,
     Roller, SchemeName, Setup, Side, Solver, TransferName, Vector, VolumeName, combine, kernel,
     mass_matrix, transfer,
 };
-use mpm_verify::subject::{Failure, Samples, Site, Start, Subject};
+use mpm_subject::{Failure, Samples, Site, Start, Subject};
 
 /// Basis, transfer, mass matrix and frame of a valid method.
 pub(crate) type Method = (BasisName, TransferName, MassName, FrameName);

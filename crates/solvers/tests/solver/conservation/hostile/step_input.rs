@@ -2,8 +2,8 @@
 //! bytes are zero, which stands for usual values.
 
 use super::scene::{Scene, body, every_method, materials};
-use mpm_verify::mpm::{Matrix, SchemeName, Vector};
-use mpm_verify::subject::Start;
+use mpm_solvers::mpm::{Matrix, SchemeName, Vector};
+use mpm_subject::Start;
 
 /// Numbers at which arithmetic changes its behaviour.
 const TURNS: [f64; 20] = [

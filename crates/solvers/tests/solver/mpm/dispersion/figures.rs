@@ -1,7 +1,7 @@
 //! Compares closed forms with values that were computed independently from the definitions.
 
 use approx::assert_abs_diff_eq;
-use mpm_verify::mpm::{SchemeName, Spline, WaveMethod, WaveSymbols, WaveTransfer};
+use mpm_solvers::mpm::{SchemeName, Spline, WaveMethod, WaveSymbols, WaveTransfer};
 use rstest::rstest;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 

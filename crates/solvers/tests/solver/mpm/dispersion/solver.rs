@@ -5,12 +5,12 @@
 //! determinant.
 
 use crate::common;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     BasisName, Block, FrameName, MassName, Particles, SchemeName, Setup, Solver, Spline,
     TransferName, Vector, WaveMethod, WaveStep, WaveSymbols, WaveTransfer, combine, mass_matrix,
     transfer,
 };
-use mpm_verify::subject::{Perturbable, Subject};
+use mpm_subject::{Perturbable, Subject};
 use rstest::rstest;
 use std::f64::consts::TAU;
 
@@ -115,7 +115,7 @@ impl Row {
             grid,
             mass: mass_matrix(mass),
             transfer: transfer(name),
-            material: Box::new(mpm_verify::mpm::LinearElastic::new(1.0, 0.0)),
+            material: Box::new(mpm_solvers::mpm::LinearElastic::new(1.0, 0.0)),
             ..setup
         };
         Solver::new(parts).expect("a solver")

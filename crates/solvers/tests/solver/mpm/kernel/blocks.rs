@@ -4,7 +4,7 @@
 use super::bits;
 use crate::common::in_dimension;
 use approx::assert_relative_eq;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     Affine, BasisName, Block, Divergence, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
     P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
 };

@@ -8,7 +8,7 @@ mod textbook;
 use crate::common::in_dimension;
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use fearless_simd::Level;
-use mpm_verify::mpm::{
+use mpm_solvers::mpm::{
     Affine, BasisName, Block, Divergence, Domain, G2pRequest, Grid, Kernel, LoopSettings, Matrix,
     Moments, P2gRequest, ParticleField, Particles, Vector, kernel, kernel_with,
 };

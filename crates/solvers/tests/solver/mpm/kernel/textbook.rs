@@ -16,7 +16,7 @@
 //! use.
 
 use super::alone;
-use mpm_verify::mpm::{Grid, Kernel, Matrix, Particles, Vector, dyad};
+use mpm_solvers::mpm::{Grid, Kernel, Matrix, Particles, Vector, dyad};
 
 /// Results of P2G, one entry for each node.
 pub(super) struct NodeSums<const D: usize> {

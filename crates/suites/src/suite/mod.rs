@@ -12,7 +12,6 @@
 //! Each module imports only modules listed above it.
 
 pub(crate) mod compile;
-pub mod embedded;
 pub(crate) mod evaluator;
 pub(crate) mod grammar;
 pub(crate) mod model;

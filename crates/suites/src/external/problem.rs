@@ -220,7 +220,8 @@ pub struct ProblemMaterial {
 impl LevelProblem {
     /// Replaces the law `linear_elastic` by `small_strain`. A body that starts deformed has the
     /// stress `C : sym(F - I)`.
-    pub(crate) fn replace_by_small_strain(&mut self) {
+    #[doc(hidden)]
+    pub fn replace_by_small_strain(&mut self) {
         for material in self.materials.iter_mut().filter(|one| one.law == "linear_elastic") {
             material.law = SMALL_STRAIN;
         }

@@ -221,7 +221,7 @@ impl ProblemNeeds {
 /// Law of solvers with linear kinematics: `sigma = C : sym(grad u)` in the reference configuration.
 /// The built-in MPM does not have this law, but it is the law of the exact solutions of suites with
 /// `linear_elastic`.
-pub(crate) const SMALL_STRAIN: &str = "small_strain";
+pub const SMALL_STRAIN: &str = "small_strain";
 
 /// Names of the laws in suites.
 const LAWS: &[&str] = &[
@@ -292,8 +292,10 @@ pub(super) fn hint(name: &str, known: &[&str]) -> String {
 }
 
 /// Creates the capabilities of a solver that supports everything.
-#[cfg(test)]
-pub(crate) fn everything() -> Capabilities {
+///
+/// # Panics
+/// If [`Capabilities`] has a field of an unknown type, which a test would find.
+pub fn everything() -> Capabilities {
     let mut all = serde_json::to_value(Capabilities::default()).unwrap();
     for (key, value) in all.as_object_mut().unwrap() {
         *value = match key.as_str() {

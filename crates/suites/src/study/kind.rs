@@ -136,6 +136,12 @@ pub(crate) fn study(suite: &Suite) -> &dyn Study {
     }
 }
 
+/// Returns the capabilities that a suite requires of a solver; `None` if its study cannot be passed
+/// to an external solver.
+pub fn needs_of_suite(suite: &Suite) -> Option<ProblemNeeds> {
+    study(suite).needs()
+}
+
 /// Returns the rows of name and value that describe the problem of a suite, for reports.
 pub fn statement(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = head(suite);

@@ -1,6 +1,6 @@
 //! The suites of the repository, embedded in the library.
 
-use super::yaml::{Diagnostic, Source};
+use crate::suite::yaml::{Diagnostic, Source};
 use std::path::Path;
 
 /// Name, path (from the repository root) and text of every suite under `verification/`, sorted by

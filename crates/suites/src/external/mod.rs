@@ -19,9 +19,6 @@ mod problem;
 mod program;
 
 use crate::subject::{Precision, Subject, SubjectError};
-pub(crate) use capabilities::SMALL_STRAIN;
-#[cfg(test)]
-pub(crate) use capabilities::everything;
 pub use capabilities::{Capabilities, ProblemNeeds};
 pub(crate) use fields::owned;
 pub use fields::{BodyForceField, FieldName, FieldPlaces, ProblemFields};
@@ -39,6 +36,8 @@ pub use program::read_answers;
 pub use program::{ProgramError, ProgramLimits, SolverProgram, protocol_schema};
 
 // For other modules and packages of this project, without a promise of stability.
+#[doc(hidden)]
+pub use self::capabilities::{SMALL_STRAIN, everything};
 #[doc(hidden)]
 pub use self::fields::{FieldError, HandedNumber, HandedValues, PlacedBodyForce};
 
