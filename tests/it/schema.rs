@@ -119,7 +119,8 @@ fn schema_and_program_agree(types: usize) {
         (dimension, suite.to_string().len())
     });
     for (name, suite) in suites {
-        let study = suite.get("study").map(Value::to_string);
+        // Most keys have the same grammar in all kinds of study.
+        let study = suite.get("study").filter(|_| types > 1).map(Value::to_string);
         let mut all = Vec::new();
         keys(&suite, "", &mut all);
         for (pointer, key) in all {

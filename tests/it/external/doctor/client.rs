@@ -3,7 +3,7 @@
 use super::defect::{Defect, Defect::*};
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemFace, ProblemNeeds, SolverFactory};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 type Vector = [f64; 2];
 
@@ -11,11 +11,13 @@ type Vector = [f64; 2];
 pub(super) struct Clinic {
     pub(super) defect: Defect,
     runs: AtomicU32,
+    /// Whether clients refuse all problems.
+    pub(super) is_closed: AtomicBool,
 }
 
 impl Clinic {
     pub(super) fn new(defect: Defect) -> Self {
-        Self { defect, runs: AtomicU32::new(0) }
+        Self { defect, runs: AtomicU32::new(0), is_closed: AtomicBool::new(false) }
     }
 }
 
@@ -25,6 +27,9 @@ impl SolverFactory for Clinic {
     }
 
     fn lacks(&self, needs: &ProblemNeeds) -> Vec<String> {
+        if self.is_closed.load(Ordering::Relaxed) {
+            return vec!["time".to_owned()];
+        }
         let conditions = ["free", "fixed", "roller", "periodic"];
         let able = Capabilities {
             manufactured: true,
