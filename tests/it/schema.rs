@@ -119,7 +119,7 @@ fn schema_and_program_agree(types: usize) {
         (dimension, suite.to_string().len())
     });
     for (name, suite) in suites {
-        // Most keys have the same grammar in all kinds of study.
+        // The kinds of study share the grammar of nearly all keys.
         let study = suite.get("study").filter(|_| types > 1).map(Value::to_string);
         let mut all = Vec::new();
         keys(&suite, "", &mut all);

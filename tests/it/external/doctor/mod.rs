@@ -15,8 +15,8 @@ use std::cell::Cell;
 use std::env;
 use std::sync::atomic::Ordering;
 
-/// Runs the doctor on a client. Returns its defects, its other remarks, and the report. Examinations
-/// after `last`, if given, are not applicable.
+/// Runs the doctor on a client. Returns its defects, its other remarks, and the report.
+/// Examinations after `last`, if given, are not applicable.
 fn found(defect: Defect, last: Option<&str>) -> (Vec<&'static str>, Vec<&'static str>, String) {
     let clinic = Clinic::new(defect);
     let is_last = Cell::new(false);
@@ -32,8 +32,8 @@ fn found(defect: Defect, last: Option<&str>) -> (Vec<&'static str>, Vec<&'static
     (of(FindingWeight::Defect), of(FindingWeight::Remark), page(&report))
 }
 
-/// Defects with the examination and the name of their finding. With the variable `NIGHTLY`, all later
-/// examinations run, too.
+/// Defects with the examination and the name of their finding. With the variable `NIGHTLY`, all
+/// later examinations run, too.
 #[rstest]
 #[case(Defect::GravityLeftOn, "rest", "gravity-left-on")]
 #[case(Defect::StressAtStart, "rest", "stress-at-rest")]

@@ -148,7 +148,11 @@ impl Quantity {
             return Vec::new();
         }
         let across = (dimension == 2 && self.needs_stress_across()).then_some("stress_across");
-        let own = if self.is_stress() { "stress" } else { self.name() };
+        let own = match self {
+            of if of.is_stress() => "stress",
+            of if of.needs_deformation_gradient() => "deformation_gradient",
+            of => of.name(),
+        };
         [own].into_iter().chain(across).collect()
     }
 

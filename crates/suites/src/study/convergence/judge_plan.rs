@@ -75,7 +75,7 @@ pub(super) fn rounding_sizes(
     let number = match plan.of {
         // A displacement is the difference between two positions.
         Quantity::Displacement => positions + value,
-        Quantity::DeformationGradient => 1.0,
+        of if of.needs_deformation_gradient() => 1.0,
         of if of.is_stress() => value.max(scene.wave_modulus()),
         _ => value,
     };

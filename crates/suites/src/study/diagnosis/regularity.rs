@@ -24,8 +24,8 @@ const BELOW: f64 = 0.5;
 fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     let differentiated = match plan.of {
         Quantity::Displacement => 0.0,
-        Quantity::Velocity | Quantity::DeformationGradient => 1.0,
-        of if of.is_stress() => 1.0,
+        Quantity::Velocity => 1.0,
+        of if of.is_stress() || of.needs_deformation_gradient() => 1.0,
         _ => return None,
     };
     let of_support = match plan.norm {

@@ -3,7 +3,7 @@
 use super::method::{ExternalMethod, GateTerms, Method};
 use super::plan::Suite;
 use super::{Against, Case, ConvergencePlan};
-use crate::verify::{Axis, CaseFigure, Expectation, Gating, Quantity, Requirement, format_number};
+use crate::verify::{Axis, CaseFigure, Expectation, Gating, Requirement, format_number};
 
 impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
@@ -119,7 +119,7 @@ impl ConvergencePlan {
     /// Returns the theoretical order on this problem for a solver with this formal order, and the
     /// reason. `None` if an axis other than space is refined, unless the suite states the order.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
-        let is_gradient = self.of.is_stress() || self.of == Quantity::DeformationGradient;
+        let is_gradient = self.of.is_stress() || self.of.needs_deformation_gradient();
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
             let of = format_number(formal_order);
             let reason = format!("displacements have the order {of}, and their gradients one less");
