@@ -81,8 +81,7 @@ pub(crate) fn assign(
         if let Some(k) = globs.as_slice().iter().position(idle) {
             let at = path.then(i).then("case").alternative(globs, k);
             let message = format!("`{}` matches no case", globs.as_slice()[k]);
-            let diagnostic = at.diagnostic(&message);
-            return Err(diagnostic.with_help(&format!("cases: {}", names.join(", "))));
+            return at.refuse(&message, &format!("cases: {}", names.join(", ")));
         }
     }
     let owner = |name: &&str| {
@@ -109,7 +108,7 @@ fn in_full(
     for (key, given) in [("case", full.case.is_some()), ("full", full.full.is_some())] {
         if given {
             let message = format!("the expectation of a full run cannot have its own `{key}`");
-            return Err(path.then(key).diagnostic_at_key(&message).with_help("remove it"));
+            return path.then(key).refuse_key(&message, "remove it");
         }
     }
     expectation(&path, full, plan).map(Some)
@@ -140,8 +139,7 @@ fn expectation(
     if let Some((low, high)) = order
         && let Some(reason) = OrderHypothesis::within(low, low, high).diagnostic()
     {
-        let diagnostic = path.then("order").diagnostic(&reason);
-        return Err(diagnostic.with_label("expected positive orders, no more than 1 apart"));
+        return path.then("order").expected("positive orders, no more than 1 apart", &reason);
     }
     Ok(Expectation {
         verdict,
@@ -222,7 +220,7 @@ fn refuse_missing_figure(
     if has_figure {
         return Ok(());
     }
-    Err(path.diagnostic_at_key(message).with_help(help))
+    path.refuse_key(message, help)
 }
 
 fn drifts(
@@ -249,8 +247,7 @@ fn drifts(
         if is_revolved && matches!(sum, Conserved::Momentum | Conserved::AngularMomentum) {
             let message = "this sum over the meridian plane is not conserved in a body of \
                            revolution";
-            let diagnostic = path.diagnostic_at_key(message);
-            return Err(diagnostic.with_help("bound the drift of `mass` or of an energy"));
+            return path.refuse_key(message, "bound the drift of `mass` or of an energy");
         }
         if sum == Conserved::Energy {
             refuse_law_without_energy(&path, &plan.scene)?;
@@ -259,8 +256,8 @@ fn drifts(
     }
     if drifts.is_empty() {
         let names: Vec<&str> = Conserved::ALL.iter().map(|sum| sum.name()).collect();
-        let diagnostic = path.diagnostic("`drift` is empty");
-        return Err(diagnostic.with_help(&format!("add one or more of: {}", names.join(", "))));
+        return path
+            .refuse("`drift` is empty", &format!("add one or more of: {}", names.join(", ")));
     }
     Ok(drifts)
 }
@@ -274,8 +271,7 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
         limits.energy_rate.is_some() || limits.drifts().contains(&Conserved::Energy);
     if asks_of_energy && method.averages_volume() {
         let message = "the force of `volume: averaged` does not derive from a stored energy";
-        let diagnostic = path.then(key).diagnostic_at_key(message);
-        return Err(diagnostic.with_help("bound the drift of `momentum` or `mass`"));
+        return path.then(key).refuse_key(message, "bound the drift of `momentum` or `mass`");
     }
     if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
         return Ok(());
@@ -285,8 +281,7 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
         Method::Heat { .. } => "a body at rest has no motion whose sums could drift",
         _ => "the built-in FEM does not compute the sums whose drift is bounded here",
     };
-    let diagnostic = path.then(key).diagnostic_at_key(message);
-    Err(diagnostic.with_help("restrict this expectation to MPM cases"))
+    path.then(key).refuse_key(message, "restrict this expectation to MPM cases")
 }
 
 /// Number of points along each axis, and number of time intervals, in the check by
@@ -332,8 +327,7 @@ fn any_method(
     }
     if spec.any_law && !plan.exact.as_ref().is_some_and(is_translation) {
         let message = "the solution depends on the law, because it is not a translation";
-        let diagnostic = path.then("any_law").diagnostic(message);
-        return Err(diagnostic.with_help("remove `any_law`"));
+        return path.then("any_law").refuse(message, "remove `any_law`");
     }
     Ok(AnyMethod { order, error_below, any_law: spec.any_law, gated, because })
 }

@@ -162,8 +162,8 @@ fn parameters(
     let path = evaluator.top("gradient.with_respect_to");
     let entries = spec.gradient.with_respect_to.as_slice();
     if entries.is_empty() {
-        let diagnostic = path.diagnostic("`with_respect_to` names no parameter");
-        return Err(diagnostic.with_help("write `with_respect_to: {young: E}`"));
+        return path
+            .refuse("`with_respect_to` names no parameter", "write `with_respect_to: {young: E}`");
     }
     let one = |(key, name): &(String, String)| {
         let path = path.then(key.as_str());
@@ -171,8 +171,7 @@ fn parameters(
         let Some(parameter) = all.iter().find(|one| one.name() == key) else {
             let known: Vec<&str> = all.iter().map(|one| one.name()).collect();
             let message = format!("`{key}` is not a parameter of the problem");
-            let diagnostic = path.diagnostic_at_key(&message);
-            return Err(diagnostic.with_help(&suggestion("parameters", key, &known)));
+            return path.refuse_key(&message, &suggestion("parameters", key, &known));
         };
         differentiated(&path, source, spec, problem, *parameter, name)
     };
@@ -185,8 +184,8 @@ fn parameters(
         Some(one) if !has_velocity => {
             let name = &one.name;
             let message = format!("the initial velocity depends on `{name}`");
-            let diagnostic = path.then(one.parameter.name()).diagnostic(&message);
-            Err(diagnostic.with_help("add `initial_velocity` to `with_respect_to`"))
+            path.then(one.parameter.name())
+                .refuse(&message, "add `initial_velocity` to `with_respect_to`")
         }
         _ => Ok(all),
     }
@@ -205,13 +204,12 @@ fn differentiated(
     if spec.parameters.get(name).is_none() {
         let known: Vec<&str> = declared.iter().map(|(name, _)| name.as_str()).collect();
         let message = format!("`{name}` is not a parameter of this suite");
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_help(&suggestion("parameters", name, &known)));
+        return path.refuse(&message, &suggestion("parameters", name, &known));
     }
     let value = path.number(&NumberText::Formula(name.clone()))?;
     if value == 0.0 {
         let message = format!("`{name}` is 0, but perturbations are relative to its value");
-        return Err(path.diagnostic(&message).with_label("expected a value other than 0"));
+        return path.expected("a value other than 0", &message);
     }
     let motion = motion(path.evaluator, spec, problem, name, value)?;
     let factor = motion.velocity_factor().ok_or_else(|| {
@@ -238,7 +236,7 @@ fn differentiated(
             }
             _ => format!("write `{key}: {name}` in the scene"),
         };
-        return Err(path.diagnostic(&message).with_help(&help));
+        return path.refuse(&message, &help);
     }
     let solver =
         MethodSpec::External { name: "solver".to_owned(), formal_order: None, precision: None };
@@ -344,13 +342,12 @@ fn sweep(
     let within = at.positive(&sweep.within, "half of the interval")?;
     if !(within < 1.0) {
         let message = format!("half of the interval is {} of the parameter", shown(within));
-        return Err(at.diagnostic(&message).with_label("expected a share below 1"));
+        return at.expected("a share below 1", &message);
     }
     let at = path.then("points");
     let points = at.count(&sweep.points, "the number of points")?;
     if !(2..=MOST_POINTS).contains(&points) {
-        let diagnostic = at.diagnostic(&format!("a sweep of {points} points"));
-        return Err(diagnostic.with_label(&format!("expected 2 to {MOST_POINTS}")));
+        return at.expected(&format!("2 to {MOST_POINTS}"), &format!("a sweep of {points} points"));
     }
     Ok(Some(SweepPlan { parameter, within, points }))
 }
@@ -383,8 +380,7 @@ fn terms(
     let order = spec.order.as_ref().map(|pair| path.then("order").interval(pair));
     let order = order.transpose()?;
     if spec.state.is_none() && order.is_none() {
-        let diagnostic = path.diagnostic("this expectation is empty");
-        return Err(diagnostic.with_label("expected `state`, `order`, or both"));
+        return path.expected("`state`, `order`, or both", "this expectation is empty");
     }
     let because = path.because("this expectation", &spec.because)?;
     Ok((GradientTerms { state: spec.state, order, finest: None }, because))

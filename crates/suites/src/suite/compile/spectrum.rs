@@ -48,14 +48,13 @@ pub(crate) fn plan(
     let ppc_at = path.then("ppc");
     let ppc = ppc_at.count(&spec.particles.ppc, "the number of particles per cell")?;
     if ppc > MOST_PPC {
-        let diagnostic = ppc_at.diagnostic(&format!("{ppc} particles per cell"));
-        return Err(diagnostic.with_label(&format!("expected at most {MOST_PPC}")));
+        return ppc_at
+            .expected(&format!("at most {MOST_PPC}"), &format!("{ppc} particles per cell"));
     }
     let h = cell_size(&scene, cells);
     let level = LevelPlan { cells, h, dt: 0.0, ppc: Some(ppc) };
     if let Some((what, amount)) = level.too_large(&scene) {
-        let message = format!("{cells} cells make {amount:.1e} {what}");
-        return Err(at.diagnostic(&message).with_label("expected fewer"));
+        return at.expected("fewer", &format!("{cells} cells make {amount:.1e} {what}"));
     }
     let shift = shift(evaluator, spec, h / ppc as f64)?;
     let waves = waves(evaluator, spec, &scene, cells, h)?;
@@ -121,8 +120,7 @@ fn waves(
     let listed = &spec.spectrum.cells_per_wavelength;
     let courants = &spec.spectrum.courant;
     if listed.as_slice().len().saturating_mul(courants.as_slice().len()) > MOST {
-        let diagnostic = path.diagnostic("too many waves");
-        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
+        return path.expected(&format!("at most {MOST}"), "too many waves");
     }
     let mut waves = Vec::new();
     for (i, text) in listed.as_slice().iter().enumerate() {
@@ -237,8 +235,7 @@ fn expectation(
     let phase_within = share("phase_within", &spec.phase_within)?;
     let damping_within = share("damping_within", &spec.damping_within)?;
     if phase_within.is_none() && damping_within.is_none() {
-        let diagnostic = path.diagnostic("this expectation is empty");
-        return Err(diagnostic.with_label("expected `phase_within` or `damping_within`"));
+        return path.expected("`phase_within` or `damping_within`", "this expectation is empty");
     }
     let because = path.because("this expectation", &spec.because)?;
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
@@ -253,8 +250,7 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
         return Ok(());
     };
     let path = evaluator.top("spectrum.solvers").then(solver.as_str());
-    let diagnostic = path.diagnostic(&format!("there is no case `{case}`"));
-    Err(diagnostic.with_help(&suggestion("cases", case, &names)))
+    path.refuse(&format!("there is no case `{case}`"), &suggestion("cases", case, &names))
 }
 
 /// Refuses time steps above the stability limit of a case, and waves that its grid cannot

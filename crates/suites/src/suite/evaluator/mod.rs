@@ -120,7 +120,7 @@ impl<'a> Evaluator<'a> {
         let arguments: Vec<String> = arguments.split(',').map(|a| a.trim().to_owned()).collect();
         if name.is_empty() || arguments.iter().any(String::is_empty) {
             let message = format!("`{head}` lacks a name or an argument");
-            return Err(self.function(head).diagnostic_at_key(&message).with_help(help));
+            return self.function(head).refuse_key(&message, help);
         }
         let body = Expr::parse(body).map_err(|error| self.function(head).in_text(&error))?;
         let declared = self.scope.function(name, &arguments, body);
@@ -179,7 +179,7 @@ impl SuitePath<'_> {
         if texts.len() != dimension {
             let (got, d) = (texts.len(), dimension);
             let message = format!("{got} components in a scene of dimension {d}");
-            return Err(self.diagnostic(&message).with_label(&format!("expected {d}")));
+            return self.expected(&format!("{d}"), &message);
         }
         let bind = |(i, text): (usize, &NumberText)| {
             let path = self.then(i);
@@ -220,7 +220,7 @@ impl SuitePath<'_> {
             return Ok(value);
         }
         let message = format!("{what} is {}", shown(value));
-        Err(self.diagnostic(&message).with_label("expected zero or a positive number"))
+        self.expected("zero or a positive number", &message)
     }
 
     pub(crate) fn count(&self, text: &NumberText, what: &str) -> Result<u64, Diagnostic> {
@@ -273,7 +273,7 @@ impl SuitePath<'_> {
             return Ok(text.to_owned());
         }
         let message = format!("`because` is empty: state the reason for {stated}");
-        Err(self.then("because").diagnostic(&message).with_label("expected a text"))
+        self.then("because").expected("a text", &message)
     }
 
     pub(crate) fn diagnostic(&self, message: &str) -> Diagnostic {
@@ -286,6 +286,21 @@ impl SuitePath<'_> {
             Some(place) => source.diagnostic(place, message),
             None => self.diagnostic(message),
         }
+    }
+
+    /// Refuses the value at this place, with advice.
+    pub(crate) fn refuse<T>(&self, message: &str, help: &str) -> Result<T, Diagnostic> {
+        Err(self.diagnostic(message).with_help(help))
+    }
+
+    /// Refuses the key of this place, with advice.
+    pub(crate) fn refuse_key<T>(&self, message: &str, help: &str) -> Result<T, Diagnostic> {
+        Err(self.diagnostic_at_key(message).with_help(help))
+    }
+
+    /// Refuses the value at this place. The label is `expected` followed by `wanted`.
+    pub(crate) fn expected<T>(&self, wanted: &str, message: &str) -> Result<T, Diagnostic> {
+        Err(self.diagnostic(message).with_label(&format!("expected {wanted}")))
     }
 
     /// Returns a diagnostic about a part of the formula at this place, or of a function that it

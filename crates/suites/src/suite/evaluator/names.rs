@@ -17,7 +17,7 @@ impl Evaluator<'_> {
             };
             let message = format!("`{name}` is a variable of formulas and cannot be declared");
             let help = format!("rename it; the variables are {}", variables.join(", "));
-            return Err(path.diagnostic_at_key(&message).with_help(&help));
+            return path.refuse_key(&message, &help);
         }
         Ok(())
     }
@@ -35,9 +35,9 @@ impl Evaluator<'_> {
             return Ok(());
         };
         let message = format!("the {kind} `{}` is never used", name_in(key));
-        let diagnostic =
-            self.top(&format!("{kind}s")).then(key.as_str()).diagnostic_at_key(&message);
-        Err(diagnostic.with_help("remove it, or use it"))
+        self.top(&format!("{kind}s"))
+            .then(key.as_str())
+            .refuse_key(&message, "remove it, or use it")
     }
 
     /// Whether `name` is a parameter that is declared later in the file.
@@ -143,8 +143,8 @@ fn rows(path: &SuitePath<'_>, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagn
         rows.push(row);
     }
     if rows.len() < 2 {
-        let diagnostic = path.diagnostic("a table needs at least two rows");
-        return Err(diagnostic.with_help("for a constant parameter, write a number"));
+        return path
+            .refuse("a table needs at least two rows", "for a constant parameter, write a number");
     }
     Ok(rows)
 }

@@ -35,8 +35,7 @@ fn fits(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
     if let Some((what, amount)) = level.too_large(scene) {
         let cells = level.cells;
         let message = format!("with {cells} cells along the first axis, {amount:.1e} {what}");
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_label(&format!("expected at most {MOST_POINTS:e} {what}")));
+        return path.expected(&format!("at most {MOST_POINTS:e} {what}"), &message);
     }
     vacant(path, scene, level)?;
     held_faces(path, scene, level.cells)?;
@@ -109,7 +108,7 @@ fn sets(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
             let message = format!(
                 "with {cells} cells along the first axis the set `{name}` contains no particle"
             );
-            return Err(path.diagnostic(&message).with_label("expected more cells"));
+            return path.expected("more cells", &message);
         }
     }
     Ok(())

@@ -27,8 +27,7 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
         let Some(i) = method(&MethodSpec::is_quasi_static) else { return Ok(()) };
         let path = evaluator.top("methods").then(i).then("mpm").then("scheme");
         let message = "`quasi_static` needs a number of load steps";
-        let diagnostic = path.diagnostic(message);
-        return Err(diagnostic.with_help("write `run: {load_steps: 20}` instead of `until`"));
+        return path.refuse(message, "write `run: {load_steps: 20}` instead of `until`");
     }
     let after_the_last_step = "errors are computed after the last step only";
     let refused = [
@@ -60,11 +59,10 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
     let is_dynamic =
         |spec: &MethodSpec| !spec.is_quasi_static() && !matches!(spec, MethodSpec::External { .. });
     match method(&is_dynamic) {
-        Some(i) => {
-            let message = "this method needs time steps, and the suite has load steps";
-            let diagnostic = evaluator.top("methods").then(i).diagnostic(message);
-            Err(diagnostic.with_help("use `mpm: {basis: cpgimp, scheme: quasi_static}`"))
-        }
+        Some(i) => evaluator.top("methods").then(i).refuse(
+            "this method needs time steps, and the suite has load steps",
+            "use `mpm: {basis: cpgimp, scheme: quasi_static}`",
+        ),
         None => Ok(()),
     }
 }
@@ -96,7 +94,7 @@ fn refuse_unfit_scene(
         if let Some(reason) = against_load(listed, scene.dimension()) {
             let message =
                 format!("`{}` is not supported in load steps: {reason}", listed.effect.name());
-            return Err(stated.diagnostic(&message).with_help(help));
+            return stated.refuse(&message, help);
         }
     }
     let moving = |face: &&SceneFace| !KNOWN_CONDITIONS.contains(&face.condition());
@@ -107,7 +105,7 @@ fn refuse_unfit_scene(
             face.hold.kind().verb
         );
         let at = top.then("boundary").then(face.name);
-        return Err(at.diagnostic_at_key(&message).with_help(help));
+        return at.refuse_key(&message, help);
     }
     if let Some(axis) = (0..scene.dimension()).find(|axis| !is_held(scene, *axis)) {
         let message = format!("nothing holds the body along {}", COORDINATES[axis]);
@@ -120,7 +118,7 @@ fn refuse_unfit_scene(
             let name = scene.material.name();
             let message = format!("`quasi_static` does not support `{name}`: {reason}");
             let help = "laws with a tangent: neo_hookean, hencky, j2, drucker_prager, mohr_coulomb";
-            Err(top.then("material").diagnostic(&message).with_help(help))
+            top.then("material").refuse(&message, help)
         }
         _ => Ok(()),
     }

@@ -63,20 +63,19 @@ fn refuse_conditions_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Dia
                 face.hold.kind().verb
             );
             let at = path.then("boundary").then(face.name);
-            return Err(at.diagnostic(&message).with_help(help));
+            return at.refuse(&message, help);
         }
     }
     if !scene.initial_stress.is_none() {
         let at = path.then("initial_stress");
-        let message = "the built-in FEM does not support an initial stress";
-        return Err(at.diagnostic_at_key(message).with_help(help));
+        return at.refuse_key("the built-in FEM does not support an initial stress", help);
     }
     if let Some(set) = scene.driven_set() {
         let message = format!(
             "the set `{set}` has a given velocity, which the built-in FEM does not support"
         );
         let at = path.then("sets").then(set);
-        return Err(at.diagnostic_at_key(&message).with_help(help));
+        return at.refuse_key(&message, help);
     }
     Ok(())
 }
@@ -149,14 +148,13 @@ fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagn
     let help = "judge the displacement or the velocity";
     if plan.reference.is_some() || plan.same_method.is_some() {
         let message = format!("a reference does not provide the {name} that this suite judges");
-        return Err(evaluator.top("reference").diagnostic_at_key(&message).with_help(help));
+        return evaluator.top("reference").refuse_key(&message, help);
     }
     match spec.fem_method() {
         Some(i) => {
             let message =
                 format!("the built-in FEM does not provide the {name} that this suite judges");
-            let diagnostic = evaluator.top("methods").then(i).diagnostic(&message);
-            Err(diagnostic.with_help(help))
+            evaluator.top("methods").then(i).refuse(&message, help)
         }
         None => Ok(()),
     }

@@ -37,10 +37,9 @@ pub(crate) fn judged(
         let message = format!(
             "the {name} is one number for the whole body, so a norm over particles does not apply"
         );
-        let diagnostic = path.then("norm").diagnostic(&message);
-        return Err(
-            diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
-        );
+        return path
+            .then("norm")
+            .refuse(&message, "use `rms`, or `linf` for the largest value over the instants");
     }
     if plan.norm.is_by_mass() {
         let norm = plan.norm.name();
@@ -48,10 +47,9 @@ pub(crate) fn judged(
             "the {name} is one number for the whole body, so `{norm}`, a norm over particles, does \
              not apply"
         );
-        let diagnostic = path.then("norm").diagnostic(&message);
-        return Err(
-            diagnostic.with_help("use `rms`, or `linf` for the largest value over the instants")
-        );
+        return path
+            .then("norm")
+            .refuse(&message, "use `rms`, or `linf` for the largest value over the instants");
     }
     let path = path.then("of");
     if plan.scene.plane == PlaneState::Axisymmetric {
@@ -61,8 +59,7 @@ pub(crate) fn judged(
     }
     let Some(problem) = &plan.exact else {
         let message = format!("the {name} of the body needs an exact solution");
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_help("state an `exact` or a `manufactured` motion"));
+        return path.refuse(&message, "state an `exact` or a `manufactured` motion");
     };
     let walls = match need {
         SumNeed::Nothing => Vec::new(),
@@ -109,8 +106,7 @@ fn stored_energy(
             "the exact solution does not provide the stored energy of `{}`",
             problem.equation.name()
         );
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_help("judge the `kinetic_energy`"));
+        return path.refuse(&message, "judge the `kinetic_energy`");
     }
     Ok(())
 }
@@ -139,7 +135,7 @@ fn refuse_setting(
 ) -> Result<(), Diagnostic> {
     let Some(i) = spec.methods.iter().position(is_meant) else { return Ok(()) };
     let path = evaluator.top("methods").then(i).then("mpm").then(key);
-    Err(path.diagnostic(message).with_help(help))
+    path.refuse(message, help)
 }
 
 /// Refuses an angular momentum in 1-D, and for a periodic body.
@@ -192,8 +188,7 @@ fn walls(
              common edge",
             other.name
         );
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_help("leave `face` out to judge all walls together"));
+        return path.refuse(&message, "leave `face` out to judge all walls together");
     }
     Ok(vec![number])
 }
@@ -228,6 +223,5 @@ pub(crate) fn refuse_law_without_energy(
     }
     let Err(reason) = energy else { return Ok(()) };
     let message = format!("the law `{}` {reason}", material.name());
-    let diagnostic = path.diagnostic_at_key(&message);
-    Err(diagnostic.with_help("use `neo_hookean` or `hencky`"))
+    path.refuse_key(&message, "use `neo_hookean` or `hencky`")
 }

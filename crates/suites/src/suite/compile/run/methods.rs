@@ -209,7 +209,7 @@ fn refuse_keys_of_dynamics(
     if scheme.as_slice().len() > 1 {
         let message = "`quasi_static` cannot be listed with time-stepping schemes: only `basis` \
                        applies to both";
-        return Err(path.then("scheme").diagnostic_at_key(message).with_help(own));
+        return path.then("scheme").refuse_key(message, own);
     }
     let refused = [
         ("transfer", transfer.is_some(), "there are no velocities to transfer"),
@@ -222,7 +222,7 @@ fn refuse_keys_of_dynamics(
     match refused.into_iter().find(|(_, is_stated, _)| *is_stated) {
         Some((key, _, reason)) => {
             let message = format!("`quasi_static` does not support `{key}`: {reason}");
-            Err(path.then(key).diagnostic_at_key(&message).with_help("remove it"))
+            path.then(key).refuse_key(&message, "remove it")
         }
         None => Ok(()),
     }
@@ -348,6 +348,5 @@ fn stated_order(path: &SuitePath<'_>, text: Option<&NumberText>) -> Result<f64, 
         return Ok(order);
     }
     let message = format!("the formal order is {}", shown(order));
-    let diagnostic = path.diagnostic(&message);
-    Err(diagnostic.with_label(&format!("expected one up to {HIGHEST_ORDER}")))
+    path.expected(&format!("one up to {HIGHEST_ORDER}"), &message)
 }

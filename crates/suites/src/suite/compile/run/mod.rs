@@ -70,13 +70,12 @@ fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, 
         (Some(_), Some(_)) => {
             let path = evaluator.top("run.until");
             let message = "`until` is not supported with `load_steps`: load steps have no time";
-            Err(path.diagnostic_at_key(message).with_help("keep one of them"))
+            path.refuse_key(message, "keep one of them")
         }
-        (None, None) => {
-            let message = "a run needs an end";
-            let diagnostic = evaluator.top("run").diagnostic(message);
-            Err(diagnostic.with_help("add `until`, or `load_steps` for `scheme: quasi_static`"))
-        }
+        (None, None) => evaluator.top("run").refuse(
+            "a run needs an end",
+            "add `until`, or `load_steps` for `scheme: quasi_static`",
+        ),
     }
 }
 
@@ -276,7 +275,7 @@ fn possible(
         }
         MethodSpec::External { .. } if plan.same_method.is_some() => {
             let message = "`same_method` does not support external solvers";
-            Err(path.diagnostic(message).with_help("state `exact` or a `reference`"))
+            path.refuse(message, "state `exact` or a `reference`")
         }
         MethodSpec::Fem { .. } if plan.refine.axis == Axis::Particles => {
             Err(path.diagnostic("the suite refines particles per cell, but an FEM has none"))
@@ -287,7 +286,7 @@ fn possible(
             let solver =
                 if matches!(spec, MethodSpec::External { .. }) { "a solver" } else { "MPM" };
             let message = format!("{solver} needs particles, but `refine` has no `ppc`");
-            Err(path.diagnostic(&message).with_help("add `ppc: 4` to `refine`"))
+            path.refuse(&message, "add `ppc: 4` to `refine`")
         }
         _ => Ok(()),
     }

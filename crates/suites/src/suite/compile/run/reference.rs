@@ -39,8 +39,7 @@ fn fem(
     };
     if dimension != 1 {
         let message = format!("the built-in FEM is 1-D, but the scene is {dimension}-D");
-        let diagnostic = path.diagnostic_at_key(&message);
-        return Err(diagnostic.with_help("give this scene an `exact` solution"));
+        return path.refuse_key(&message, "give this scene an `exact` solution");
     }
     let path = path.then("fem");
     Ok(Some(ReferencePlan {
@@ -68,7 +67,7 @@ fn same_method(
         return Ok(None);
     };
     let path = evaluator.top("reference.same_method");
-    let refused = |message, help| Err(path.diagnostic_at_key(message).with_help(help));
+    let refused = |message, help| path.refuse_key(message, help);
     match (&same.dt, &same.cells) {
         (Some(_), None) if refine.axis != Axis::Time => {
             let message =
@@ -153,7 +152,7 @@ fn with_step(
     }
     let Some(stated) = &spec.run.dt else {
         let message = "`refine` lists a time step for each level, but none for the fine grid";
-        return Err(path.diagnostic(message).with_help(STEP_OF_EACH_H));
+        return path.refuse(message, STEP_OF_EACH_H);
     };
     let at_run = path.evaluator.top("run.dt");
     let text = step_formula(&at_run, stated, scene)?;
@@ -180,5 +179,5 @@ fn one_lattice(
         "a fine grid is interpolated between regular particles of a single box, but the scene has \
          {body}"
     );
-    Err(path.diagnostic_at_key(&message).with_help("give this scene an `exact` solution"))
+    path.refuse_key(&message, "give this scene an `exact` solution")
 }

@@ -100,7 +100,7 @@ fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic
     }
     if let (true, Some(_)) = (cells && dt, &spec.full) {
         let message = "`full` is one list, so it cannot refine both cells and time steps";
-        return Err(path.then("full").diagnostic_at_key(message).with_help(STEP_OF_EACH_H));
+        return path.then("full").refuse_key(message, STEP_OF_EACH_H);
     }
     Ok(match (dt && !cells, ppc) {
         (true, _) => Axis::Time,
@@ -180,9 +180,8 @@ fn steps<'a>(
     }
     let texts = match (stated, &spec.refine.dt) {
         (Some(_), Some(_)) => {
-            let diagnostic =
-                at_refine.diagnostic_at_key("the time step is already stated in `run`");
-            return Err(diagnostic.with_help("keep one of them"));
+            return at_refine
+                .refuse_key("the time step is already stated in `run`", "keep one of them");
         }
         (None, None) => {
             let diagnostic = evaluator.top("run").diagnostic_at_key("a run needs a time step");
@@ -234,8 +233,7 @@ pub(crate) fn step_formula(
         let [share, speed] = [share, speed].map(NumberText::Number);
         return Ok(NumberText::Formula(format!("{share}*h/{speed}")));
     }
-    let message = "an automatic time step needs a wave speed, but this body has none";
-    Err(path.diagnostic(message).with_label("expected a number"))
+    path.expected("a number", "an automatic time step needs a wave speed, but this body has none")
 }
 
 fn refuse_methods_without_rule(
@@ -248,9 +246,8 @@ fn refuse_methods_without_rule(
     };
     let other = methods.iter().position(|method| !steps(method));
     let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
-    let message = "an automatic time step is available for MPM only";
-    let diagnostic = evaluator.top("methods").then(i).diagnostic(message);
-    Err(diagnostic.with_help(
+    evaluator.top("methods").then(i).refuse(
+        "an automatic time step is available for MPM only",
         "state `dt` as a number or a formula of h, or move this method to a separate suite",
-    ))
+    )
 }

@@ -77,9 +77,7 @@ fn dimension(path: &SuitePath<'_>, text: &NumberText) -> Result<usize, Diagnosti
     let dimension = path.number(text)?;
     match [1.0, 2.0, 3.0].iter().position(|d| *d == dimension) {
         Some(index) => Ok(index + 1),
-        None => Err(path
-            .diagnostic(&format!("a scene of dimension {}", shown(dimension)))
-            .with_label("expected 1, 2 or 3")),
+        None => path.expected("1, 2 or 3", &format!("a scene of dimension {}", shown(dimension))),
     }
 }
 
@@ -119,8 +117,7 @@ fn both_ends(path: &SuitePath<'_>, holds: &[Arc<dyn BoundaryCondition>]) -> Resu
         if hold.is_periodic() && !holds[i ^ 1].is_periodic() {
             let verb = holds[i ^ 1].kind().verb;
             let message = format!("the {name} face is periodic, but the {other} face {verb}");
-            let diagnostic = path.then(name).diagnostic(&message);
-            return Err(diagnostic.with_label(&format!("expected `{other}: periodic` as well")));
+            return path.then(name).expected(&format!("`{other}: periodic` as well"), &message);
         }
     }
     Ok(())
@@ -178,10 +175,7 @@ fn plane(
     let Some(plane) = spec.plane else { return Ok(PlaneState::Strain) };
     if dimension != 2 {
         let message = format!("`plane` needs a 2-D scene, but this scene is {dimension}-D");
-        return Err(path
-            .then("plane")
-            .diagnostic(&message)
-            .with_label("expected in a scene of `dimension: 2`"));
+        return path.then("plane").expected("in a scene of `dimension: 2`", &message);
     }
     if plane == PlaneState::Axisymmetric && spec.bodies.is_some() {
         let message = "`plane: axisymmetric` is not supported for several bodies";
@@ -215,19 +209,18 @@ fn revolves(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     }
     if scene.from[0] < 0.0 {
         let message = format!("the body starts at the negative radius {}", shown(scene.from[0]));
-        return Err(body.diagnostic_at_key(&message).with_help(help));
+        return body.refuse_key(&message, help);
     }
     if scene.outline.is_some() && scene.from[0] == 0.0 {
         let message = "the free rim of the body touches the axis, where a roller is needed";
-        let diagnostic = body.diagnostic_at_key(message);
-        return Err(diagnostic.with_help("move it to larger radii, or use a `box`"));
+        return body.refuse_key(message, "move it to larger radii, or use a `box`");
     }
     let mut faces = scene.faces.iter().filter(|face| face.axis == 0);
     if let Some(face) = faces.clone().find(|face| face.hold.is_periodic()) {
         let message =
             format!("the face `{}` cannot be periodic, because a radius has no period", face.name);
         let at = path.then("boundary").then(face.name);
-        return Err(at.diagnostic_at_key(&message).with_help(help));
+        return at.refuse_key(&message, help);
     }
     let is_axis = |face: &SceneFace| !face.high && scene.from[0] == 0.0;
     if let Some(face) = faces.find(|face| is_axis(face) && face.hold.kind().name != "roller") {

@@ -75,8 +75,7 @@ pub(super) fn refuse_plane(
     }
     let name = material.name();
     let message = format!("the law `{name}` is not supported in plane stress, where sigma_33 = 0");
-    let diagnostic = path.then(name).diagnostic_at_key(&message);
-    Err(diagnostic.with_help("use `linear_elastic`, `neo_hookean` or `hencky`"))
+    path.then(name).refuse_key(&message, "use `linear_elastic`, `neo_hookean` or `hencky`")
 }
 
 /// Compiles the density at `path`: a number, or a formula of the coordinates.
@@ -176,20 +175,19 @@ pub(super) fn stress(
                 let message = format!("`initial_stress` does not state `{name}`");
                 let help = "the yield condition depends on all three normal stresses, also on \
                             those out of the plane";
-                return Err(path.diagnostic_at_key(&message).with_help(help));
+                return path.refuse_key(&message, help);
             }
             continue;
         };
         if i.max(j) >= dimension && !(yields && is_across) {
             let message = format!("`{name}` is not a stress component in {dimension}-D");
             let help = known(dimension, yields);
-            return Err(at.diagnostic_at_key(&message).with_help(&help));
+            return at.refuse_key(&message, &help);
         }
         components.push((i, j, at.formula(text, &COORDINATES[..dimension])?));
     }
     if components.is_empty() {
-        let diagnostic = path.diagnostic("`initial_stress` states no component");
-        return Err(diagnostic.with_help(&known(dimension, yields)));
+        return path.refuse("`initial_stress` states no component", &known(dimension, yields));
     }
     Ok(InitialStress::new(components))
 }
@@ -247,7 +245,7 @@ pub(super) fn refuse_outside_yield_surface(
         material.name(),
         place.join(", ")
     );
-    Err(path.diagnostic_at_key(&message).with_help("f must not be positive"))
+    path.refuse_key(&message, "f must not be positive")
 }
 
 /// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows

@@ -37,8 +37,7 @@ fn refuse_face_name(path: &SuitePath<'_>, name: &str) -> Result<(), Diagnostic> 
     if !FACES.contains(&name) {
         return Ok(());
     }
-    let message = format!("`{name}` is the name of a face");
-    Err(path.diagnostic_at_key(&message).with_help("give the set another name"))
+    path.refuse_key(&format!("`{name}` is the name of a face"), "give the set another name")
 }
 
 fn refuse_outside(

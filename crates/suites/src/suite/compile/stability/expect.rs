@@ -38,8 +38,7 @@ pub(crate) fn rows(
         let (got, needed) = (verdicts.as_slice().len(), rows.len());
         if got != needed {
             let message = format!("{got} verdicts for {needed} rows");
-            let diagnostic = path.then("verdict").diagnostic(&message);
-            return Err(diagnostic.with_label("expected one for all, or one for each"));
+            return path.then("verdict").expected("one for all, or one for each", &message);
         }
     }
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
@@ -84,20 +83,19 @@ fn refuse_idle(
     let help = "with `critical` the result of each row is a limit, without it that of a single run";
     if seeks && spec.verdict.is_some() {
         let message = "`verdict` is not supported with `critical`: no row is a single run";
-        return Err(path.then("verdict").diagnostic_at_key(message).with_help(help));
+        return path.then("verdict").refuse_key(message, help);
     }
     if seeks && !spec.figures.as_slice().is_empty() {
         let message = "`figures` is not supported with `critical`: no row is a single run";
-        return Err(path.then("figures").diagnostic_at_key(message).with_help(help));
+        return path.then("figures").refuse_key(message, help);
     }
     if !seeks && spec.critical.is_some() {
         let message = "a limit is expected, but the suite has no `critical`";
-        return Err(path.then("critical").diagnostic_at_key(message).with_help(help));
+        return path.then("critical").refuse_key(message, help);
     }
     let nothing = spec.verdict.is_none() && spec.figures.as_slice().is_empty();
     if !seeks && nothing {
-        let message = "this expectation is empty";
-        return Err(path.diagnostic(message).with_label("expected `verdict` or `figures`"));
+        return path.expected("`verdict` or `figures`", "this expectation is empty");
     }
     Ok(())
 }
@@ -112,12 +110,11 @@ fn wanted(path: &SuitePath<'_>, spec: &FigureSpec) -> Result<FigureBounds, Diagn
         (None, None) => None,
         _ => {
             let message = "a closed form needs its value, `is`, and a relative tolerance, `within`";
-            return Err(path.diagnostic(message).with_label("expected both"));
+            return path.expected("both", message);
         }
     };
     if is.is_none() && above.is_none() && below.is_none() {
-        let diagnostic = path.diagnostic("this figure has no bound");
-        return Err(diagnostic.with_label("expected `is` and `within`, `above` or `below`"));
+        return path.expected("`is` and `within`, `above` or `below`", "this figure has no bound");
     }
     Ok(FigureBounds { is, above, below })
 }

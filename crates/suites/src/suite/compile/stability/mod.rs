@@ -68,8 +68,8 @@ fn sweep(
 ) -> Result<(String, Vec<f64>), Diagnostic> {
     let path = evaluator.top("sweep");
     let [(name, list)] = spec.sweep.as_slice() else {
-        let diagnostic = path.diagnostic("`sweep` must vary exactly one parameter");
-        return Err(diagnostic.with_label("expected one parameter with its values"));
+        return path
+            .expected("one parameter with its values", "`sweep` must vary exactly one parameter");
     };
     let path = path.then(name.as_str());
     declared(&path, spec, name)?;
@@ -81,8 +81,7 @@ fn sweep(
         .collect::<Result<Vec<f64>, _>>()?;
     if values.len() > MOST {
         let message = format!("{} values of one parameter", values.len());
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
+        return path.expected(&format!("at most {MOST}"), &message);
     }
     Ok((name.clone(), values))
 }
@@ -115,7 +114,7 @@ fn sought(
         return Ok(Some((critical.parameter.clone(), from, to)));
     }
     let message = format!("the range ends at {} and starts at {}", shown(to), shown(from));
-    Err(path.then("to").diagnostic(&message).with_label("expected a larger number"))
+    path.then("to").expected("a larger number", &message)
 }
 
 /// Compiles the methods, which must take time steps of the built-in MPM. Refuses methods that the

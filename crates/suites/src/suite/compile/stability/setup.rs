@@ -68,7 +68,7 @@ pub(crate) fn setup(
             return Ok(dt);
         }
         let message = format!("the time step is {}", shown(dt));
-        Err(at.diagnostic(&message).with_label("expected a positive number"))
+        at.expected("a positive number", &message)
     };
     let at_dt = run.then("dt");
     let rule = stable_share(&at_dt, &spec.run.dt)?;
@@ -85,7 +85,7 @@ pub(crate) fn setup(
     let level = LevelPlan { cells, h, dt, ppc: Some(ppc) };
     if let Some((what, amount)) = level.too_large(&scene) {
         let message = format!("{cells} cells along the first axis make {amount:.1e} {what}");
-        return Err(at.diagnostic(&message).with_label("expected fewer"));
+        return at.expected("fewer", &message);
     }
     levels::held_faces(&at, &scene, cells)?;
     let steps = run.then("steps").count(&spec.run.steps, "the number of steps")?;
@@ -119,13 +119,12 @@ fn turns(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<usize, Diagn
     let Some(text) = &spec.run.every else { return Ok(1) };
     let path = evaluator.top("run.every");
     if spec.run.alternate.is_none() {
-        let diagnostic = path.diagnostic_at_key("`every` needs a second step length");
-        return Err(diagnostic.with_help("add the other length: `alternate`"));
+        return path
+            .refuse_key("`every` needs a second step length", "add the other length: `alternate`");
     }
     let every = path.count(text, "the number of consecutive steps")?;
     if every > MOST {
-        let diagnostic = path.diagnostic(&format!("{every} consecutive steps"));
-        return Err(diagnostic.with_label(&format!("expected at most {MOST}")));
+        return path.expected(&format!("at most {MOST}"), &format!("{every} consecutive steps"));
     }
     Ok(every as usize)
 }
@@ -187,11 +186,10 @@ fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     if !(loaded || driven || moves) {
         return Ok(());
     }
-    let message = "a frozen run must start at rest, without loads and without initial stress";
-    let diagnostic = evaluator.top("run.frozen").diagnostic_at_key(message);
-    Err(diagnostic.with_help(
+    evaluator.top("run.frozen").refuse_key(
+        "a frozen run must start at rest, without loads and without initial stress",
         "remove loads, velocities and initial values from the scene; `perturb` starts the run",
-    ))
+    )
 }
 
 /// Default maximum energy of a stable run, relative to the initial energy. The maximum is large,

@@ -70,15 +70,14 @@ fn refuse_methods_of_other_bodies(
             "use `mpm`, or the material `rigid`",
         )
     };
-    Err(evaluator.top("methods").then(i).diagnostic(&message).with_help(help))
+    evaluator.top("methods").then(i).refuse(&message, help)
 }
 
 /// Refuses quantities and keys that need a motion, because the body is at rest.
 fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     if spec.judge.of.is_of_motion() {
         let message = "the judged quantity needs a motion, but the body is `rigid`";
-        let diagnostic = evaluator.top("scene.material").diagnostic(message);
-        return Err(diagnostic.with_help("add `judge: {of: temperature}`"));
+        return evaluator.top("scene.material").refuse(message, "add `judge: {of: temperature}`");
     }
     let of_exact = |has: fn(&ExactSpec) -> bool| spec.exact.as_ref().is_some_and(has);
     let made = spec.manufactured.as_ref();
@@ -128,7 +127,7 @@ pub(crate) fn problem(
     if manufactured && heat.source.is_some() {
         let message = "the manufactured temperature defines the source: remove `source`";
         let help = "to have a stated source checked, state the temperature under `exact`";
-        return Err(path.diagnostic_at_key(message).with_help(help));
+        return path.refuse_key(message, help);
     }
     Ok(Some(Conduction {
         from: scene.from.clone(),

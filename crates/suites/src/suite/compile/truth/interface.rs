@@ -48,7 +48,7 @@ pub(crate) fn refuse_violated_conditions(
         if apart && scene.contact.is_none() {
             let message = "the exact solution of bodies with a gap and one velocity field depends \
                            on the cell size";
-            return Err(at.then(k).then("body").diagnostic_at_key(message).with_help(CONTACT));
+            return at.then(k).then("body").refuse_key(message, CONTACT);
         }
         problems[i].faces[2 * axis + 1].condition = Arc::new(Interface);
         problems[k].faces[2 * axis].condition = Arc::new(Interface);

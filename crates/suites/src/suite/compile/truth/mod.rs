@@ -193,7 +193,7 @@ fn equation(
         let message = "a formula is checked against `small_strain`, `neo_hookean`, `hencky` or `corotated` only";
         (message.to_owned(), "give other equations a `reference`")
     };
-    Err(path.diagnostic(&message).with_help(help))
+    path.refuse(&message, help)
 }
 
 /// Compiles the problem with the body force that the stated motion requires.
@@ -217,13 +217,13 @@ fn manufactured(
         if !stated.is_empty() {
             let message = format!("the manufactured motion defines the initial {what}");
             let at = evaluator.top("scene").then(key);
-            return Err(at.diagnostic_at_key(&message).with_help("remove it"));
+            return at.refuse_key(&message, "remove it");
         }
     }
     if scene.lists(EffectName::BodyForce) {
         let message = "the manufactured motion defines the body force: remove `body_force`";
         let help = "to have a stated force checked, state the motion under `exact`";
-        return Err(path.diagnostic_at_key(message).with_help(help));
+        return path.refuse_key(message, help);
     }
     let Some(texts) = &made.displacement else {
         return Err(path.diagnostic_at_key("a body that moves needs a `displacement`"));
@@ -344,8 +344,7 @@ fn refuse_equilibrium_with(
     }
     if let Some(until) = spec.run.until.as_ref().filter(|until| until.as_slice().len() > 1) {
         let at = evaluator.top("run.until").alternative(until, 1);
-        let message = "a suite with `equilibrium` has a single end time";
-        return Err(at.diagnostic(message).with_label("expected one end"));
+        return at.expected("one end", "a suite with `equilibrium` has a single end time");
     }
     if spec.judge.norm.is_over_instants() {
         let message = "a `max_` norm needs a motion: with `equilibrium` the error exists only at \
@@ -396,12 +395,11 @@ fn refuse_need_of_truth(
     };
     let full = |spec: &ExpectSpec| spec.full.as_deref().is_some_and(asked);
     if spec.expect.iter().any(|spec| asked(spec) || full(spec)) {
-        let message = "a convergence study needs `exact`, `manufactured`, `equilibrium` or \
-                       `reference`";
-        let diagnostic = evaluator.top("suite").diagnostic_at_key(message);
-        return Err(diagnostic.with_help(
+        return evaluator.top("suite").refuse_key(
+            "a convergence study needs `exact`, `manufactured`, `equilibrium` or \
+                       `reference`",
             "without one of them, expectations can only bound a `drift` or an `energy_rate`",
-        ));
+        );
     }
     if spec.observe.is_some() {
         let message = "`observe` needs an exact solution or a reference, and the suite has neither";

@@ -54,7 +54,7 @@ fn judged_box(
     let (from, to) = outline::corners(&path, stated, scene.dimension())?;
     refuse_outside(&path.then("from"), scene, &from)?;
     refuse_outside(&path.then("to"), scene, &to)?;
-    let refuse = |message: &str, help: &str| Err(path.diagnostic_at_key(message).with_help(help));
+    let refuse = |message: &str, help: &str| path.refuse_key(message, help);
     if spec.judge.of.is_sum() {
         let of = spec.judge.of.words();
         let message = format!("`within` is not supported for the {of}, a sum over the whole body");
@@ -87,8 +87,7 @@ fn observed(
     refuse_outside(&path, scene, &place)?;
     let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
     if let Some(kind) = outside.map(|outline| outline.kind()) {
-        let diagnostic = path.diagnostic("this point is outside the body");
-        return Err(diagnostic.with_label(&format!("expected a point in the {kind}")));
+        return path.expected(&format!("a point in the {kind}"), "this point is outside the body");
     }
     Ok(place)
 }

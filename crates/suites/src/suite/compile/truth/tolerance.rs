@@ -23,7 +23,7 @@ pub(crate) fn tolerance(
         return Ok(tolerance);
     }
     let message = format!("a tolerance of {tolerance} would let a wrong solution pass");
-    Err(path.diagnostic(&message).with_label("expected at most 1e-2"))
+    path.expected("at most 1e-2", &message)
 }
 
 /// Compiles the tolerance of the solution at `path`, and that of a linearised one.

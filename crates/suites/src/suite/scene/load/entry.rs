@@ -140,7 +140,7 @@ impl LoadEntry<'_> {
             // Tractions and pressures are forces per area, and a set has no area.
             let message = format!("`{name}` is a set, but a {} acts on a face", self.effect.name());
             let help = format!("give the total force: `force: {{on: {name}, value: [...]}}`");
-            return Err(path.diagnostic(&message).with_help(&help));
+            return path.refuse(&message, &help);
         }
         let number = face(&path, name, self.dimension(), false)?;
         let hold = &scene.faces[number].hold;

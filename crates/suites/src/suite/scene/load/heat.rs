@@ -239,6 +239,5 @@ fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result
         return Ok(());
     }
     let message = format!("the {name} face {verb}, but heat can enter only at a face of the grid");
-    let diagnostic = path.diagnostic_at_key(&message);
-    Err(diagnostic.with_help("hold it (`fixed` or `roller`), or leave it insulated"))
+    path.refuse_key(&message, "hold it (`fixed` or `roller`), or leave it insulated")
 }

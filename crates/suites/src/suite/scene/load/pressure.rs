@@ -43,8 +43,7 @@ impl LoadKeys for PressureSpec {
         let site = if entry.scene.faces.is_empty() {
             if let Some(Placement::Particles) = self.at {
                 let message = "a pressure on a rim acts at the surface";
-                let diagnostic = entry.path.then("at").diagnostic(message);
-                return Err(diagnostic.with_help("remove `at`"));
+                return entry.path.then("at").refuse(message, "remove `at`");
             }
             PressedSite::Rim(entry.free_rim(&self.on)?)
         } else {

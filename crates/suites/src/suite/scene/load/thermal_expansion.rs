@@ -56,8 +56,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let law = scene.material.properties();
     if !law.is_elastic() {
         let message = format!("`thermal_expansion` does not support the law `{name}`");
-        let diagnostic = path.diagnostic_at_key(&message);
-        return Err(diagnostic.with_help("materials: `linear_elastic`, `neo_hookean`, `hencky`"));
+        return path.refuse_key(&message, "materials: `linear_elastic`, `neo_hookean`, `hencky`");
     }
     let elasticity = scene.material.elasticity();
     if law.depends_on_deformation_alone().is_err() {
@@ -69,8 +68,7 @@ fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
             "in {d}-D `thermal_expansion` of a `{name}` body needs a Poisson's ratio of 0, not \
              {poisson}: the body cannot expand along the other axes"
         );
-        let diagnostic = path.diagnostic_at_key(&message);
-        return Err(diagnostic.with_help("set `poisson: 0`, choose `linear_elastic`, or use 3-D"));
+        return path.refuse_key(&message, "set `poisson: 0`, choose `linear_elastic`, or use 3-D");
     }
     Ok(None)
 }

@@ -45,7 +45,7 @@ pub(crate) fn shape(
             "in {dimension}-D a body is a {}",
             ["`box`", flat, "`box` or `ball`"][dimension - 1]
         );
-        Err(at.diagnostic_at_key(&message).with_help(&help))
+        at.refuse_key(&message, &help)
     };
     let outline = match spec {
         BodySpec::Box(spec) => {
@@ -136,8 +136,7 @@ pub(crate) fn corners(
         if !(from[axis] < to[axis]) {
             let (from, to) = (shown(from[axis]), shown(to[axis]));
             let message = format!("the box ends at {to} and starts at {from}");
-            let diagnostic = path.then("to").then(axis).diagnostic(&message);
-            return Err(diagnostic.with_label("expected a number above that of `from`"));
+            return path.then("to").then(axis).expected("a number above that of `from`", &message);
         }
         // The length is limited because second derivatives contain its square and volumes contain
         // its cube; both must be finite.
@@ -163,8 +162,7 @@ fn annulus(
         return Ok(Arc::new(Round { centre, inner, outer }));
     }
     let message = format!("the outer radius is {}, the inner {}", shown(outer), shown(inner));
-    let diagnostic = path.then("outer").diagnostic(&message);
-    Err(diagnostic.with_label("expected a number above `inner`"))
+    path.then("outer").expected("a number above `inner`", &message)
 }
 
 fn filled(

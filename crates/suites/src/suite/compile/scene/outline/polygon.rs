@@ -19,8 +19,7 @@ pub(super) fn polygon(
 ) -> Result<Arc<dyn Outline>, Diagnostic> {
     if texts.len() < 3 || texts.len() > MOST {
         let message = format!("a polygon of {} corners", texts.len());
-        let diagnostic = path.diagnostic(&message);
-        return Err(diagnostic.with_label(&format!("expected 3 to {MOST}")));
+        return path.expected(&format!("3 to {MOST}"), &message);
     }
     let corners = corners(path, texts)?;
     let polygon = Polygon::new("polygon", &corners).map_err(|(first, second)| {
@@ -64,7 +63,7 @@ pub(super) fn quadrilateral(
     let path = path.then("corners");
     if spec.corners.len() != 4 {
         let message = format!("a quadrilateral of {} corners", spec.corners.len());
-        return Err(path.diagnostic(&message).with_label("expected four"));
+        return path.expected("four", &message);
     }
     let corners = corners(&path, &spec.corners)?;
     let to_the_right = |i: usize| {
