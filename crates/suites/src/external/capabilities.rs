@@ -63,14 +63,12 @@ macro_rules! flags {
         ];
 
         impl Capabilities {
-            /// Returns the values of [`FLAGS`].
             fn flags(&self) -> [bool; FLAGS.len()] {
                 [$(self.$name),+]
             }
         }
 
         impl ProblemNeeds {
-            /// Returns the values of [`FLAGS`].
             fn flags(&self) -> [bool; FLAGS.len()] {
                 [$(self.$name),+]
             }
@@ -164,7 +162,6 @@ impl Capabilities {
         all
     }
 
-    /// Returns the names of the capabilities that are lists of names, and the lists.
     fn lists(&self) -> [(&'static str, &Vec<String>); 5] {
         [
             ("laws", &self.laws),
@@ -223,7 +220,6 @@ impl ProblemNeeds {
 /// `linear_elastic`.
 pub const SMALL_STRAIN: &str = "small_strain";
 
-/// Names of the laws in suites.
 const LAWS: &[&str] = &[
     "linear_elastic",
     "jaumann",
@@ -242,7 +238,6 @@ const LAWS: &[&str] = &[
     SMALL_STRAIN,
 ];
 
-/// Names of the loads and effects in suites.
 const LOADS: &[&str] = &[
     "gravity",
     "body_force",

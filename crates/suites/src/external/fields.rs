@@ -66,7 +66,6 @@ pub enum FieldName {
     Face(usize),
 }
 
-/// Names of the body fields in requests.
 #[cfg(feature = "external-programs")]
 pub(crate) const BODY_FIELDS: [(&str, FieldName); 7] = [
     ("body_force", FieldName::BodyForce),

@@ -70,8 +70,7 @@ fn is_tensor(column: &str) -> bool {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Formats a table with one particle per line. The header contains the column names, such as
-/// `position_x` or `stress_xy`.
+/// Formats a table with one particle per line, and column names such as `stress_xy`.
 fn csv_table(problem: &LevelProblem) -> String {
     let (d, columns) = (problem.dimension, problem.particles.columns());
     let mut head = Vec::new();
@@ -143,7 +142,6 @@ fn array(shape: &str, numbers: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Creates points with data for ParaView: one vertex at the position of each particle.
 fn vtu_file(problem: &LevelProblem) -> Vec<u8> {
     let rank = |name: &str| match name {
         name if is_scalar(name) => TensorRank::Scalar,

@@ -94,7 +94,6 @@ impl LevelProblem {
     }
 }
 
-/// Fields of a problem whose initial velocity is multiplied by a factor.
 struct ScaledVelocity {
     source: Arc<dyn ProblemFields>,
     by: f64,

@@ -1,13 +1,4 @@
 //! External solvers: the trait that creates them, their problem, and the protocol for programs.
-//!
-//! ```text
-//! problem        initial state of one level: particles, grid, faces, materials, loads, steps
-//! fields         quantities of a problem at any point and time
-//! capabilities   capabilities of solvers, requirements of problems, and their names
-//! gradient       derivatives of functionals, and problems with a changed parameter
-//! format         writes a problem to a file
-//! program/       runs solvers in programs that implement the protocol (docs/protocol.md)
-//! ```
 
 mod capabilities;
 mod fields;

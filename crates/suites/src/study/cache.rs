@@ -15,8 +15,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Last line of a complete file. Without this line, a truncated file could appear valid, because
-/// the last keys are optional.
+/// Last line of a complete file. Without this line, a truncated file could appear valid.
 const END: &str = "# end\n";
 
 /// A folder that stores the results of finished levels.
@@ -97,8 +96,7 @@ fn text(key: &str, level: &impl Serialize) -> io::Result<String> {
     Ok(format!("# {key}\n{}{END}", written(level).map_err(io::Error::other)?))
 }
 
-/// Writes a file such that it is complete or absent, even if the machine stops: the bytes are
-/// written to `unfinished`, which is then renamed to `path`.
+/// Writes a file that is complete or absent, even if the machine stops, by renaming `unfinished`.
 fn write_whole(path: &Path, unfinished: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(unfinished)?;
     file.write_all(bytes)?;

@@ -8,8 +8,7 @@ use crate::suite::NormName;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Suite;
 
-/// Describes the largest displacement and displacement gradient of the exact solution, at regular
-/// points of the body and the run.
+/// Describes the largest displacement and displacement gradient of the exact solution.
 pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
     const GOLDEN: usize = 8;
@@ -32,15 +31,13 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Returns the points of the body on a regular lattice over its bounding box, with `intervals`
-/// intervals along each axis.
+/// Returns the points of the body on a regular lattice with `intervals` along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let points = lattice(&problem.from, &problem.to, intervals);
     points.filter(|place| problem.holds(place)).collect()
 }
 
-/// Returns the points of a regular lattice between two corners (m), with `intervals` intervals
-/// along each axis.
+/// Returns the points of a regular lattice between two corners (m).
 pub(crate) fn lattice(
     from: &[f64],
     to: &[f64],

@@ -1,5 +1,4 @@
-//! The internal-force study: computes and judges the force on a node for every position of a
-//! particle.
+//! The internal-force study: the force on a node while a particle moves past the node.
 
 use crate::study::describe::{Rows, push};
 use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, Study};
@@ -65,8 +64,7 @@ fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     }
 }
 
-/// Returns a flag that is true if the force meets the expectation, the verdict, and the measured
-/// value that led to the verdict.
+/// Returns whether the force meets the expectation, the verdict, and the measured value.
 fn judged_force(rows: &[ForceRow], expected: ForceExpectation) -> (bool, &'static str, String) {
     let largest = largest(rows.iter().map(|row| row.predicted));
     match expected {

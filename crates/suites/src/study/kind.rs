@@ -16,17 +16,14 @@ pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
 /// A plan whose cases can be described and run.
 pub(crate) trait Study {
-    /// Returns the rows of name and value that describe the study.
     fn statement(&self) -> Rows;
 
-    /// Returns the capabilities that the study requires of an external solver; `None` if no
-    /// external solver can run it.
+    /// Returns the capabilities that an external solver needs; `None` if none can run the study.
     fn needs(&self) -> Option<ProblemNeeds> {
         None
     }
 
-    /// Returns the profile of a step of case number `_case` on the coarsest level, optionally
-    /// without one effect. `None` for a study without levels, or if the solver reports no profile.
+    /// Returns the profile of a step on the coarsest level; `None` if there is none.
     fn profile(&self, _case: usize, _without: Option<Dispensable>) -> Option<Profile> {
         None
     }
@@ -53,17 +50,13 @@ pub(crate) trait CaseRunner: Send + Sync {
     /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;
 
-    /// Returns the warnings that are found without a run. Their texts do not contain the name of
-    /// the suite.
+    /// Returns the warnings that are found without a run. Their texts do not name the suite.
     fn warnings(&self) -> Vec<StepWarning> {
         Vec::new()
     }
 
     /// Passes the most informative run of a case to the callback: the first run that failed or
     /// whose energy grew, otherwise the last run.
-    ///
-    /// # Errors
-    /// The errors of the callback, or the reason why there is no such run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to show".into())
     }
@@ -71,7 +64,6 @@ pub(crate) trait CaseRunner: Send + Sync {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome;
 }
 
-/// Inputs of the runs of a suite in addition to its plan.
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     pub(crate) suite: &'a str,
@@ -82,11 +74,9 @@ pub(crate) struct RunContext<'a> {
     pub(crate) cache: Option<&'a ResultCache>,
     /// Number of times that each level of a convergence study runs.
     pub(crate) repeat: usize,
-    /// Solver for the cases whose method is external.
     pub(crate) solver: Option<&'a dyn SolverFactory>,
 }
 
-/// A plan, and the other inputs of its runs.
 pub(crate) struct PlanRunner<'a, P> {
     pub(crate) plan: &'a P,
     pub(crate) context: RunContext<'a>,

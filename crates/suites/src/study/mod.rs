@@ -1,22 +1,4 @@
 //! Studies run and judge the cases of a suite.
-//!
-//! ```text
-//! setup            creates subjects from the names in the model
-//! convergence      errors over a refinement plan, and their verdict
-//! internal_force   the internal force on a node while a particle crosses it
-//! gradient         derivatives that a differentiable solver reports
-//! spectrum         measured and predicted phase speed and damping of waves
-//! stability        growth in runs, and limits by bisection
-//! cost             seconds of every level
-//! cache            results of finished levels on disk
-//! describe         the rows that describe a problem in reports
-//! diagnosis        causes of a wrong order, from runs with single changes
-//! exact_motion     amplitude, extremes and linearisation of an exact motion
-//! handover         converts a level to a problem for any solver
-//! preflight        warnings about a suite before anything runs
-//! particle_motion  draws the particles of a run as an animated picture
-//! time_series      writes particles and grid of a case over time as files for ParaView
-//! ```
 
 pub(crate) mod cache;
 pub(crate) mod convergence;

@@ -1,5 +1,4 @@
-//! Animated picture of the particles of a run, as an SVG document. Particles light up when they
-//! change their cell.
+//! Animated picture (SVG) of the particles of a run, which light up when they change their cell.
 
 use crate::subject::BodyFields;
 use std::fmt::Write;

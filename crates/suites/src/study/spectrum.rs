@@ -30,8 +30,7 @@ struct WaveRun<'a> {
 }
 
 impl WaveRun<'_> {
-    /// Returns the number of cells per wavelength for which the phase error is 1 %, at the Courant
-    /// number of each wave.
+    /// Returns the number of cells per wavelength for a phase error of 1 %, for each wave.
     fn cells_for_one_percent(&self) -> Vec<Option<f64>> {
         let mut known: Vec<(f64, Option<f64>)> = Vec::new();
         let of = |wave: &Wave| {

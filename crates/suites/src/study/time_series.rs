@@ -57,12 +57,8 @@ impl From<&str> for SeriesError {
     }
 }
 
-/// Runs `run` until its end or failure. Writes the state at the start, at up to [`INSTANTS`]
-/// instants and at a failure, and an animated picture of the particles. The list of the files,
-/// `NAME.RUN.pvd`, is written last.
-///
-/// # Errors
-/// [`SeriesError::Write`] with the first error of `write`.
+/// Runs `run` to its end and writes up to [`INSTANTS`] states, an animated picture, and finally the
+/// list of the files, `NAME.RUN.pvd`.
 pub(super) fn time_series(
     name: &str,
     run: ShownRun<'_>,
@@ -109,8 +105,7 @@ pub(super) fn time_series(
     write(format!("{name}.pvd"), list.into_bytes())
 }
 
-/// Creates the files of one instant: the particles of each body, then the grid. The names contain
-/// `#` in place of the number of the instant. The positions are added to `motion`.
+/// Creates the files of one instant. Their names contain `#` in place of its number.
 fn files(
     subject: &dyn Subject,
     truth: Option<&dyn Truth>,
@@ -150,8 +145,7 @@ fn files(
     files
 }
 
-/// Returns the particle fields that solvers do not store, for all bodies: the displacement and the
-/// errors.
+/// Returns the fields that solvers do not store: the displacement and the errors.
 fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<StateField> {
     let components = samples.dimension;
     let u = StateField { name: "u".to_owned(), components, numbers: samples.displacement.clone() };
@@ -172,8 +166,7 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(invariants).chain(fields.filter_map(error)).collect()
 }
 
-/// Returns the fields of a solver that reports only samples. The names are those of the built-in
-/// solver.
+/// Returns the fields of a solver that reports only samples.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [
         ("X", &samples.label),

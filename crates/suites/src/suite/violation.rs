@@ -120,8 +120,7 @@ fn then(path: &[Step], step: impl Into<Step>) -> Vec<Step> {
     [path, &[step.into()]].concat()
 }
 
-/// Returns the path of the entry whose expectation the case has: its pattern matches the name of
-/// the case, and its reason is that of the case.
+/// Returns the path of the entry whose `case` and `because` are those of the case.
 fn entry(source: &Source, case: &CaseOutcome) -> Option<Vec<Step>> {
     let list = [Step::from("expect")];
     let entries = (0..).map(|k| then(&list, k)).take_while(|path| source.value_at(path).is_some());

@@ -1,5 +1,4 @@
-//! Messages of a solver: answers, with capabilities and columns of numbers, and requests for
-//! values.
+//! Messages of a solver: answers, and requests for values.
 
 use super::error::{ProgramError, plain, printable};
 use super::frame::MessageFrame;
@@ -135,7 +134,6 @@ pub(super) struct Hello {
     pub(super) capabilities: StatedCapabilities,
 }
 
-/// Capabilities that a solver states in `hello`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct StatedCapabilities {
     pub(super) known: Capabilities,
@@ -254,10 +252,7 @@ impl Answer {
         }
     }
 
-    /// Converts the answer to a request for values.
-    ///
-    /// # Errors
-    /// The answer itself, if it is not a request for values.
+    /// Converts the answer to a request for values. Otherwise returns the answer as an error.
     pub(super) fn request(self) -> Result<ValueRequest, Box<Self>> {
         match self {
             Self::BodyForce { t, reference_position, displacement, body } => {

@@ -45,8 +45,7 @@ impl Default for ProgramLimits {
     }
 }
 
-/// A process with its pipes. Dropping the connection kills the process and all processes of its
-/// group.
+/// A process with its pipes. Dropping the connection kills the process and its group.
 pub(super) struct Connection {
     child: Child,
     requests: Option<Sender<Vec<u8>>>,
@@ -113,10 +112,7 @@ impl Connection {
         }
     }
 
-    /// Waits for the next answer and its block of bytes.
-    ///
-    /// # Errors
-    /// Returns the reason of the failure, and kills the process.
+    /// Waits for the next answer and its block of bytes. A failure kills the process.
     pub(super) fn answer(&mut self) -> Result<(Answer, Vec<u8>), ProgramError> {
         let found = match self.heard() {
             Ok(Ok(frame)) => Answer::read(&frame).map(|answer| (answer, frame.bytes)),
@@ -209,8 +205,7 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
     }
 }
 
-/// Creates the command with a limit on its address space (bytes). Child processes inherit the
-/// limit.
+/// Creates the command with a limit on its address space (bytes), which child processes inherit.
 fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);

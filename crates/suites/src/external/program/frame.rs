@@ -76,8 +76,7 @@ struct Announced {
     bytes: usize,
 }
 
-/// Returns the number of bytes after the line, as announced by the line; zero for an invalid
-/// message, which the parser reports later.
+/// Returns the announced number of bytes after the line; zero for an invalid message.
 fn announced(line: &[u8]) -> usize {
     // A line without the key "bytes" need not be parsed here.
     if !line.windows(7).any(|word| word == b"\"bytes\"") {
@@ -86,8 +85,7 @@ fn announced(line: &[u8]) -> usize {
     serde_json::from_slice::<Announced>(line).map_or(0, |announced| announced.bytes)
 }
 
-/// Reads messages until the output ends or a message violates the protocol. `longest` is the
-/// maximum length of a message (bytes).
+/// Reads messages of at most `longest` bytes until the output ends or a message is invalid.
 pub(super) fn read_all(
     output: ChildStdout,
     longest: &AtomicUsize,

@@ -1,5 +1,4 @@
-//! Answers the requests of a solver for values at points and times: body forces, the initial state,
-//! loads and face conditions.
+//! Answers the requests of a solver for values at points and times.
 
 use super::answer::{ColumnText, ValueRequest};
 use super::error::{ProgramError, printable};
@@ -18,8 +17,7 @@ pub(super) struct Inquiry {
     fields: Option<Arc<dyn ProblemFields>>,
     faces: Vec<ProblemFace>,
     loads: Vec<ProblemLoad>,
-    /// Default points of requests: reference positions (m) of the particles, or of the solver's own
-    /// points.
+    /// Default points of requests (m): those of the particles, or the solver's own points.
     labels: Vec<f64>,
     bodies: Vec<usize>,
     /// Body force at `labels`, created by the first request for a body force.
@@ -32,8 +30,7 @@ pub(super) struct Inquiry {
 }
 
 impl Inquiry {
-    /// Prepares to answer a solver of `problem` that uses this `version` of the protocol. The
-    /// default points of a request are the particles.
+    /// Prepares to answer a solver of `problem`. The default points of a request are the particles.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,
@@ -51,10 +48,8 @@ impl Inquiry {
         }
     }
 
-    /// Sets the default points of requests to the points of the solver (m, D numbers each).
-    ///
-    /// # Errors
-    /// If a point is outside the bodies. The points of solvers of version 1 are not checked.
+    /// Sets the default points of requests (m, D numbers each). Refuses points outside the bodies,
+    /// except for solvers of version 1.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
         let invalid = |reason| ProgramError::Protocol(format!("sent invalid points: {reason}"));
         self.bodies = self.bodies_of(labels).map_err(invalid)?;
@@ -62,8 +57,7 @@ impl Inquiry {
         Ok(())
     }
 
-    /// Returns a field of the initial state at the default points; `None` if the field is
-    /// undefined.
+    /// Returns an initial field at the default points; `None` if the field is undefined.
     pub(super) fn start(&self, of: FieldName) -> Option<Vec<f64>> {
         let at = FieldPlaces::new(&self.labels, &self.bodies);
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
@@ -235,7 +229,6 @@ impl Inquiry {
         Err(FieldError::Undefined(format!("a value at t = {t} s is not finite")))
     }
 
-    /// Returns the values of any field except the body force.
     fn values(
         &self,
         of: FieldName,
@@ -256,7 +249,6 @@ struct RequestedPlaces {
     labels: Vec<f64>,
     bodies: Vec<usize>,
     displacement: Option<Vec<f64>>,
-    /// Whether the points are the default ones.
     are_own: bool,
 }
 

@@ -1,16 +1,4 @@
 //! Runs a command that implements the protocol of docs/protocol.md.
-//!
-//! ```text
-//! solver       requests the identity of a solver, and starts the solver for each level
-//! subject      runs a level in a solver process
-//! gradient     requests a gradient from a solver process
-//! inquiry      answers the requests of a solver for values
-//! connection   the process: sends requests, receives answers, limits time and memory
-//! answer       answers of a solver, and columns of numbers
-//! frame        one message: a line of JSON, and a block of bytes
-//! error        failures of the process and of the protocol
-//! schema       all messages as a JSON Schema
-//! ```
 
 mod answer;
 mod connection;

@@ -1,5 +1,4 @@
-//! The JSON Schema (draft 2020-12) of the protocol, generated from the types that read and write
-//! messages.
+//! The JSON Schema (draft 2020-12) of the protocol, generated from the types of its messages.
 
 use super::answer::{Answer, ColumnText};
 use super::solver::{PROTOCOL, VERSIONS};

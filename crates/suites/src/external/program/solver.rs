@@ -108,11 +108,8 @@ impl SolverProgram {
         }
     }
 
-    /// Starts a new process and requests the value of a functional after all steps of `problem`,
-    /// with its gradient.
-    ///
-    /// # Errors
-    /// [`ProgramError::Refused`] if the solver answers `cannot`; another error if it fails.
+    /// Requests the value of a functional after all steps of `problem`, and its gradient, from a
+    /// new process.
     fn differentiate(
         &self,
         problem: &LevelProblem,

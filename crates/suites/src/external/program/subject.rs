@@ -34,8 +34,7 @@ pub(super) fn conclude(
     }
 }
 
-/// A level that runs in a solver process. One message requests all steps up to the next instant of
-/// comparison with the exact solution.
+/// A level that runs in a solver process, with one message for all steps up to the next instant.
 pub(super) struct ProgramSubject {
     connection: Connection,
     dimension: usize,
@@ -47,9 +46,7 @@ pub(super) struct ProgramSubject {
     called: u64,
     taken: u64,
     inquiry: Inquiry,
-    /// Masses of the points (kg): the particle masses, or the weights of sample points times the
-    /// reference density. `None` for sample points in bodies with several materials or a varying
-    /// density.
+    /// Masses of the points (kg); `None` for sample points of several or varying densities.
     mass: Option<Vec<f64>>,
     samples: Samples,
     counters: RunCounters,
@@ -58,9 +55,6 @@ pub(super) struct ProgramSubject {
 impl ProgramSubject {
     /// Creates the level in the initial state of `problem`. Without `points`, the sample points are
     /// the particles.
-    ///
-    /// # Errors
-    /// If the points are invalid.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,

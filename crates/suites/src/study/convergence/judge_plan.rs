@@ -91,7 +91,6 @@ const MIDPOINT: f64 = 2.0;
 /// non-zero.
 const AT_REST: f64 = 1e-9;
 
-/// Returns the formal order of the displacement error.
 pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
     match plan.refine.axis {
         Axis::Space => case.method.formal_order(),

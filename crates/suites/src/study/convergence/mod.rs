@@ -1,5 +1,4 @@
-//! Runs every level of every case of a convergence study, measures the errors, and judges the
-//! cases.
+//! Runs, measures and judges the cases of a convergence study.
 
 pub(crate) mod judge_plan;
 pub(crate) mod reference;
@@ -132,7 +131,6 @@ impl<'a> ConvergenceRunner<'a> {
         Self { plan, left, context, references, steps: StableSteps::default() }
     }
 
-    /// Returns the outcome of a case, whether or not it can run.
     fn outcome(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, case) = (&self.plan, &self.plan.cases[index]);
         let expectation = match (self.context.extent, &case.expectation_in_full) {
@@ -270,7 +268,6 @@ impl CaseRuns<'_, '_> {
         Ok(LevelRun { spread, ..self.level_run(level, clock.dt(), run) })
     }
 
-    /// Returns the settings of the comparison of a run with the exact solution.
     fn comparison(&self) -> Comparison<'_> {
         let plan = &self.runner.plan;
         let at_rest = plan.exact.as_ref().filter(|truth| truth.at_rest).map(Problem::wave_speed);

@@ -37,7 +37,6 @@ pub(crate) struct Reference {
 }
 
 impl Reference {
-    /// Runs the reference of `plan` to `until` (s).
     pub(crate) fn compute(plan: &ConvergencePlan, until: f64) -> Result<Self, SubjectError> {
         let fine = plan.reference.as_ref().ok_or("the suite declares no reference")?;
         let method = reference_method(fine);
@@ -70,8 +69,7 @@ impl Reference {
     }
 }
 
-/// Returns the index of the instant nearest to `t` (s); there are `count` instants from 0 to
-/// `until`.
+/// Returns the index of the instant nearest to `t` (s) among `count` instants from 0 to `until`.
 pub(crate) fn nearest_instant(t: f64, until: f64, count: usize) -> usize {
     let last = (count - 1) as f64;
     libm::round(t / until * last).clamp(0.0, last) as usize
@@ -91,8 +89,7 @@ impl Truth for Reference {
     }
 }
 
-/// Number of interpolation points per axis. The interpolation has order 6, higher than that of any
-/// method.
+/// Number of interpolation points per axis: order 6, higher than that of any method.
 const NEAR: usize = 6;
 
 /// Displacement and velocity of a particle lattice at the start and at every instant.
@@ -124,8 +121,7 @@ impl FineGrid {
         Ok(Self { until: case.until, panel, lattice, states })
     }
 
-    /// Converts a reference position `label` (m) to coordinates of the lattice, which are in the
-    /// unit square for a mapped body.
+    /// Converts a reference position (m) to coordinates of the lattice.
     fn coordinates<'l>(&self, label: &'l [f64]) -> Cow<'l, [f64]> {
         match (&self.panel, label) {
             (Some(panel), [x, y]) => Cow::Owned(panel.inverse(&Vector::from([*x, *y])).to_vec()),
@@ -172,8 +168,7 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Creates the lattice of the reference positions `labels`, which have `d` coordinates each and
-    /// may be in any order. `None` if the positions do not form a lattice.
+    /// Creates the lattice of positions with `d` coordinates each; `None` if they form no lattice.
     fn of(labels: &[f64], d: usize) -> Option<Self> {
         let axis = |axis: usize| {
             let mut all: Vec<f64> = labels.iter().skip(axis).step_by(d).copied().collect();
@@ -245,8 +240,7 @@ impl FineSteps {
         Ok(Self { until: case.until, dimension: now.dimension, order, states })
     }
 
-    /// Copies the values of `field` for the particle with reference position `wanted`, at the
-    /// instant nearest to `t`; NaN if there is no such particle.
+    /// Copies the values of the particle with reference position `wanted`; NaN if there is none.
     fn find(&self, field: fn(&Samples) -> &[f64], wanted: &[f64], t: f64, into: &mut [f64]) {
         let samples = &self.states[nearest_instant(t, self.until, self.states.len())];
         match self.order.binary_search_by(|p| compare(label(samples, *p), wanted)) {
@@ -294,8 +288,7 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
     unequal.unwrap_or_else(|| a.len().cmp(&b.len()))
 }
 
-/// Changes the method to double precision, and to the start of second order (velocities at t =
-/// -dt/2).
+/// Changes the method to double precision and to velocities at t = -dt/2 (second order).
 fn second_order(mut method: Method) -> Method {
     match &mut method {
         Method::Mpm { start, precision, .. } => {
@@ -336,8 +329,7 @@ mod tests {
     use approx::assert_relative_eq;
     use rstest::rstest;
 
-    /// Creates a lattice with seven, three and two points along the first `d` axes, in random
-    /// order.
+    /// Returns a lattice of 7, 3 and 2 points along the first `d` axes, in random order.
     fn labels(d: usize) -> Vec<f64> {
         let counts = &[7, 3, 2][..d];
         let points: usize = counts.iter().product();
@@ -352,8 +344,7 @@ mod tests {
         (0..points).flat_map(point).collect()
     }
 
-    /// Returns a polynomial of degree 5, 2 and 1 along the axes. These are the highest degrees that
-    /// the points determine.
+    /// Returns a polynomial of the highest degrees that the points determine: 5, 2 and 1.
     fn field(label: &[f64]) -> Vec<f64> {
         let degrees = [5.0, 2.0, 1.0];
         let product: f64 = label.iter().zip(degrees).map(|(x, n)| 1.0 - libm::pow(*x, n)).product();

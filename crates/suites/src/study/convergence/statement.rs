@@ -91,8 +91,7 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
     }
 }
 
-/// Returns the formula and the value by which errors are divided; empty if the suite states no
-/// formula.
+/// Returns formula and value of the divisor of errors; empty if the suite states no formula.
 fn divisor(plan: &ConvergencePlan) -> String {
     let (Some(formula), Some(scale)) = (&plan.scale_formula, plan.scale) else {
         return String::new();
@@ -117,7 +116,6 @@ fn judged(plan: &ConvergencePlan) -> String {
     }
 }
 
-/// Returns the rows with time steps and particles, and with cells if they are not refined.
 fn refinement(study: &ConvergencePlan, rows: &mut Rows) {
     let (plan, instants) = (&study.refine, study.instants);
     let list = |of: &dyn Fn(&LevelPlan) -> Option<u64>, levels: &[LevelPlan]| {

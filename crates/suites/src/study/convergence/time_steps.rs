@@ -99,8 +99,7 @@ pub fn planned_levels(suite: &Suite) -> Vec<(String, Vec<PlannedLevel>)> {
 /// Number of power iterations in the prediction of an automatic time step.
 pub(crate) const ROUNDS: u32 = 40;
 
-/// Number of power iterations in the first prediction for a time step from the suite. Each
-/// iteration costs as much as a step.
+/// Number of power iterations in the first prediction for a time step from the suite.
 const FEW: u32 = 6;
 
 /// Fraction of the first predicted limit above which a second prediction is made. The first one has
@@ -110,14 +109,12 @@ const NEAR: f64 = 0.6;
 /// A level with its time step, and the stable time step (s) if it is known.
 type Stepped = (LevelPlan, Option<f64>);
 
-/// Cache of the stable time steps (s) of a study, with the inputs of the prediction as keys.
-/// Methods with equal inputs, and levels that differ only in their time step, share one prediction.
+/// Stable time steps (s) of a study, by the inputs of their prediction.
 #[derive(Debug, Default)]
 pub(crate) struct StableSteps(Mutex<BTreeMap<String, Result<f64, SubjectError>>>);
 
 impl StableSteps {
-    /// Returns the level with its time step. The stable step is included if the time step is
-    /// automatic or too long.
+    /// Returns the level with its time step, and the stable step if automatic or exceeded.
     pub(crate) fn of(
         &self,
         plan: &ConvergencePlan,
@@ -187,8 +184,7 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Returns a warning about a step that is longer than the stable step or differs from the requested
-/// step, and whether the step is too long.
+/// Returns a warning about the actual step, and whether the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

@@ -135,7 +135,6 @@ pub fn price(
     Some(TimedSuite { outcome, levels, machine: observed.seen() })
 }
 
-/// Measures all levels in turn, until every level has been timed often enough.
 fn time(jobs: &mut [TimingJob<'_>], observed: &mut Observed, progress: &(dyn Fn() + Sync)) {
     for job in jobs.iter() {
         let _ = job.run();
@@ -244,8 +243,7 @@ struct Observed {
     waited: Option<f64>,
 }
 
-/// Measures the time (s) of a piece of work: wall time minus the time for which this thread waited
-/// for a core, if the system reports the latter.
+/// Measures the time (s) of a piece of work, without the time spent waiting for a core.
 struct LoadMonitor {
     start: Instant,
     waited: Option<f64>,

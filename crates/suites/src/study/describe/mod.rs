@@ -33,9 +33,8 @@ pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     rows
 }
 
-/// Returns the parameters of a stability study whose values differ between runs: the swept
-/// parameter and the parameter whose limit is searched for, each with the name of its row, and the
-/// parameters that depend on these two.
+/// Returns the parameters of a stability study that differ between runs. The swept and the sought
+/// parameter have the name of their row.
 fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
     let StudyPlan::Stability(plan) = &suite.study else { return Vec::new() };
     let mut varied = vec![(plan.swept.clone(), Some("sweep"))];
@@ -148,8 +147,7 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Describes the initial stress, and its term in the first Piola-Kirchhoff stress or its elastic
-/// strain.
+/// Describes the initial stress and its term in the stress or the elastic strain.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {
@@ -208,12 +206,10 @@ impl Dispensable {
     }
 }
 
-/// Returns the cost profile of a step of `case` on the coarsest level.
 pub(crate) fn step_profile(plan: &ConvergencePlan, case: &Case) -> Option<Profile> {
     dispatch::profile(plan, case.method, *plan.refine.levels.first()?)
 }
 
-/// Copies the plan, without the part `without` of its scene.
 pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> ConvergencePlan {
     let mut plan = plan.clone();
     let Dispensable::Effect(effect) = without else {

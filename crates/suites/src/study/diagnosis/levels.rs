@@ -1,5 +1,4 @@
-//! Findings about levels that are too coarse, about bodies without damping, and about errors as
-//! large as the solution.
+//! Findings about coarse levels, lack of damping, and errors as large as the solution.
 
 use super::regularity::sizes;
 use super::session::Known;
@@ -16,25 +15,20 @@ use crate::verify::{
 /// to at most this fraction.
 const CLOSER: f64 = 0.5;
 
-/// Maximum difference between the order of the finest two levels and the theoretical order, if
-/// coarse levels are the cause.
+/// Maximum distance of the order of the finest two levels from the theoretical order.
 const NEAR: f64 = 2.0 * OrderHypothesis::TOLERANCE;
 
-/// Minimum error that is considered as large as the solution, as a fraction of the largest exact
-/// value.
+/// Minimum error that is as large as the solution, as a fraction of the largest exact value.
 const WHOLE: f64 = 0.1;
 
-/// Maximum ratio of the largest to the smallest error for which the errors count as independent of
-/// the cell size.
+/// Maximum ratio of the largest to the smallest error that counts as constant.
 const CONSTANT: f64 = 1.5;
 
-/// A level is too coarse if its cell size exceeds this fraction of the length scale of the
-/// solution.
+/// Maximum cell size of a level that resolves the solution, as a fraction of its length scale.
 const COARSE: f64 = 0.5;
 
-/// Checks whether coarse levels do not resolve the exact solution. This is the cause if the order
-/// without these levels is much closer to the theoretical order, or if the orders between
-/// neighbouring levels rise to the theoretical order.
+/// Checks whether coarse levels do not resolve the exact solution: the order without them is much
+/// closer to theory, or the orders between neighbouring levels rise to the theoretical order.
 pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     let (session, axis) = (known.session, known.plan.refine.axis);
     let p = session.formal_order;
@@ -81,8 +75,7 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Returns the orders between the coarsest two and the finest two levels, if the orders rise to the
-/// theoretical order.
+/// Returns the first and the last order between neighbouring levels, if the orders rise to `p`.
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     let order = |pair: &[&LevelOutcome]| {
         let [coarse, fine] = pair else { return None };
@@ -93,8 +86,7 @@ fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     ((last - p).abs() <= NEAR && first < p - NEAR).then_some((first, last))
 }
 
-/// Returns the ratio of the coarsest cell size to the length over which the exact solution changes,
-/// and a sentence with both numbers.
+/// Returns the coarsest cell size, relative to the length scale of the solution, and a sentence.
 fn resolution(known: &Known<'_>) -> Option<(f64, String)> {
     let length = sizes(known.plan.exact.as_ref()?, known.session.case.until).length();
     let coarsest = known.levels.first()?.h;
@@ -139,8 +131,7 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Checks whether the errors of an external solver are as large as the solution and do not
-/// decrease.
+/// Checks whether errors of an external solver are as large as the solution on all levels.
 pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     if !matches!(case.method, Method::External { .. }) || known.levels.len() < FEWEST_LEVELS {

@@ -124,7 +124,6 @@ pub fn diagnose(
     Ok(Some(diagnosis))
 }
 
-/// Adds the cause, if it is known, to the reason why a case cannot run.
 fn with_cause(session: &Session<'_>, plan: &ConvergencePlan, reason: String) -> String {
     let lost = |level| walls::particle_on_wall(session, plan, level);
     let Some(finding) = plan.refine.levels.iter().copied().find_map(lost) else { return reason };
@@ -136,8 +135,7 @@ fn finest_error(levels: &[LevelOutcome]) -> f64 {
     levels.last().map_or(f64::NAN, |level| level.error)
 }
 
-/// Runs the levels of `finest` with one change at a time. `levels` are the results without a
-/// change.
+/// Runs the levels of `finest` with one change at a time; `levels` are the unchanged results.
 fn changed_runs(
     session: &Session<'_>,
     finest: &ConvergencePlan,
@@ -169,8 +167,7 @@ fn changed_runs(
     runs
 }
 
-/// Lists the applicable changes, each with the factor by which it changes the size of the judged
-/// quantity.
+/// Lists the applicable changes, each with its factor on the size of the judged quantity.
 fn changed_plans(
     session: &Session<'_>,
     finest: &ConvergencePlan,
@@ -188,8 +185,7 @@ fn changed_plans(
     changed
 }
 
-/// Returns the size of the judged quantity in `smaller`, a plan with a smaller motion, divided by
-/// the size in `plan`. Each size is divided by the divisor of the errors.
+/// Returns the factor on the size of the judged quantity, relative to the divisor of the errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {

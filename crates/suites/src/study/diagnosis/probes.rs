@@ -32,8 +32,7 @@ pub(crate) struct ProbeKind {
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
-/// Reduces the amplitude. `apply` is not used, because the suite text is compiled again with a
-/// smaller amplitude.
+/// Reduces the amplitude. The suite is compiled again, so `apply` is not used.
 pub(super) const AMPLITUDE: ProbeKind = ProbeKind {
     change: "a tenth of the amplitude",
     cause: |_, _| {
@@ -140,8 +139,7 @@ fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     plan
 }
 
-/// Copies the plan with every level changed, including the fine grid of the reference. `None` if a
-/// level cannot be changed or would become too large.
+/// Copies the plan with all levels changed; `None` if a level cannot change or is too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
@@ -276,8 +274,7 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
 };
 
-/// Copies the plan with the method of its case changed. `None` if the method does not change or
-/// becomes invalid.
+/// Copies the plan with a changed method; `None` if it does not change or becomes invalid.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let mut changed = plan.clone();
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));

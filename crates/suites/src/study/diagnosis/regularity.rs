@@ -142,7 +142,6 @@ const GROUPS: [Derivative; 6] = [
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Jump {
-    /// Order of the derivative.
     pub(crate) order: usize,
     /// Position (m) of the jump.
     pub(crate) place: Vec<f64>,
@@ -184,8 +183,7 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// Finds a jump of the displacement or of its derivatives up to the second order. If several
-/// derivatives jump, the result belongs to the one of lowest order.
+/// Finds the jump of lowest order of the displacement or its derivatives up to the second.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);

@@ -21,7 +21,6 @@ const NEAR: f64 = 0.2;
 /// An order counts as restored if it is at most this much above the theoretical order.
 const ABOVE: f64 = 0.8;
 
-/// Data that all runs of a case need.
 pub(super) struct Session<'a> {
     pub(super) suite: &'a str,
     pub(super) source: &'a Source,
@@ -37,7 +36,6 @@ pub(super) struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    /// Creates a session with the time budget `budget` (s) for changed runs.
     pub(super) fn new(
         suite: &'a str,
         source: &'a Source,
@@ -51,7 +49,6 @@ impl<'a> Session<'a> {
         Self { suite, source, case, formal_order, solver, left, slowness, skipped }
     }
 
-    /// Runs the unchanged case.
     pub(super) fn first(&self, plan: &ConvergencePlan) -> Result<Convergence, String> {
         let start = Instant::now();
         let found = self.run(plan)?;
@@ -62,8 +59,7 @@ impl<'a> Session<'a> {
         Ok(found)
     }
 
-    /// Runs a changed plan. `None` if the run would exceed the budget or cannot be set up. A failed
-    /// set-up gives no evidence.
+    /// Runs a changed plan; `None` if it exceeds the budget or cannot be set up.
     pub(super) fn changed(&self, change: &str, plan: &ConvergencePlan) -> Option<Convergence> {
         let cost = self.slowness.get() * estimate_of(plan).seconds;
         if !(cost <= self.left.get()) {
@@ -117,8 +113,7 @@ pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) ->
     plan
 }
 
-/// Returns the reason why `check` rejects the suite in `source` if the method and the levels of
-/// `after` replace those of `before`. Each plan has one case. `None` if `check` accepts the suite.
+/// Returns why `check` rejects the suite with the method and levels of `after`, if it does.
 pub(super) fn refusal(
     source: &Source,
     before: &ConvergencePlan,
@@ -166,8 +161,7 @@ fn method_spec(method: Method) -> Option<MethodSpec> {
     })
 }
 
-/// Replaces the levels `before` of a suite by `after`. A time step that is a formula of h changes
-/// with the cells.
+/// Replaces the levels `before` by `after`. A time step that is a formula of h changes with them.
 fn write_levels(spec: &mut ConvergenceSpec, before: &[LevelPlan], after: &[LevelPlan]) {
     let write = |values: &mut OneOrMany<NumberText>, of: fn(&LevelPlan) -> f64| {
         let is_changed = before.iter().map(of).ne(after.iter().map(of));

@@ -12,12 +12,10 @@ use crate::verify::{Axis, KnownCause, KnownCauseKind, LevelOutcome, StepKind};
 /// Fraction of the predicted stable step that is used when levels run again.
 const OF_PREDICTED: f64 = 0.5;
 
-/// If no stable step is predicted, steps longer than this fraction of the time in which a wave
-/// crosses a cell are doubtful.
+/// Without a prediction, longer steps (relative to the time of a wave in a cell) are doubtful.
 const IN_QUESTION: f64 = 0.5;
 
-/// If no stable step is predicted, levels run again with this fraction of the time in which a wave
-/// crosses a cell.
+/// Without a prediction, levels run again with this step, relative to the same time.
 const CAUTIOUS: f64 = 0.2;
 
 /// Maximum ratio of the errors with a stable and with the original step, for which the original
@@ -33,8 +31,7 @@ struct Mended<'a> {
     limit: f64,
 }
 
-/// Returns the cause that steps are longer than the stable step, if the error on some levels
-/// becomes small or finite with stable steps.
+/// Checks whether the error of some levels becomes small or finite with stable steps.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (session, plan) = (known.session, known.plan);
     let mended = mended(known)?;

@@ -84,8 +84,7 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     longest
 }
 
-/// Whether `check` accepts the case with `frame: total_lagrangian`, and the error is then much
-/// smaller.
+/// Whether the case is valid with `frame: total_lagrangian`, with a much smaller error.
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();
@@ -145,8 +144,7 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     })
 }
 
-/// Checks whether a particle starts at the end of the grid. Rounding then decides whether it is
-/// outside.
+/// Checks whether a particle starts at the end of the grid, where rounding decides its side.
 pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,

@@ -18,8 +18,7 @@ use serde::{Deserialize, Serialize};
 /// Ratio of the rounding error of a functional value to the rounding error of its largest term.
 const ROUNDING: f64 = 4.0;
 
-/// Exponent k of the perturbation that checks the entries of a wrong gradient. The perturbation is
-/// the parameter times 2^-k.
+/// Exponent k of the perturbation q 2^-k that checks the entries of a wrong gradient.
 const EVIDENCE_LEVEL: u32 = 8;
 
 /// Young's modulus of a run without stress, relative to the modulus of the problem.
@@ -39,7 +38,6 @@ pub(super) struct GradientRun<'a> {
 struct CachedAnswer {
     /// Either value and rounding error of a functional, or value and gradient.
     numbers: Vec<f64>,
-    /// Reason why the solver does not support the run.
     cannot: Option<String>,
     failed: Option<String>,
 }
@@ -138,8 +136,7 @@ impl GradientRun<'_> {
         })
     }
 
-    /// Computes the relative error of the derivative with respect to the parameter of the case. The
-    /// error of the extrapolated central difference is of fourth order.
+    /// Computes the relative error of the derivative, from an extrapolated central difference.
     fn relative_error(&self, problem: &LevelProblem) -> Result<f64, GradientError> {
         let parameter = self.parameter().parameter;
         let q = nominal(problem, parameter)?;
@@ -159,8 +156,7 @@ impl GradientRun<'_> {
         Ok(level_problem(self.context.suite, &self.plan.problem, &self.case.solver, level)?)
     }
 
-    /// Returns the rounding error of the remainder of the Taylor series, in units of the largest
-    /// term of the functional.
+    /// Returns the rounding error of the Taylor remainder, in units of the largest term.
     fn rounding(&self) -> f64 {
         let half = match self.solver.precision() {
             Precision::Double => 0.5 * f64::EPSILON,
@@ -169,8 +165,7 @@ impl GradientRun<'_> {
         ROUNDING * half
     }
 
-    /// Returns the maximum difference between the reported value and the value of a run without
-    /// derivatives.
+    /// Returns the maximum difference of the reported value from that of a run without derivatives.
     fn tolerance(&self, plain: FunctionalValue) -> f64 {
         let relative = match self.solver.precision() {
             Precision::Double => 1e-12,
@@ -180,8 +175,7 @@ impl GradientRun<'_> {
         (relative * plain.value.abs()).max(near_zero)
     }
 
-    /// Runs one level. Returns the level, and the value and the partial derivative that the solver
-    /// reports.
+    /// Runs one level. Also returns the reported value and partial derivative.
     fn level(&self, level: LevelPlan) -> Result<(GradientLevel, f64, f64), GradientError> {
         let (problem, one) = (self.problem(level)?, self.parameter());
         let exact = exact_derivative(self.plan, one, &problem);
@@ -227,8 +221,7 @@ impl GradientRun<'_> {
         Err(GradientError::Failed(reason))
     }
 
-    /// Returns the value of the functional after a run without derivatives, from the cache if
-    /// available.
+    /// Returns the value of the functional after a run without derivatives.
     fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
         match self.kept(problem, "value", run)?[..] {
@@ -237,8 +230,7 @@ impl GradientRun<'_> {
         }
     }
 
-    /// Returns the stored result of a run. If there is none, stores and returns the result of
-    /// `run`. `what` describes the numbers that the result contains.
+    /// Returns the stored numbers that `what` describes, or those of `run`, which are then stored.
     fn kept(
         &self,
         problem: &LevelProblem,
@@ -296,8 +288,7 @@ impl GradientRun<'_> {
         Ok(Perturbed { level, by, above: at(q + by)?.value, below: at(q - by)?.value })
     }
 
-    /// Returns values of the functional with the parameter value `q` perturbed by fractions of
-    /// itself.
+    /// Returns the functional with the parameter value `q` perturbed by fractions of itself.
     fn perturbed(
         &self,
         problem: &LevelProblem,
@@ -340,8 +331,7 @@ fn is_single(value: f64, derivatives: &[f64]) -> bool {
     !single(value) && differ && derivatives.len() > 2 && derivatives.iter().all(|x| single(*x))
 }
 
-/// Returns the value of a parameter in the problem. A zero value is an error, because perturbations
-/// are relative.
+/// Returns the value of a parameter. Zero is an error, because perturbations are relative.
 fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, GradientError> {
     let lacks = || GradientError::Cannot(format!("the problem has no `{}`", parameter.name()));
     problem.parameter(parameter).filter(|q| *q != 0.0).ok_or_else(lacks)
@@ -349,10 +339,8 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 
 type ValueAndSlope = (f64, f64);
 
-/// Computes the exact derivative of the functional at the end of the run with respect to a
-/// parameter of the problem. This is the total derivative. If the initial velocity of the suite
-/// depends on the parameter, the derivative includes the effect of the changed initial velocity on
-/// the motion.
+/// Computes the exact total derivative of the functional, including the effect of an initial
+/// velocity that depends on the parameter.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,

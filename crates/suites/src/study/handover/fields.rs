@@ -12,7 +12,6 @@ use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 /// of the body. At R = 0 the hoop stretch r/R is undefined.
 const NEAR_AXIS: f64 = 1e-8;
 
-/// The fields of a scene that a solver can request.
 pub(super) struct SceneFields {
     scene: Scene,
     bodies: Vec<FieldBody>,

@@ -48,7 +48,6 @@ pub fn level_problem(
     ))
 }
 
-/// Steps of a run, and the initial states of its bodies.
 pub(crate) struct HandedRun {
     /// Number of load steps, if the run has no time.
     pub(crate) load_steps: Option<u64>,
@@ -65,8 +64,7 @@ pub(crate) struct HandedRun {
     pub(crate) is_perturbed: bool,
 }
 
-/// Creates the problem of a run on the cells of `level`. `made` contains the manufactured force, if
-/// any.
+/// Creates the problem of a run; `made` contains the manufactured force, if any.
 pub(crate) fn problem(
     suite: &str,
     scene: &Scene,
@@ -200,7 +198,6 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
     scene.each().iter().map(of_body).collect()
 }
 
-/// The body force of a scene: prescribed forces and a manufactured force.
 #[derive(Clone)]
 struct SceneForce {
     terms: Vec<Vec<Arc<dyn Term>>>,
@@ -223,8 +220,7 @@ impl SceneForce {
         is_constant.then(|| (0..dimension).map(component).collect())
     }
 
-    /// Returns the prescribed forces on a body with the displacement `u` (m), plus the force
-    /// `made`.
+    /// Returns the prescribed forces (m/s2) on a displaced body, plus the force `made`.
     fn whole(&self, made: [f64; 3], body: usize, label: &[f64], t: f64, u: &[f64; 3]) -> [f64; 3] {
         let terms = self.terms.get(body).map_or(&[][..], Vec::as_slice);
         std::array::from_fn(|i| {

@@ -1,5 +1,4 @@
-//! Determines the capabilities that a suite requires of a solver, and creates suites whose method
-//! is an external solver.
+//! Capabilities that a suite requires of a solver, and suites with an external solver.
 
 use super::level_problem;
 use super::particles::starts_deformed;
@@ -37,8 +36,7 @@ pub fn needs(plan: &ConvergencePlan) -> ProblemNeeds {
     needs
 }
 
-/// Returns the capabilities that a scene requires. The quantities that a study judges may require
-/// further capabilities.
+/// Returns the capabilities that a scene requires, without those for judged quantities.
 pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     let mut needs = ProblemNeeds {
         dimension: scene.dimension(),
@@ -95,8 +93,7 @@ pub fn under_on(
     })
 }
 
-/// Copies the plan with a law that `solver` supports. `None` if `solver` supports the law of the
-/// plan or no law, or if the results depend on the law.
+/// Copies the plan with a law that `solver` supports; `None` if this is not necessary or possible.
 fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<ConvergencePlan> {
     let needs = needs(plan);
     let lacking = if plan.any_method.any_law { solver.lacks(&needs).len() } else { 0 };
@@ -113,9 +110,8 @@ fn with_law_of(solver: &dyn SolverFactory, plan: &ConvergencePlan) -> Option<Con
     Some(plan)
 }
 
-/// Returns the value of a parameter of the replacing law: the value of the same parameter in the
-/// law `own`, if there is one. Otherwise a positive parameter gets the stiffness of `own`, so the
-/// time step remains stable, and other parameters get a fixed valid value.
+/// Returns a parameter of the replacing law: that of the law `own`, if it has one. Otherwise a
+/// positive parameter gets the stiffness of `own`, so the time step remains stable.
 fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     let parameters = own.parameters();
     let known = parameters.iter().find(|(other, _)| other.what == parameter.what);
@@ -128,8 +124,7 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// Creates the solver of one level of a case: `solver` if given, and otherwise the method of the
-/// case. `suite` is the name of the suite.
+/// Creates the solver of a level: `solver` if given, otherwise the method of the case.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -27,8 +27,7 @@ pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
     scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
 }
 
-/// Creates the initial particles of all bodies; `disturb` may modify the state of each body. Each
-/// law computes the initial stress from the initial deformation.
+/// Creates the initial particles of all bodies, whose states `disturb` may modify.
 pub(crate) fn start(
     bodies: Vec<Body<'_>>,
     level: LevelPlan,

@@ -10,7 +10,6 @@ use crate::suite::yaml::{Diagnostic, Severity};
 /// Maximum distance (cells) from a grid line that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// A plane with an interface or a loaded face.
 struct Plane {
     axis: usize,
     x: f64,

@@ -1,9 +1,4 @@
 //! Reports errors that refinement does not lower, and the first level on which they are visible.
-//!
-//! - `small_strain`: the exact solution is linearised or assumes small strains, but the solver is
-//!   not limited to small strains.
-//! - `single_precision`: the external solver uses single precision.
-//! - `loose_tolerance`: the tolerance of a linearised solution is unnecessarily large.
 
 use super::subject::Preflight;
 use crate::study::exact_motion::{Extremes, Linearisation};
@@ -17,8 +12,7 @@ use crate::verify::{Axis, Quantity, rounding_bound, single_precision_spacing};
 /// Another error changes the observed order if it exceeds this fraction of the error due to cells.
 const SEEN: f64 = 0.3;
 
-/// Another error becomes visible after a few refinements if it exceeds this fraction of the error
-/// due to cells.
+/// Another error becomes visible after a few refinements above this fraction of the error of cells.
 const SOON: f64 = 0.003;
 
 /// Predicts the error (m) due to cells of size `h` (m) as the interpolation error of linear
@@ -28,9 +22,8 @@ fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     0.125 * h * h * curvature
 }
 
-/// Creates a finding about an error of `size` (m) with the cause `origin`: a warning with `help` if
-/// the error is visible on a level of the suite, a note if it would be visible on one of the next
-/// finer levels, and otherwise `None`.
+/// Creates a finding about an error of `size` (m): a warning if the error is visible on a level of
+/// the suite, a note if it would be visible on one of the next finer levels.
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -103,8 +96,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Reports the model error and the first level on which it is visible. This is a warning if the
-/// level belongs to the suite, and a note if it is one of the next finer levels.
+/// Reports the model error and the first level on which it is visible.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -131,10 +123,8 @@ struct LevelPrediction {
     rounding: f64,
 }
 
-/// Predicts the first level on which the error of a solver in single precision lies below the
-/// rounding bound. The finding is a warning if fewer than four levels lie above the bound, and
-/// otherwise a note. The warning suggests an amplitude and an origin for which four levels lie
-/// above the bound.
+/// Predicts the first level whose error in single precision lies below the rounding bound. The
+/// finding is a warning if fewer than four levels lie above the bound.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
@@ -183,8 +173,7 @@ pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_help(&help)]
 }
 
-/// Returns the factor by which rounding errors of positions decrease if the body is centred at the
-/// origin; `None` if they do not decrease.
+/// Returns the factor by which rounding errors decrease if the body is centred at the origin.
 fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     let lengths = motion.reach.iter().map(|(low, high)| high - low);
     let half = 0.5 * lengths.filter(|length| length.is_finite()).fold(0.0, f64::max);
@@ -198,12 +187,10 @@ fn two_digits(factor: f64) -> f64 {
     text.parse().unwrap_or(factor)
 }
 
-/// Maximum ratio of the tolerance to the residual. A larger tolerance could accept a wrong
-/// solution.
+/// Maximum ratio of the tolerance to the residual.
 const MOST: f64 = 100.0;
 
-/// Reports, as a note, a tolerance that exceeds the residual of the solution by orders of
-/// magnitude.
+/// Reports, as a note, a tolerance that exceeds the residual by orders of magnitude.
 pub(crate) fn loose_tolerance(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let Some(problem) = &preflight.plan.exact else { return Vec::new() };
     let Some(stated) = &problem.linearised else { return Vec::new() };

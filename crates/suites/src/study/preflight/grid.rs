@@ -1,10 +1,4 @@
 //! Checks the number of levels that count for an order, and the positions of particles in the grid.
-//!
-//! - `few_levels`: too few levels count for an order.
-//! - `leaves_grid`: the motion leaves the grid.
-//! - `end_on_node`: the last particles of a box start exactly on nodes, and basis functions are
-//!   linear. A particle on a node belongs to the next cell. The node at the far end of this cell
-//!   has no mass, so conditions and forces on it have no effect.
 
 use super::subject::{Preflight, moves_on_grid};
 use crate::mpm::BasisName;
@@ -48,8 +42,7 @@ pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     vec![found.with_label(&label).with_help(&help)]
 }
 
-/// Whether the exact motion moves a particle into another cell. The distance of the particles of an
-/// aligned body from the cell faces is half of their spacing.
+/// Whether the exact motion moves a particle by more than half of the particle spacing.
 fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
     let dimension = preflight.plan.scene.dimension();
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, dimension)).unwrap_or(1);
@@ -103,6 +96,8 @@ pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 }
 
 /// Warns of a box whose last row of particles lies on nodes other than the last nodes of the grid.
+/// A particle on a node belongs to the next cell, whose far node then has no mass: conditions and
+/// forces on this node have no effect with linear functions.
 pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let is_linear = |method| {
@@ -134,8 +129,7 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().collect()
 }
 
-/// Returns the position (m) of the last particles along `axis` in the solver, if they lie on nodes
-/// that are not the last nodes of the grid.
+/// Returns the position (m) of the last particles along `axis`, if they lie on inner nodes.
 fn last_on_node(plan: &ConvergencePlan, axis: usize, level: &LevelPlan) -> Option<f64> {
     let scene = &plan.scene;
     if !scene.faces.get(2 * axis + 1)?.hold.is_free() {

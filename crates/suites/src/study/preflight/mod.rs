@@ -71,16 +71,13 @@ pub fn preflight(suite: &Suite, source: &Source) -> Vec<Diagnostic> {
     findings
 }
 
-/// Warns of a time step in which a wave or a particle crosses more than one cell, or for which heat
-/// conduction is unstable. If a study in space has the same step on all levels, the finding is a
-/// note.
+/// Warns of a time step that is too long for waves, particles or heat conduction.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let found = [too_long(preflight), too_long_for_heat(preflight), fixed(preflight)];
     found.into_iter().flatten().collect()
 }
 
-/// Warns of a step that is too long for the motion. An automatic step is checked as a fraction of
-/// the stable step.
+/// Warns of a step that is too long for the motion.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
     let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));

@@ -10,7 +10,6 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity, Source};
 use crate::verify::{Axis, Verdict};
 
-/// A convergence study that has not run yet.
 pub(crate) struct Preflight<'a> {
     pub(crate) plan: &'a ConvergencePlan,
     /// Extremes of the exact motion, if the motion is given by formulas and an order is expected.
@@ -31,7 +30,6 @@ impl<'a> Preflight<'a> {
         self.of_an_order().next().is_some()
     }
 
-    /// Returns the levels that run without `--full`.
     pub(crate) fn levels(&self) -> &[LevelPlan] {
         self.plan.refine.levels(Extent::Usual)
     }
@@ -68,8 +66,7 @@ impl<'a> Preflight<'a> {
         self.source.value_at(path.steps()).is_some()
     }
 
-    /// Warns of acknowledgements that are not among those `used`, unless an external solver
-    /// replaces the methods of the suite, because the warnings may then differ.
+    /// Warns of unused acknowledgements, unless an external solver replaces the methods.
     pub(crate) fn unused_acknowledgements(&self, used: &[WarningName]) -> Vec<Diagnostic> {
         let replaced = self.plan.cases.iter().any(|case| case.solver.is_some());
         let all = self.plan.acknowledged.iter().enumerate().filter(|_| !replaced);

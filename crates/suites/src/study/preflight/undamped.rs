@@ -18,13 +18,11 @@ const SUDDEN: f64 = 0.1;
 /// Number of intervals along each axis. Loads are evaluated at the ends of the intervals.
 const INTERVALS: usize = 4;
 
-/// Minimum initial distance from the equilibrium that counts, as a fraction of the equilibrium
-/// displacement.
+/// Minimum initial distance from the equilibrium, as a fraction of its displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns if a body without dissipation does not start in its equilibrium, because the body then
-/// oscillates about it. If the load grows slowly, the oscillations are small, and the finding is a
-/// note.
+/// Warns of a body that oscillates about its equilibrium. If the load grows slowly, the finding is
+/// a note.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -44,8 +42,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 pub(crate) const HELP: &str = "list `damping` or `local_damping` in `loads`, and run until the body is \
                                at rest";
 
-/// Whether a case without dissipation is compared with an equilibrium, but does not start in this
-/// equilibrium. External solvers are assumed to have no dissipation.
+/// Whether a case without dissipation does not start in the stated equilibrium.
 pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = plan.exact.as_ref().filter(|exact| exact.at_rest) else { return false };
     plan.steps == StepKind::Time
@@ -76,8 +73,7 @@ fn keeps_energy(transfer: TransferChoice) -> bool {
     [Flip, Apic, Mls, Tpic, Tls].into_iter().any(|name| transfer == name.into())
 }
 
-/// Whether a particle of the coarsest level starts away from its equilibrium position or with a
-/// non-zero velocity.
+/// Whether a particle starts away from its equilibrium position or with a velocity.
 fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     let Some(level) = plan.refine.levels.first() else { return false };
     // If the set-up of a level fails, its run reports the reason.
@@ -97,8 +93,7 @@ fn starts_away(plan: &ConvergencePlan, case: &Case, problem: &Problem) -> bool {
     moves || most[0] > AWAY * most[1]
 }
 
-/// Whether loading is sudden: more than the fraction [`SUDDEN`] of the final body forces and
-/// tractions acts at the start.
+/// Whether more than the fraction [`SUDDEN`] of the final forces acts at the start.
 fn is_loaded_at_once(plan: &ConvergencePlan, case: &Case) -> bool {
     let Some(problem) = &plan.exact else { return true };
     let labels = raster(problem, INTERVALS);

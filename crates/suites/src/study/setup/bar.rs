@@ -63,8 +63,7 @@ fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     }))
 }
 
-/// Adds the prescribed forces (m/s2) at each position, for the displacements `u` (m). Uniform
-/// forces are evaluated only once.
+/// Adds the prescribed forces (m/s2) at displaced positions. Uniform forces are evaluated once.
 fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &mut [f64]) {
     for load in loads.iter().filter(|load| load.is_uniform()) {
         let everywhere = load.stated(0, &[], t, &[0.0; 3]);
@@ -79,8 +78,7 @@ fn add_stated(loads: &[ListedLoad], t: f64, places: &[f64], u: &[f64], values: &
     }
 }
 
-/// Converts a traction to a tension. The traction in a suite acts along +X, while the FEM uses a
-/// tension along the outward normal.
+/// Converts the traction of a suite, which acts along +X, to a tension along the outward normal.
 fn end_traction(scene: &Scene, end: usize) -> Option<fem::TimeFunction> {
     let (x, outwards) = if end == 0 { (scene.from[0], -1.0) } else { (scene.to[0], 1.0) };
     scene.loads_on(LoadTarget::Face(end)).find_map(|load| load.tension(x, outwards))

@@ -24,9 +24,7 @@ pub(crate) struct Body<'a> {
     /// The scene of this body, with its shape, material and loads.
     pub(crate) own: &'a Scene,
     pub(crate) initial: Initial,
-    /// Problem whose manufactured force acts on the body, if any.
     pub(crate) manufactured: Option<&'a Problem>,
-    /// Heat-conduction problem of the body, if any.
     pub(crate) heat: Option<&'a Conduction>,
     /// Judged quantity, for which particles may store F and sample the out-of-plane stress.
     pub(crate) judged: Option<Quantity>,
@@ -53,7 +51,6 @@ impl<'a> Body<'a> {
         Self { scene, own, initial, manufactured: None, heat: None, judged: None, lattice }
     }
 
-    /// Creates the data of the body on the cells of `level`.
     fn input(self, level: LevelPlan) -> Result<BodyInput<'a>, SubjectError> {
         let Self { scene, own, judged, .. } = self;
         let h = cell_size(scene, level.cells);
@@ -108,7 +105,6 @@ pub(crate) fn scene_input(
     })
 }
 
-/// Creates the data of all bodies of `plan` on the cells of `level`.
 pub(crate) fn plan_input(
     plan: &ConvergencePlan,
     level: LevelPlan,
@@ -144,8 +140,6 @@ impl ForceAt for ManufacturedForce {
     }
 }
 
-/// Returns the grid of the scene. If the scene defines no grid, the grid covers the bounding box of
-/// the body, with additional cells outside free faces.
 fn grid(scene: &Scene, h: f64) -> GridInput {
     let axes = 0..scene.dimension();
     let (origin, cells) = axes.clone().map(|axis| grid_axis(scene, axis, h)).unzip();
@@ -207,8 +201,7 @@ fn lattice_cell(cut: &Cut) -> LatticeCell {
     }
 }
 
-/// Returns the mass of a particle for a varying density: the density is integrated over the part of
-/// the particle's lattice cell that is inside the body.
+/// Returns the mass of a particle: the density integrated over its lattice cell in the body.
 fn mass(scene: &Scene) -> Option<MassAt<'_>> {
     if scene.density.uniform().is_some() {
         return None;

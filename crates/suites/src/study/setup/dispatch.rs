@@ -1,5 +1,4 @@
-//! Creates solvers of the types that methods and scenes select. Only this file uses all kinds of
-//! solvers.
+//! Creates solvers. Only this file uses all kinds of solvers.
 
 use super::bar::bar;
 use super::body::{Body, plan_input, scene_input};
@@ -46,14 +45,12 @@ fn dynamic(method: Method) -> Result<MpmMethod, SubjectError> {
     Ok(MpmMethod { basis, transfer, scheme, start, mass, frame, volume, precision })
 }
 
-/// Returns the profile of the second step of `method` on one level. `None` for FEM, and if the
-/// solver fails earlier.
+/// Returns the profile of the second step of `method`; `None` for FEM, and after a failure.
 pub(crate) fn profile(plan: &ConvergencePlan, method: Method, level: LevelPlan) -> Option<Profile> {
     input::profile(plan_input(plan, level).ok()?, method_input(method).ok()?, level.dt)
 }
 
-/// Predicts the stable time step (s) of `method` on one level: the minimum over the bodies, from
-/// `rounds` power iterations.
+/// Predicts the stable time step (s) of `method`, from `rounds` power iterations.
 pub(crate) fn stable_time_step(
     plan: &ConvergencePlan,
     method: Method,
@@ -65,8 +62,7 @@ pub(crate) fn stable_time_step(
     stable_time_step_of(plan.scene.each().iter().map(body).collect(), method, level, rounds)
 }
 
-/// Predicts the stable time step (s) of the `bodies` of one scene with `method` on the cells of
-/// `level`, from `rounds` power iterations.
+/// Predicts the stable time step (s) for the `bodies` of one scene.
 pub(crate) fn stable_time_step_of(
     bodies: Vec<Body<'_>>,
     method: Method,
@@ -78,8 +74,7 @@ pub(crate) fn stable_time_step_of(
     input::stable_time_step(scene, dynamic(method)?, &speeds, rounds)
 }
 
-/// Creates an MPM solver whose state can be perturbed, for the `bodies` of one scene on the cells
-/// of `level`.
+/// Creates an MPM solver whose state can be perturbed.
 pub(crate) fn perturbable(
     bodies: Vec<Body<'_>>,
     method: Method,

@@ -20,7 +20,6 @@ pub(crate) struct Initial {
 }
 
 impl Initial {
-    /// Creates the initial state of one of the bodies of `plan`.
     pub(crate) fn of_body(plan: &ConvergencePlan, body: &Scene) -> Self {
         let exact = plan.exact.as_ref().filter(|problem| problem.follows_motion);
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
@@ -57,7 +56,6 @@ impl Initial {
         self.motion.is_some() || self.displacement.is_some()
     }
 
-    /// Converts the state to functions for the solver.
     pub(crate) fn input(self) -> InitialState<'static> {
         let is_displaced = self.is_displaced();
         let stress = self.stress.clone();

@@ -1,5 +1,4 @@
-//! Creates the initial state of a run in a stability study, and converts the run to a problem for
-//! an external solver.
+//! The initial state of a run in a stability study, also as a problem for external solvers.
 
 use crate::exact::Random;
 use crate::external::{LevelProblem, ProblemNeeds, SolverFactory};
@@ -33,7 +32,6 @@ pub(super) fn needs(setup: &RunSetup) -> ProblemNeeds {
     needs
 }
 
-/// Sets up a run of `solver`. `suite` is the name of the suite.
 pub(super) fn subject(
     solver: &dyn SolverFactory,
     suite: &str,
@@ -50,8 +48,7 @@ pub(super) fn subject(
     }
 }
 
-/// Creates the problem of a run. `suite` is the name of the suite. The instants of the problem are
-/// the steps after which a trial checks the state.
+/// Creates the problem of a run. Its instants are the steps after which a trial checks the state.
 fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
     let dt = *setup.dt.first().ok_or("the run has no time step")?;
     let bare = unloaded(&setup.scene);
@@ -80,8 +77,7 @@ pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>
     each.iter().map(|own| Body::stated(&setup.scene, own, setup.lattice.clone())).collect()
 }
 
-/// If the run requests it, adds a random number to each component of the state, so that every mode
-/// is excited.
+/// Adds a random number to each component of the state, if the run requests it.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

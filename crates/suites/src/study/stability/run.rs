@@ -65,8 +65,7 @@ impl CaseRun<'_> {
         Ok(setup)
     }
 
-    /// Returns the stable time step (s). For an external solver, the time in which a wave crosses a
-    /// cell is used.
+    /// Returns the stable time step (s); for an external solver, h divided by the wave speed.
     fn stable_time_step(&self, setup: &RunSetup) -> Result<f64, SubjectError> {
         match self.case.method {
             Method::External { .. } => Ok(setup.level.h / setup.scene.fastest_wave()),

@@ -67,8 +67,7 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// Returns the acknowledged warnings. Refuses entries without a reason, and warnings that are
-/// listed twice.
+/// Returns the acknowledged warnings. Each needs a reason, and none may be listed twice.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

@@ -1,5 +1,4 @@
-//! Compiles the expectations of cases, and the key `any_method`. A suite has one expectation for
-//! each case, or none at all.
+//! Compiles the expectations, one for each case or none at all, and the key `any_method`.
 
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
@@ -60,8 +59,7 @@ fn expectations(
     Ok(owners.into_iter().map(|owner| Some(parsed[owner?].clone())).collect())
 }
 
-/// Returns for each case the index of the only entry of `expect` that matches. All are `None` if
-/// there are no entries.
+/// Returns for each case the index of its only entry of `expect`; `None` without entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
     selectors: &[Option<&OneOrMany<String>>],
@@ -262,8 +260,7 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Refuses the expectation at `path` if it bounds the drift of a sum that `method` does not compute
-/// or conserve.
+/// Refuses a bound on the drift of a sum that `method` does not compute or conserve.
 fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
@@ -284,8 +281,7 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
     path.then(key).refuse_key(message, "restrict this expectation to MPM cases")
 }
 
-/// Number of points along each axis, and number of time intervals, in the check by
-/// `is_translation`.
+/// Number of points along each axis, and of time intervals, in `is_translation`.
 const PLACES: usize = 5;
 
 /// Displacement gradients up to this value count as rounding errors.

@@ -16,8 +16,7 @@ use crate::verify::{Axis, GradientTerms};
 
 const MOST_POINTS: u64 = 1000;
 
-/// Relative change of a parameter in a check: the stated solution must also solve the problem with
-/// the changed parameter.
+/// Relative change of a parameter for which the stated solution must still hold.
 const CHANGE: f64 = 1.0 / 64.0;
 
 pub(crate) fn plan(
@@ -250,9 +249,8 @@ fn differentiated(
     Ok(Differentiated { parameter, name: name.clone(), motion, velocity_factor: factor })
 }
 
-/// Whether the suite parameter with this `value` sets the problem `parameter`: the value in `scene`
-/// must be the same. For an initial velocity, which must be proportional to the suite parameter,
-/// the relative `growth` must be 1 instead.
+/// Whether the suite parameter sets `parameter` in `scene`. An initial velocity must be
+/// proportional to it: its relative `growth` is 1.
 fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) -> bool {
     let of_material = || {
         let parameters = scene.material.keyed_parameters();

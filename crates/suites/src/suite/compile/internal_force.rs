@@ -12,8 +12,7 @@ use crate::suite::model::{ForceCase, ForceExpectation, ForcePlan};
 use crate::suite::yaml::Diagnostic;
 use crate::verify::ForceRow;
 
-/// Maximum number of particles, summed over all positions of the moving particle. This limits the
-/// run time to about a second.
+/// Maximum number of particles over all positions of the moving one: about a second of run time.
 const MOST_SUMMANDS: u64 = 1_000_000;
 
 const VARIABLES: [&str; 2] = ["n_left", "n_right"];
@@ -87,7 +86,6 @@ fn expectation(
     }
 }
 
-/// Computes the force on the node for each position of the moving particle.
 pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
     (0..plan.positions).map(|k| row(plan, case, k)).collect()
 }

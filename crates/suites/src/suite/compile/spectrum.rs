@@ -1,5 +1,4 @@
-//! Compiles a spectrum study: waves in a periodic row of cells, methods with closed formulas for
-//! the phase speed and damping, and expectations.
+//! Compiles a spectrum study: waves in a periodic row of cells.
 
 use crate::exact::formula::Formula;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
@@ -20,8 +19,7 @@ use std::f64::consts::TAU;
 /// Maximum number of cases, and of waves per case.
 const MOST: usize = 500;
 
-/// Maximum number of particles per cell. The number is limited, because the closed form has one
-/// term per particle.
+/// Maximum number of particles per cell: the closed form has one term for each.
 const MOST_PPC: u64 = 64;
 
 /// Maximum number of steps of the run of one wave: minutes with a row of a hundred particles.
@@ -94,8 +92,7 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     evaluator.refuse_first(&refused, |path, property| needs(&path, property))
 }
 
-/// Compiles the translation of the particles (m). The translation must keep every particle in its
-/// cell.
+/// Compiles the translation of the particles (m), which must keep them in their cells.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = evaluator.top("particles.shift");
@@ -159,7 +156,6 @@ fn velocity(path: &SuitePath<'_>, scene: &Scene, length: f64) -> Result<Formula,
     path.formula(&text, &coordinates_and_time(1))
 }
 
-/// Compiles the cases, one for each combination of the list values in `methods`.
 fn cases(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,
@@ -253,8 +249,7 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     path.refuse(&format!("there is no case `{case}`"), &suggestion("cases", case, &names))
 }
 
-/// Refuses time steps above the stability limit of a case, and waves that its grid cannot
-/// represent.
+/// Refuses unstable time steps, and waves that the grid cannot represent.
 fn refuse_unfit_waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

@@ -69,11 +69,8 @@ impl Suite {
     }
 }
 
-/// Loads the convergence study in `source` with the exact motion and the initial state multiplied
-/// by `factor`. Loads are not scaled.
-///
-/// # Errors
-/// If the scaled motion is not a solution, for example because of unscaled loads.
+/// Loads a convergence study with the exact motion and the initial state, but not the loads,
+/// multiplied by `factor`.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }

@@ -57,13 +57,11 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Returns the text of the suite.
     pub(crate) fn source(&self) -> &'a Source {
         self.source
     }
 
-    /// Declares the functions of a suite, then its parameters in file order. Also returns the name,
-    /// text and value of each parameter.
+    /// Declares functions, then parameters. Also returns name, text and value of each parameter.
     pub(crate) fn new(
         source: &'a Source,
         parameters: &Ordered<ParameterSpec>,
@@ -102,7 +100,6 @@ impl<'a> Evaluator<'a> {
         self.top("functions").then(head)
     }
 
-    /// Returns the place of the parameter `name`.
     pub(super) fn parameter(&self, name: &str) -> SuitePath<'_> {
         self.top("parameters").then(name)
     }
@@ -137,8 +134,7 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// Place of a value in a suite file. Its methods evaluate the text of the value, or create
-/// diagnostics at this place.
+/// Place of a value in a suite file, which evaluates the value and creates diagnostics.
 #[derive(Clone)]
 pub(crate) struct SuitePath<'a> {
     pub(crate) evaluator: &'a Evaluator<'a>,
@@ -150,8 +146,7 @@ impl SuitePath<'_> {
         Self { path: self.path.then(step), ..*self }
     }
 
-    /// Returns the place of value number `i` if the setting at this place is a list of
-    /// `alternatives`, and otherwise this place.
+    /// Returns the place of value number `i` of a list of `alternatives`; otherwise this place.
     pub(crate) fn alternative<T>(&self, alternatives: &OneOrMany<T>, i: usize) -> Self {
         if alternatives.is_listed() { self.then(i) } else { self.clone() }
     }
@@ -265,8 +260,7 @@ impl SuitePath<'_> {
         Err(self.diagnostic(&message).with_label(label))
     }
 
-    /// Returns the text of the key `because` in the map at this place. An error message names the
-    /// `stated` value that needs the reason. Refuses an empty reason.
+    /// Returns the text of the key `because`, which must give a reason for the `stated` value.
     pub(crate) fn because(&self, stated: &str, text: &str) -> Result<String, Diagnostic> {
         let text = text.trim();
         if !text.is_empty() {
@@ -303,8 +297,7 @@ impl SuitePath<'_> {
         Err(self.diagnostic(message).with_label(&format!("expected {wanted}")))
     }
 
-    /// Returns a diagnostic about a part of the formula at this place, or of a function that it
-    /// calls.
+    /// Returns a diagnostic about a part of this formula, or of a function that it calls.
     fn in_text(&self, error: &FormulaError) -> Diagnostic {
         let Self { evaluator, path } = self;
         let function = error.within.as_ref().and_then(|name| evaluator.head_of(name));
@@ -329,8 +322,7 @@ impl SuitePath<'_> {
         with_help(self.diagnostic_at_key(&error.message), error)
     }
 
-    /// Returns a diagnostic about an invalid number at this place, with the parameters of its
-    /// formula.
+    /// Returns a diagnostic about an invalid number, with the parameters of its formula.
     pub(crate) fn unusable(&self, text: &NumberText, message: &str, label: &str) -> Diagnostic {
         let read = self.evaluator.read_by(text);
         let read: Vec<String> =
@@ -388,14 +380,12 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. If a formula is infinite or NaN, each parameter in
-/// turn is replaced by these values and by its absolute value, to find the parameter that is the
-/// cause.
+/// Values for which most formulas are finite. They replace each parameter in turn, to find the
+/// cause of an infinite or undefined formula.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// Returns names and values of the parameters that a formula uses, directly or through
-    /// functions.
+    /// Returns the parameters that a formula uses, directly or through functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula = bind(text, &self.scope, &[]);
         let uses = formula.map(|formula| formula.uses().clone()).unwrap_or_default();
@@ -418,9 +408,8 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Refuses a suite to which one of the entries applies. Each entry consists of a flag that is
-    /// true if it applies, the keys of the value from the top of the file, and the text for the
-    /// `diagnostic`. The diagnostic is that of the first entry that applies.
+    /// Refuses a suite to which an entry applies. An entry is a flag, the keys of the value from
+    /// the top of the file, and the text for `diagnostic`.
     pub(crate) fn refuse_first(
         &self,
         entries: &[(bool, &str, &str)],

@@ -52,8 +52,7 @@ impl Evaluator<'_> {
         self.heads.iter().find(|head| name_in(head) == function)
     }
 
-    /// Declares the table `name` and returns its text. If the table depends on a parameter, also
-    /// returns the value of the table at this parameter.
+    /// Declares a table and returns its text, and its value if it depends on a parameter.
     pub(super) fn declare_table(
         &mut self,
         name: &str,
@@ -84,8 +83,7 @@ impl Evaluator<'_> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Returns an evaluator in which the parameter `name` is a free variable. Functions and later
-    /// parameters may depend on this variable.
+    /// Returns an evaluator in which the parameter `name` is a free variable.
     pub(crate) fn with_free(
         &self,
         name: &str,

@@ -43,8 +43,7 @@ pub(crate) struct ExpectSpec {
 }
 
         impl ExpectSpec {
-            /// Returns the stated bounds on measured quantities, in the order of
-            /// [`CaseFigure::ALL`].
+            /// Returns the stated bounds, in the order of [`CaseFigure::ALL`].
             pub(crate) fn bounds(&self) -> Vec<(CaseFigure, &NumberText)> {
                 let bounds = [$((CaseFigure::$member, &self.$key)),+];
                 bounds.into_iter().filter_map(|(figure, text)| Some((figure, text.as_ref()?))).collect()

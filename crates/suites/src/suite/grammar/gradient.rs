@@ -43,8 +43,7 @@ impl GradientSpec {
         }
     }
 
-    /// Returns a convergence study with the same problem and levels, for `methods`. Only the final
-    /// state of a run is used.
+    /// Returns a convergence study of the same problem, judged at the end of the run only.
     pub(crate) fn convergence(&self, methods: Vec<MethodSpec>) -> ConvergenceSpec {
         let run = RunSpec { instants: Some(NumberText::Number(1.0)), ..self.run.clone() };
         ConvergenceSpec {

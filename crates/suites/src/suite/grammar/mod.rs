@@ -75,18 +75,12 @@ pub(crate) use truth::{ExactSpec, ManufacturedSpec};
 
 use serde::Deserialize;
 
-/// The keys of a suite, by kind of study.
 #[derive(Debug, Clone)]
 pub(crate) enum SuiteSpec {
-    /// Convergence study: errors on levels of increasing refinement.
     Convergence(Box<ConvergenceSpec>),
-    /// Internal-force study: force on a node while a particle moves past the node.
     InternalForce(Box<InternalForceSpec>),
-    /// Stability study: whether the energy of runs stays bounded, and up to which parameter value.
     Stability(Box<StabilitySpec>),
-    /// Gradient study: derivatives that a differentiable solver returns.
     Gradient(Box<GradientSpec>),
-    /// Spectrum study: phase speed and damping of waves.
     Spectrum(Box<SpectrumSpec>),
 }
 

@@ -6,8 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde::de::value::{Error, StrDeserializer};
 
-/// Required keys and their sample values. A name `owner.key` restricts the sample to the keys of
-/// this owner.
+/// Required keys and their sample values; `owner.key` is only for keys of this owner.
 pub(crate) const SAMPLES: &[(&str, &str)] = &[
     // Every study.
     ("suite", "my-suite"),
@@ -116,9 +115,6 @@ pub(crate) const SAMPLES: &[(&str, &str)] = &[
 
 impl SuiteSpec {
     /// Parses the keys of a suite. The error for a missing key shows a sample value.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         match StudyName::of(source)? {
             StudyName::Convergence => read(source, "convergence").map(Self::Convergence),
@@ -133,10 +129,6 @@ impl SuiteSpec {
 }
 
 impl ConvergenceSpec {
-    /// Parses the keys of a convergence study.
-    ///
-    /// # Errors
-    /// The first error in the file, with its position.
     pub(crate) fn read(source: &Source) -> Result<Self, Diagnostic> {
         read(source, "convergence")
     }
@@ -154,8 +146,7 @@ impl StudyName {
     }
 }
 
-/// Adds help to the error about an unknown key of a spectrum study, if the key would make the
-/// particles irregular.
+/// Explains an unknown key of a spectrum study that would make the particles irregular.
 fn with_regular_particles(diagnostic: Diagnostic) -> Diagnostic {
     let is_irregular = ["perturb", "seed", "extra"]
         .iter()

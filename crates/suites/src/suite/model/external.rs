@@ -60,8 +60,7 @@ impl ConvergencePlan {
         plan
     }
 
-    /// Sets the requirements of `run --gate` on a case. An expectation of the suite remains, unless
-    /// `terms` replace it.
+    /// Sets the requirements of `run --gate` on a case, unless the suite states an expectation.
     fn gate(&self, case: &mut Case, solver: ExternalMethod<'_>, terms: &GateTerms) {
         let has_terms = terms.order.is_some() || terms.error_below.is_some();
         if case.expectation.is_some() && terms.skip.is_none() && !has_terms {
@@ -116,8 +115,7 @@ impl ConvergencePlan {
         }
     }
 
-    /// Returns the theoretical order on this problem for a solver with this formal order, and the
-    /// reason. `None` if an axis other than space is refined, unless the suite states the order.
+    /// Returns the required order and its reason; `None` if no order on the refined axis is known.
     fn required_order(&self, formal_order: f64) -> Option<(f64, String)> {
         let is_gradient = self.of.is_stress() || self.of.needs_deformation_gradient();
         let (of_solver, reason) = if is_gradient && formal_order > 1.0 {
@@ -137,9 +135,8 @@ impl ConvergencePlan {
         }
     }
 
-    /// Returns the smallest `error_below` among the suite's own expectations; `None` if one of them
-    /// expects a verdict. Entries with `error_above` are ignored, because they describe methods
-    /// that fail.
+    /// Returns the smallest `error_below` of the suite's own methods; `None` if a verdict is
+    /// expected. Entries with `error_above` describe methods that fail.
     fn smallest_own_bound(&self) -> Option<f64> {
         let expectations = || self.cases.iter().filter_map(|case| case.expectation.as_ref());
         let bound = |expectation: &Expectation| {

@@ -1,5 +1,4 @@
-//! Methods of a suite, including external solvers, and the accuracy that `run --gate` may require
-//! of external solvers.
+//! Methods of a suite, and the accuracy that `run --gate` may require of external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
 use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, VolumeName};

@@ -171,8 +171,7 @@ impl ConvergencePlan {
         self.exact.is_some() || self.conduction.is_some()
     }
 
-    /// Whether there is nothing to compare with: no formulas, no FEM reference and no fine-grid
-    /// reference. A reference with shorter steps reveals only the error of the time step.
+    /// Whether nothing reveals the whole error. Shorter steps reveal only that of the time step.
     pub(crate) fn is_truthless(&self) -> bool {
         let has_fine_grid = matches!(self.same_method, Some(SameMethod::FineGrid(_)));
         !self.has_formulas() && self.reference.is_none() && !has_fine_grid

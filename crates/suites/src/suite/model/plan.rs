@@ -109,8 +109,7 @@ impl StudyPlan {
         })
     }
 
-    /// Returns the study with an external solver in place of its methods. The solver must meet the
-    /// requirements `terms`, if any. `None` if the study examines the internals of a method.
+    /// Returns the study with an external solver; `None` if it examines the internals of a method.
     pub(super) fn of_external(
         &self,
         solver: ExternalMethod<'_>,

@@ -85,8 +85,7 @@ impl LevelPlan {
         (scene.to[axis] - scene.from[axis]) * per_axis.unwrap_or(1) as f64 / self.h
     }
 
-    /// If there are more nodes or particles than [`MOST_POINTS`], returns the word `nodes` or
-    /// `particles` and their number.
+    /// Returns `nodes` or `particles` and their number, if there are more than [`MOST_POINTS`].
     pub(crate) fn too_large(self, scene: &Scene) -> Option<(&'static str, f64)> {
         let amounts = [("nodes", nodes(scene, self.h)), ("particles", self.particles(scene))];
         amounts.into_iter().find(|(_, amount)| *amount > MOST_POINTS || amount.is_nan())
@@ -96,9 +95,8 @@ impl LevelPlan {
 /// Maximum number of particles per level, and of nodes per level.
 pub(crate) const MOST_POINTS: f64 = 5e7;
 
-/// Minimum ratio of the cells of a fine-grid reference run to the cells of the finest level. For a
-/// second-order method, the error of the reference run is then 1/16 of the error on the finest
-/// level.
+/// Minimum ratio of the cells of a fine-grid reference to those of the finest level. At order 2,
+/// the error of the reference is then 1/16.
 pub(crate) const FINE_GRID: u64 = 4;
 
 /// The spacing that a reference run of the same method reduces.

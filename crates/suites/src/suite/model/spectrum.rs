@@ -73,8 +73,7 @@ impl SpectrumPlan {
         LatticeEdits { shift: vec![self.shift], ..LatticeEdits::default() }
     }
 
-    /// Returns the case that predicts the results of the external solver `name`: the case that the
-    /// suite assigns to the solver, otherwise the case with the same name.
+    /// Returns the case that predicts the solver `name`: as assigned, or with the same name.
     fn case_of(&self, name: &str) -> Option<&SpectrumCase> {
         let stated = self.solvers.iter().find(|(solver, _)| solver == name);
         let case = stated.map_or(name, |(_, case)| case);

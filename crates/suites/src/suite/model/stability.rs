@@ -12,7 +12,6 @@ use std::sync::Arc;
 /// A study of the growth of energy in runs, for several values of one parameter.
 #[derive(Debug, Clone)]
 pub struct StabilityPlan {
-    /// Compiles the set-up of a run.
     pub(crate) setup: CompileSetup,
     /// Name of the swept parameter.
     pub swept: String,
@@ -72,8 +71,7 @@ pub(crate) struct RunSetup {
     pub(crate) level: LevelPlan,
     /// Step lengths (s), repeated cyclically.
     pub(crate) dt: Vec<f64>,
-    /// Share of the stable time step for an automatic `dt`, which is computed once the particles
-    /// exist.
+    /// Share of the stable time step for an automatic `dt`, which is computed with the particles.
     pub(crate) rule: Option<f64>,
     pub(crate) steps: u64,
     pub(crate) full_steps: u64,
@@ -87,10 +85,8 @@ pub(crate) struct RunSetup {
 pub(crate) struct LatticeEdits {
     /// Translation of all particles (m), one number for each axis; empty for none.
     pub(crate) shift: Vec<f64>,
-    /// Offsets of the particles from the lattice.
     pub(crate) scatter: LatticeOffsets,
-    /// Positions of additional particles (m). Except for the position, they equal the first
-    /// particle of the lattice.
+    /// Positions (m) of additional particles, which otherwise equal the first particle.
     pub(crate) extra: Vec<Vec<f64>>,
 }
 

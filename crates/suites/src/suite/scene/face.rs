@@ -28,8 +28,7 @@ impl SceneFace {
     }
 }
 
-/// Returns the index in [`FACES`] of the face called `name`. An error points to the key at `path`
-/// if `is_key` is true, otherwise to the value at `path`.
+/// Returns the index in [`FACES`]. An error points to the key or to the value at `path`.
 pub(crate) fn face(
     path: &SuitePath<'_>,
     name: &str,

@@ -29,8 +29,7 @@ impl LatticeOffsets {
     }
 }
 
-/// Returns the corners (m) of the box to fill with particles: the body itself if it is a box,
-/// otherwise whole cells of the grid of `scene`, of size `h`.
+/// Returns the corners (m) of the body if it is a box, otherwise those of whole grid cells.
 pub(crate) fn lattice_ends(body: &Scene, scene: &Scene, h: f64) -> (Vec<f64>, Vec<f64>) {
     let node = |axis: usize, x: f64, round: fn(f64) -> f64| {
         let origin = grid_axis(scene, axis, h).0;
@@ -53,9 +52,8 @@ pub(crate) fn is_vacant(scene: &Scene, h: f64, per_axis: usize) -> bool {
     })
 }
 
-/// Whether `holds` returns true for any particle of a `body` with a free surface. The arguments of
-/// `holds` are the particle position (m) and the particle's share of a lattice cell. The grid of
-/// `scene` has cells of size `h`.
+/// Whether `holds` returns true for a particle of a `body` with a free surface, given its position
+/// (m) and its share of a lattice cell.
 pub(crate) fn any_particle(
     body: &Scene,
     scene: &Scene,

@@ -1,7 +1,4 @@
 //! The scene of a suite: the body with its conditions and loads.
-//!
-//! Each load and each boundary condition has one file with its keys, their checks, and the
-//! conversions for the solver and the exact solution.
 
 pub(crate) mod boundary;
 pub(crate) mod face;
@@ -71,8 +68,7 @@ pub(crate) const SHORTEST: f64 = 1e-30;
 /// Maximum length of a body (m), because powers of larger lengths overflow.
 pub(crate) const LONGEST: f64 = 1e30;
 
-/// Number of spare grid cells outside a free face, in addition to a tenth of the body length, for
-/// bodies that expand.
+/// Spare grid cells outside a free face, in addition to a tenth of the body length.
 const SPARE_CELLS: f64 = 2.0;
 
 impl Scene {
@@ -158,8 +154,7 @@ impl Scene {
     }
 }
 
-/// Whether a body contains the reference position `label`, up to rounding error. `from` and `to`
-/// are the corners of the body or of the bounding box of its `outline` (m).
+/// Whether a body with these corners (m) contains a reference position, up to rounding error.
 pub(crate) fn holds(
     from: &[f64],
     to: &[f64],
@@ -196,8 +191,7 @@ pub(crate) fn cell_size(scene: &Scene, cells: u64) -> f64 {
     (to[0] - from[0]) / cells as f64
 }
 
-/// Returns the number of particles along each axis of a cell; `None` if `ppc` is not the D-th power
-/// of an integer.
+/// Returns the number of particles along each axis of a cell, if `ppc` is a D-th power.
 pub(crate) fn per_axis(ppc: u64, dimension: usize) -> Option<usize> {
     let root = libm::round(libm::pow(ppc as f64, 1.0 / dimension as f64)) as u64;
     (root > 0 && root.checked_pow(dimension as u32) == Some(ppc)).then_some(root as usize)

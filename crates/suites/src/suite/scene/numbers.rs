@@ -1,11 +1,9 @@
-//! Converts formulas and numbers of loads and boundary conditions to functions for the built-in
-//! solver and to numbers for external solvers.
+//! Numbers of loads and boundary conditions, for the built-in and for external solvers.
 
 use crate::exact::formula::Formula;
 use crate::exact::{Region, variables};
 use crate::mpm::input::VectorOfTime;
 
-/// The numbers of a load or of a boundary condition.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct LoadNumbers {
     /// Constants with their keys (SI units).
@@ -58,8 +56,7 @@ impl NumberField {
         self.formulas.iter().map(Formula::constant).collect()
     }
 
-    /// Returns three flags: whether the value depends on the coordinates, on time, and on the
-    /// displacement, in `d` dimensions.
+    /// Returns whether the value depends on the coordinates, on time, and on the displacement.
     pub(crate) fn depends_on(&self, d: usize) -> [bool; 3] {
         let reads = |from: usize, to: usize| {
             let mut formulas = self.formulas.iter();
@@ -71,8 +68,7 @@ impl NumberField {
         [reads(0, d), reads(d, d + 1), reads(d + 1, 2 * d + 1)]
     }
 
-    /// Returns the value at the reference position `label` (m, D numbers) and time `t` (s), for the
-    /// displacement `u` (m).
+    /// Returns the value at `label` (m, D numbers), time `t` (s) and displacement `u` (m).
     pub(crate) fn at(&self, label: &[f64], t: f64, u: &[f64]) -> Vec<f64> {
         let mut all = label.to_vec();
         all.push(t);
@@ -118,16 +114,14 @@ pub(crate) fn sources(formulas: &[Formula]) -> String {
     formulas.iter().map(Formula::source).collect::<Vec<_>>().join(", ")
 }
 
-/// Writes a scalar or a vector with its unit for reports: `2 m/s2`, `2*g [m/s2]` or
-/// `(0, -g) [m/s2]`.
+/// Writes a scalar or a vector with its unit: `2 m/s2` or `(0, -g) [m/s2]`.
 pub(crate) fn value_with_unit(formulas: &[Formula], unit: &str) -> String {
     let list = sources(formulas);
     let unit = unit_after(&list, unit);
     if formulas.len() == 1 { format!("{list}{unit}") } else { format!("({list}){unit}") }
 }
 
-/// Appends a unit to formulas that are separated by commas. The unit is in brackets unless all
-/// formulas are numbers: `0.1, 0.2 s` or `h/3 [s]`.
+/// Appends a unit, in brackets unless all formulas are numbers: `0.1, 0.2 s` or `h/3 [s]`.
 pub(crate) fn with_unit(text: &str, unit: &str) -> String {
     format!("{text}{}", unit_after(text, unit))
 }

@@ -5,8 +5,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet}
 use std::fmt;
 use std::ops::Range;
 
-/// Maximum length of a text in a diagnostic (characters), because a file may contain very long
-/// keys.
+/// Maximum length of a text in a diagnostic (characters), because keys may be very long.
 const MAX_WORDS: usize = 300;
 
 /// Maximum length of advice (characters), because advice may list many names.
@@ -216,8 +215,7 @@ fn folded(text: &str, most: usize) -> String {
     folded
 }
 
-/// Folds advice. A part of several, such as a command, begins a line of its own, so that it can be
-/// copied.
+/// Folds advice. Each part, such as a command, begins a line of its own.
 fn folded_advice(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();
@@ -253,8 +251,7 @@ fn shortened(words: &str, most: usize) -> String {
     safe
 }
 
-/// Whether `c` is a bidirectional control character. A terminal would display the line in another
-/// order.
+/// Whether `c` is a bidirectional control character.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -59,8 +59,7 @@ impl Place {
     }
 }
 
-/// Returns the byte range, without line break, of the line that contains the character boundary
-/// `offset`.
+/// Returns the byte range of the line that contains `offset`, without its line break.
 pub(crate) fn line_around(text: &str, offset: usize) -> Range<usize> {
     let start = text[..offset].rfind('\n').map_or(0, |at| at + 1);
     let end = text[offset..].find('\n').map_or(text.len(), |at| offset + at);

@@ -57,8 +57,7 @@ pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
 
-/// Function that returns a sample value for a key. Its arguments are the owner of the key (empty
-/// for the whole file) and the key.
+/// Returns a sample value for the owner of a key (empty for the whole file) and the key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
 /// Converts an error of the library to a diagnostic at the same position.
@@ -119,8 +118,7 @@ impl<'a> Fault<'a> {
         Diagnostic::at(self.source.name(), self.source.text(), range, message)
     }
 
-    /// Moves this fault to the first scalar at or after its position, and also returns the text of
-    /// the scalar.
+    /// Moves this fault to the next scalar, and also returns the text of the scalar.
     fn at_first_name(self) -> (Self, &'a str) {
         let scalar = self.source.scalar_from(self.offset);
         let offset = scalar.map_or(self.offset, |scalar| scalar.range.start);
@@ -228,9 +226,8 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// Separates the three texts of a refusal, because the error type of a deserializer holds one
-/// string, to which the YAML library adds a path and a position. A file cannot forge the separator,
-/// because sources with control characters are refused.
+/// Separates the three texts of a refusal in the single string of a deserialization error. Files
+/// have no control characters, so they cannot forge it.
 const FENCE: char = '\u{1f}';
 
 /// Creates the error for a value that is refused during deserialization.

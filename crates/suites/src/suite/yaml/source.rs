@@ -153,8 +153,7 @@ impl Source {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// Returns the byte range of the token at `offset`: a scalar, or one character that starts no
-    /// scalar.
+    /// Returns the byte range of the scalar or of the character at `offset`.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -187,8 +186,7 @@ fn limited(name: &str, reader: impl Read) -> Result<Vec<u8>, Diagnostic> {
     if bytes.len() > MAX_BYTES { Err(too_large(name, None)) } else { Ok(bytes) }
 }
 
-/// Whether the file is a named pipe that may have no writer, so that reading would block. Pipes
-/// that the shell opens for a command have a writer, and the result is false.
+/// Whether the file is a named pipe, which may have no writer. Pipes of the shell have one.
 fn is_named_pipe(path: &Path, metadata: &Metadata) -> bool {
     #[cfg(unix)]
     let is_pipe = std::os::unix::fs::FileTypeExt::is_fifo(&metadata.file_type());

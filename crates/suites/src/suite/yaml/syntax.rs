@@ -4,13 +4,11 @@ use super::{Diagnostic, MAX_NESTING, Place};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A text that is not YAML, with the error of the parser.
 pub(crate) struct InvalidText<'t> {
     pub(crate) name: &'t str,
     pub(crate) text: &'t str,
     /// Offset of the error.
     pub(crate) at: usize,
-    /// Message of the parser.
     pub(crate) problem: &'t str,
     /// End of the last event of the parser (byte offset).
     pub(crate) events_end: usize,
@@ -145,9 +143,8 @@ impl InvalidText<'_> {
         Some(self.events_end + quote)
     }
 
-    /// Whether the error shows that the bracket at `start` is not closed: it is at the end of the
-    /// text, or in a line that is indented at most as much as the line of the bracket. If the whole
-    /// file is in brackets, lines need no indentation.
+    /// Whether the bracket at `start` is not closed: the text ends, or a line has at most its
+    /// indentation. If the whole file is in brackets, lines need no indentation.
     fn shows_unclosed(&self, start: usize) -> bool {
         let Self { text, at, .. } = *self;
         if text[at..].trim().is_empty() {
@@ -184,8 +181,7 @@ impl InvalidText<'_> {
             .with_help(&format!("the `{closing}` is on line {line}, column {column}"))
     }
 
-    /// Finds the brackets at the error. The parser reads at most a few lines ahead of its events,
-    /// so only these lines are searched.
+    /// Finds the brackets at the error, in the lines that the parser reads ahead of its events.
     fn brackets(&self) -> Brackets {
         let Self { text, at, events_end, .. } = *self;
         let mut open = self.brackets.clone();
@@ -269,8 +265,7 @@ fn name_range(text: &str, at: usize) -> Range<usize> {
     at..at + length.max(1)
 }
 
-/// Returns the range of the first unknown escape in the quoted text at `at`; otherwise that of the
-/// quote.
+/// Returns the range of the first unknown escape in the quoted text; otherwise that of the quote.
 fn unknown_escape(text: &str, at: usize) -> Range<usize> {
     let mut escapes = text[at..].match_indices('\\').map(|(offset, _)| at + offset);
     while let Some(offset) = escapes.next() {

@@ -23,8 +23,7 @@ pub(crate) struct Scalar {
 }
 
 impl Scalar {
-    /// Returns the byte range of the value without quotes; `None` if it has escapes or folded
-    /// lines.
+    /// Returns the range of the value without quotes, unless it has escapes or folded lines.
     pub(crate) fn verbatim(&self, text: &str) -> Option<Range<usize>> {
         let quotes = usize::from(self.is_quoted());
         let inside = self.range.start + quotes..self.range.end - quotes;
@@ -68,10 +67,7 @@ impl MapNode {
     }
 }
 
-/// Parses the positions of a text. Returns all scalars in order, and the value of the file.
-///
-/// # Errors
-/// The first violation of a rule, or the reason why the text is not YAML.
+/// Parses the positions of a text: all scalars in order, and the value of the file.
 pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Diagnostic> {
     let offsets = if text.is_ascii() {
         Vec::new()
@@ -105,8 +101,7 @@ pub(crate) fn tree(name: &str, text: &str) -> Result<(Vec<Scalar>, TreeNode), Di
     Ok((builder.scalars, builder.root))
 }
 
-/// Returns the offset of the first directive other than the version of YAML. The positions of the
-/// parser are wrong after some directives.
+/// Returns the offset of the first directive other than `%YAML`, which shifts positions.
 fn directive(text: &str) -> Option<usize> {
     let mut at = 0;
     for line in text.split_inclusive('\n') {
@@ -249,8 +244,7 @@ impl TreeBuilder<'_> {
         Ok(TreeNode::Scalar(self.scalars.len() - 1))
     }
 
-    /// Returns the end of the quoted scalar that starts at offset `start`. The range of the event
-    /// also contains the blanks and the comment that follow.
+    /// Returns the end of a quoted scalar. The range of its event includes a comment.
     fn end_of_quoted(&self, start: usize) -> usize {
         let bytes = self.text.as_bytes();
         let Some(&quote) = bytes.get(start) else { return start };
@@ -266,8 +260,7 @@ impl TreeBuilder<'_> {
         bytes.len()
     }
 
-    /// Returns the offset of the `|` or `>` of a block scalar whose event is at `content`. Only
-    /// blanks, dashes, a colon and comments can precede it after the last event.
+    /// Returns the offset of the `|` or `>` between the last event and the content of a block.
     fn block_indicator(&self, content: usize) -> usize {
         let mut at = self.events_end.min(content);
         for line in self.text[at..content].split_inclusive('\n') {
@@ -280,7 +273,6 @@ impl TreeBuilder<'_> {
         content
     }
 
-    /// Starts a list or map.
     fn open(&mut self, node: OpenNode) -> Result<(), Diagnostic> {
         let start = node.collection.start();
         if self.is_at_key() {
@@ -346,15 +338,12 @@ impl TreeBuilder<'_> {
         matches!(innermost, Some(Collection::Map(_, None)))
     }
 
-    /// Returns the offsets of the open brackets.
     fn brackets(&self) -> impl Iterator<Item = usize> {
         let brackets = self.open.iter().filter(|open| open.is_flow);
         brackets.map(|open| open.collection.start())
     }
 
-    /// Returns the offset of the dash of a block list whose event is at `start`. If the list has
-    /// the indentation of its key, the event is at its first entry, and the dash is in the text
-    /// before.
+    /// Returns the offset of the dash of a block list, whose event may be at its first entry.
     fn dash(&self, start: usize) -> usize {
         let mut line_start = self.events_end.min(start);
         for line in self.text[line_start..start].split_inclusive('\n') {
@@ -377,8 +366,7 @@ impl TreeBuilder<'_> {
             .with_help("put each suite in a file of its own")
     }
 
-    /// Returns the error for an anchor, alias or tag of the value at offset `at`. The indicator `c`
-    /// may precede the value.
+    /// Returns the error for an anchor, alias or tag; the indicator `c` may precede the value.
     fn unneeded(&self, what: &str, c: char, at: usize) -> Diagnostic {
         let is_here = self.text[at..].starts_with(['&', '*', '!']);
         let at = if is_here { at } else { self.text[..at].rfind(c).unwrap_or(at) };

@@ -1,5 +1,4 @@
-//! Checks each level: that it fits into memory, that fixed faces have grid nodes, that the body and
-//! the sets contain particles, and that the time step is valid.
+//! Checks each level: its size, nodes on fixed faces, particles, and time step.
 
 use crate::suite::compile::run::refine::{COARSE_TO_FINE, LevelPaths};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
@@ -14,8 +13,7 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 /// Maximum distance (cells) between a fixed face of the body and the grid face next to it.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuses a level that is too large, has no nodes on a fixed face, has no particle in a set or a
-/// small body, or has an invalid time step.
+/// Refuses levels that are too large, or lack nodes, particles or a valid time step.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -55,9 +53,7 @@ fn vacant(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), D
     Err(path.diagnostic(&message).with_label(label))
 }
 
-/// Refuses a grid whose high face does not coincide with a fixed face of the body, because the
-/// condition applies to the nodes on the grid face. Also refuses a periodic grid whose length is
-/// not the stated period.
+/// Refuses a grid without nodes on a fixed high face, and a periodic grid of another length.
 pub(crate) fn held_faces(
     path: &SuitePath<'_>,
     scene: &Scene,
@@ -114,8 +110,7 @@ fn sets(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
     Ok(())
 }
 
-/// Refuses a reference on an invalid fine grid, or whose states at all instants need too much
-/// memory.
+/// Refuses a reference that is on an invalid fine grid or too large to store.
 fn references(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     let fits_into_memory = |path: &SuitePath<'_>, count: f64, text: &str, what: &str| {
         if count * plan.instants as f64 <= MOST_POINTS {
@@ -146,10 +141,8 @@ struct StatedStep {
     clock: Clock,
 }
 
-/// Checks that every level and the reference have valid time steps. If time is refined, the steps
-/// must decrease from level to level. A run that is compared with a computed reference must have
-/// steps that end at the instants of the reference, with a change of the time step by at most
-/// [`STEP_TOLERANCE`].
+/// Checks the time steps of all levels and of the reference. Refined steps must decrease. Steps
+/// that are compared with a computed reference must end at its instants, up to [`STEP_TOLERANCE`].
 fn refuse_unusable_steps(
     evaluator: &Evaluator<'_>,
     plan: &ConvergencePlan,
@@ -216,8 +209,7 @@ fn finer(path: &SuitePath<'_>, coarse: StatedStep, fine: StatedStep) -> Result<(
     Err(path.diagnostic(&message).with_label(&label))
 }
 
-/// Refuses a number of instants that changes the time step of `case` by more than
-/// [`STEP_TOLERANCE`].
+/// Refuses instants that change the time step of `case` by more than [`STEP_TOLERANCE`].
 fn as_wanted(path: &SuitePath<'_>, case: &Case, step: StatedStep) -> Result<(), Diagnostic> {
     let StatedStep { dt: wanted, clock } = step;
     let is_near = |clock: &Clock| (clock.dt() / wanted - 1.0).abs() <= STEP_TOLERANCE;

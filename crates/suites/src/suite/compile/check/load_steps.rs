@@ -1,5 +1,4 @@
-//! Checks suites that use load steps instead of time steps: refuses keys that need a time, and
-//! loads, boundary conditions and laws that the quasi-static solver does not support.
+//! Refuses keys and features that load steps do not support.
 
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath};
@@ -10,8 +9,7 @@ use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::Diagnostic;
 use crate::verify::Quantity;
 
-/// Refuses suites that combine load steps with keys for time or with features that the quasi-static
-/// solver does not support, or a quasi-static method with time steps.
+/// Refuses keys and features that load steps do not support, and load steps without a number.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,

@@ -1,5 +1,4 @@
-//! Checks that involve several keys: they refuse features that the solvers, the loads or the exact
-//! solution do not support.
+//! Checks that involve several keys.
 
 pub(crate) mod levels;
 pub(crate) mod load_steps;
@@ -30,8 +29,7 @@ pub(crate) struct CompiledStudy<'a> {
 
 type CrossCheck = fn(&CompiledStudy<'_>) -> Result<(), Diagnostic>;
 
-/// Checks that run before the expectations are compiled. If several checks fail, the first one is
-/// reported.
+/// Checks that run before the expectations are compiled, in this order.
 const CROSS_CHECKS: [CrossCheck; 7] = [
     refuse_conditions_unknown_to_fem,
     refuse_law_unknown_to_fem,
@@ -117,8 +115,7 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
     Ok(())
 }
 
-/// Refuses loads that are not allowed in this study. Also refuses the FEM bar (the built-in 1-D
-/// FEM) if it does not implement all loads.
+/// Refuses loads that the study or the built-in 1-D FEM does not support.
 fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, .. } = study;
     let until = plan.cases.iter().map(|case| case.until).fold(0.0, f64::max);
@@ -160,8 +157,7 @@ fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagn
     }
 }
 
-/// Refuses a stress component that a body of this dimension does not have, and an out-of-plane
-/// stress that the solver does not compute.
+/// Refuses a stress component that the body does not have or the solver does not compute.
 fn refuse_unknown_stress(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, plan, .. } = study;
     let (of, d, scene) = (plan.of, plan.scene.dimension(), &plan.scene);

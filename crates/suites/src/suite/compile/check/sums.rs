@@ -1,5 +1,4 @@
-//! If the error of a sum over the body (such as the energy) is measured, checks that every method
-//! and the exact solution define this sum.
+//! Checks that methods and exact solution define a judged sum over the body, such as the energy.
 
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
@@ -12,11 +11,7 @@ use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// Returns the sum whose error is measured, with its exact value; `None` if the suite measures
-/// another quantity.
-///
-/// # Errors
-/// The reason why a method or the exact solution does not define the sum.
+/// Returns the judged sum with its exact value; `None` if the suite judges another quantity.
 pub(crate) fn judged(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -111,8 +106,7 @@ fn stored_energy(
     Ok(())
 }
 
-/// Refuses the energy as measured sum for methods whose internal force is not the derivative of an
-/// energy.
+/// Refuses an energy for methods whose internal force does not derive from one.
 fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let message = "the force of `volume: averaged` does not derive from a stored energy";
     let help = "use `particle` to judge an energy";
@@ -124,8 +118,7 @@ fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
     })
 }
 
-/// Refuses the key `key` of the first MPM entry in `methods` for which `is_meant` returns true,
-/// with this message and help.
+/// Refuses `key` of the first MPM entry in `methods` for which `is_meant` returns true.
 fn refuse_setting(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -199,8 +192,7 @@ fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
     path.diagnostic(&message)
 }
 
-/// Refuses a consistent mass matrix if the error of a wall reaction is measured, because the
-/// reaction would include the inertia of nodes away from the wall.
+/// Refuses a consistent mass matrix: a reaction would include the inertia of other nodes.
 fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
     let help = "use `lumped` to judge a reaction";

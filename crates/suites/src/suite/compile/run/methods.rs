@@ -30,7 +30,6 @@ pub(crate) struct NamedMethod {
 }
 
 impl NamedMethod {
-    /// Returns the path of the entry of `methods`.
     pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>) -> SuitePath<'a> {
         evaluator.top("methods").then(self.entry)
     }
@@ -43,8 +42,7 @@ pub(crate) struct CaseLimit {
 }
 
 /// Compiles the entries of `methods`, one method for each combination of list values. `material`
-/// determines the default law of FEM cases. Refuses an empty list, duplicate methods and too many
-/// cases.
+/// determines the default law of FEM cases.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
@@ -253,13 +251,11 @@ fn lengths(spec: &MethodSpec) -> Vec<usize> {
     }
 }
 
-/// Returns the number of combinations of list values.
 fn count(spec: &MethodSpec) -> usize {
     lengths(spec).into_iter().fold(1, usize::saturating_mul)
 }
 
-/// The number of a combination of list values, from which one value after the other is read. The
-/// values of the list that is read first vary fastest.
+/// The number of a combination. The values of the list that is read first vary fastest.
 struct Combination(usize);
 
 impl Combination {
@@ -299,14 +295,12 @@ fn named(
     Ok(named)
 }
 
-/// Makes equal names of different methods unique by adding the settings in which the methods
-/// differ. Unique names do not change; equal methods keep equal names.
+/// Adds settings to equal names of different methods until all names are unique.
 fn tell_apart(drafts: &mut [MethodDraft]) {
     while say_differences(drafts) {}
 }
 
-/// Adds settings to equal names, and returns whether a name has changed. A new name may equal the
-/// name of another method, so the caller repeats the call until no name changes.
+/// Adds settings to equal names, and returns whether a name has changed.
 fn say_differences(drafts: &mut [MethodDraft]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {

@@ -1,5 +1,4 @@
-//! Compiles levels, time steps, methods and cases. Lists in the suite give one case for each
-//! combination of their values.
+//! Compiles levels, time steps, methods and cases.
 
 pub(crate) mod methods;
 pub(crate) mod reference;
@@ -28,10 +27,8 @@ const MOST_LOAD_STEPS: f64 = 1e5;
 /// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
-/// Ends, levels and particles of the runs of a study.
 pub(crate) struct RunPlan<'a> {
-    /// Ends of the runs, each as the text for case names and the value (s, or number of load
-    /// steps).
+    /// Ends of the runs: the text for case names, and the value (s, or number of load steps).
     pub(crate) until: Vec<(String, f64)>,
     pub(crate) refine: RefinePlan,
     /// Paths of the levels in the file.
@@ -54,7 +51,6 @@ pub(crate) fn plan<'a>(
     Ok(RunPlan { until, refine, levels, instants, scatter: scatter(evaluator, spec, scene)? })
 }
 
-/// Compiles the ends of the runs.
 fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, Diagnostic> {
     match (&run.until, &run.load_steps) {
         (Some(spec), None) => distinct(&evaluator.top("run.until"), spec, |path, text| {
@@ -79,8 +75,7 @@ fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, 
     }
 }
 
-/// Reads each entry of the list at `path` as a name, a value, and the message about a second entry
-/// with this name.
+/// Reads entries as a name, a value, and the message about a second entry with this name.
 fn distinct(
     path: &SuitePath<'_>,
     spec: &OneOrMany<NumberText>,
@@ -98,17 +93,14 @@ fn distinct(
     Ok(ends)
 }
 
-/// Maximum offset of a particle from its lattice point, as a fraction of the particle spacing. At
-/// this offset, the particle is halfway to the next lattice point.
+/// Maximum offset of a particle, as a fraction of the particle spacing: halfway to the next one.
 const MOST_OFFSET: f64 = 0.5;
 
-/// Maximum random offset, as a share of the spacing, if a face carries a load. The particle layer
-/// at the face then stays separate from the next layer.
+/// Maximum random offset at a loaded face, where the outermost layer must stay separate.
 const MOST_OFFSET_AT_LOADS: f64 = 0.25;
 
 const SEED: u64 = 1;
 
-/// Compiles the offsets of particles from their lattice.
 fn scatter(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -184,8 +176,7 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// Returns the cases of one method, for all run ends and all solutions to compare with. A case name
-/// includes the end or the solution only if there are several.
+/// Returns the cases of one method. Names include the end and the solution if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Case> {
     let mut cases = Vec::new();
     for (text, until_value) in until {
@@ -292,8 +283,7 @@ fn possible(
     }
 }
 
-/// Returns the reason why walls of the scene exclude a consistent mass matrix; `None` if they do
-/// not.
+/// Returns the reason why walls exclude a consistent mass matrix; `None` if they do not.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.kind().against_consistent_mass)
 }

@@ -1,5 +1,4 @@
-//! Compiles `reference`: a fine FEM computation, or a run by the same method with a much smaller
-//! spacing.
+//! Compiles `reference`: a fine FEM computation, or a finer run by the same method.
 
 use super::RunPlan;
 use super::refine::{STEP_OF_EACH_H, step_formula};
@@ -11,7 +10,6 @@ use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{Axis, Clock};
 
-/// Compiles the FEM reference and the same-method reference, if the suite states them.
 pub(crate) fn references(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -51,9 +49,8 @@ fn fem(
     }))
 }
 
-/// Minimum ratio of the time step on the finest level to the step of the same-method reference run.
-/// For a second-order method, the error of the reference run is then 1/64 of the error on the
-/// finest level.
+/// Minimum ratio of the time step on the finest level to that of the reference run. At order 2, the
+/// error of the reference is then 1/64.
 const SHORTER: f64 = 8.0;
 
 fn same_method(
@@ -126,8 +123,7 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level, because
-/// the error on such a grid is not negligible.
+/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level.
 fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(), Diagnostic> {
     if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
         return Ok(());
@@ -161,8 +157,7 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies whose particles form no lattice, because the fine-grid reference is interpolated
-/// on a lattice.
+/// Refuses bodies without a lattice of particles, on which the reference is interpolated.
 fn one_lattice(
     path: &SuitePath<'_>,
     spec: &ConvergenceSpec,

@@ -1,5 +1,4 @@
-//! Compiles the refinement plan. The refined key is the one with a list of values. Time steps are
-//! stated in the suite, or are a fraction of the stable time step.
+//! Compiles the refinement plan. The refined key is the one with a list of values.
 
 use crate::exact::formula::Formula;
 use crate::suite::evaluator::{Evaluator, SuitePath};
@@ -10,7 +9,6 @@ use crate::suite::scene::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 
-/// Paths of a level in the file.
 pub(crate) struct LevelPaths<'a> {
     pub(crate) size: SuitePath<'a>,
     pub(crate) dt: SuitePath<'a>,
@@ -80,8 +78,7 @@ fn is_list(spec: Option<&OneOrMany<NumberText>>) -> bool {
     spec.is_some_and(|list| list.as_slice().len() > 1)
 }
 
-/// Returns the refined axis. At most one key is a list, except that `cells` and `dt` may both have
-/// one entry per level.
+/// Returns the refined axis. At most one key is a list, except for `cells` with `dt`.
 fn axis(evaluator: &Evaluator<'_>, spec: &RefineSpec) -> Result<Axis, Diagnostic> {
     let path = evaluator.top("refine");
     let [cells, dt, ppc] = [Some(&spec.cells), spec.dt.as_ref(), spec.ppc.as_ref()].map(is_list);
@@ -217,8 +214,7 @@ pub(crate) fn stable_share(
     }
 }
 
-/// Returns the time step (s) as a formula of h. For an automatic step, this is a preliminary value:
-/// the final step is computed when the particles exist.
+/// Returns the time step (s) as a formula of h, which is preliminary for an automatic step.
 pub(crate) fn step_formula(
     path: &SuitePath<'_>,
     spec: &StepSpec,

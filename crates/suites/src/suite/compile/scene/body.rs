@@ -123,8 +123,7 @@ fn both_ends(path: &SuitePath<'_>, holds: &[Arc<dyn BoundaryCondition>]) -> Resu
     Ok(())
 }
 
-/// Sets the condition of free faces to [`FaceAtRest`], for a rigid body. Refuses a list of bodies,
-/// and keys that fix, load or move the body. `path` is the map that contains the body.
+/// Sets free faces of a rigid body to [`FaceAtRest`]. Refuses keys that hold, load or move it.
 fn settle(
     path: &SuitePath<'_>,
     spec: &SceneSpec,

@@ -11,7 +11,6 @@ use crate::suite::scene::holds;
 use crate::suite::scene::load::{EffectName, LoadSpec};
 use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// Compiles the material at `path`.
 pub(super) fn material(
     path: &SuitePath<'_>,
     spec: &MaterialSpec<NumberText>,
@@ -192,20 +191,17 @@ pub(super) fn stress(
     Ok(InitialStress::new(components))
 }
 
-/// Lists the names of the stress components in this number of dimensions. For a law that `yields`,
-/// these include the out-of-plane normal stresses.
+/// Lists the stress components in this dimension, with all normal ones for a law that `yields`.
 fn known(dimension: usize, yields: bool) -> String {
     let inside = COMPONENTS.iter().filter(|(_, i, j)| *i.max(j) < dimension || (yields && i == j));
     let names: Vec<String> = inside.map(|(name, ..)| format!("`{name}`")).collect();
     format!("components: {}", names.join(", "))
 }
 
-/// Number of positions along each axis at which the yield condition is checked, in 1-D, 2-D and
-/// 3-D.
+/// Number of positions along each axis of the yield check, in 1-D, 2-D and 3-D.
 const YIELD_POSITIONS: [usize; 3] = [1025, 65, 17];
 
-/// Refuses an initial stress outside the yield surface. The positions are a regular grid that
-/// contains the corners of the bounding box. The solver checks each particle.
+/// Refuses an initial stress outside the yield surface at the points of a regular grid.
 pub(super) fn refuse_outside_yield_surface(
     path: &SuitePath<'_>,
     initial_stress: &InitialStress,
@@ -248,8 +244,7 @@ pub(super) fn refuse_outside_yield_surface(
     path.refuse_key(&message, "f must not be positive")
 }
 
-/// Refuses a feature that the law of `material` does not support. In the message, `lacks` follows
-/// the name of the law.
+/// Refuses a feature that the law does not support; `lacks` follows the name of the law.
 fn admit(
     path: &SuitePath<'_>,
     material: &MaterialPlan,

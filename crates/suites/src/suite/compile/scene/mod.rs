@@ -96,9 +96,8 @@ fn contact(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<Option<f64>, Diagno
     path.zero_or_positive(&contact.friction, "the coefficient of friction").map(Some)
 }
 
-/// Checks that the grid contains the body. Fixed and periodic faces must lie on grid faces, because
-/// conditions apply to grid nodes. If the body may start deformed, the grid period is checked later
-/// against the period of the motion.
+/// Refuses a grid that does not contain the body or does not end at its fixed faces. The period of
+/// a body that may start deformed is checked later.
 fn on_grid(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -166,8 +165,7 @@ fn together(
     Ok(scene)
 }
 
-/// Frees the faces of a body that are not on the bounding box of all bodies, because walls exist
-/// only there.
+/// Frees the faces of a body that are not on the bounding box of all bodies, where walls are.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;

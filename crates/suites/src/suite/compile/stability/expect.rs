@@ -21,8 +21,7 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect` to one expectation for each of the `rows`, each given by its
-/// parameter values.
+/// Compiles entry `i` of `expect` to one expectation for each row of parameter values.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
@@ -73,8 +72,7 @@ fn row(
     })
 }
 
-/// Refuses an entry without expectations. Also refuses bounds on single runs if the study
-/// determines a stability limit, and a bound on this limit otherwise.
+/// Refuses an entry without expectations, or with those of another kind of result.
 fn refuse_idle(
     path: &SuitePath<'_>,
     spec: &StabilityExpectSpec,
@@ -119,8 +117,7 @@ fn wanted(path: &SuitePath<'_>, spec: &FigureSpec) -> Result<FigureBounds, Diagn
     Ok(FigureBounds { is, above, below })
 }
 
-/// Describes entry `spec` of `expect`. `expected` are its expectations for `rows`, which contain
-/// the value of the swept parameter.
+/// Describes entry `spec` of `expect`, with its expectations for `rows`.
 pub(crate) fn summary(
     spec: &StabilityExpectSpec,
     expected: &[StabilityExpectation],
@@ -173,8 +170,7 @@ fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f6
 /// Maximum number of rows for which the values of a formula are written out.
 const MOST_VALUES: usize = 3;
 
-/// Returns a bound in words. If a formula has the same value for all rows, the value follows the
-/// formula. If it has a few values, they replace the formula.
+/// Returns a bound in words: a formula with its common value, or a few values.
 fn with_values(formula: &str, values: &[f64], rows: &[Vec<(&str, f64)>]) -> String {
     if formula.parse::<f64>().is_ok() || values.len() != rows.len() {
         return formula.to_owned();

@@ -1,10 +1,4 @@
 //! Compiles a stability study: a parameter is swept, and every run gets a verdict.
-//!
-//! ```text
-//! setup    parameter values -> the set-up of a run, its scales and bounds
-//! expect   the expectations
-//! requested   quantities that are measured only on request
-//! ```
 
 pub(crate) mod expect;
 mod requested;
@@ -117,8 +111,7 @@ fn sought(
     path.then("to").expected("a larger number", &message)
 }
 
-/// Compiles the methods, which must take time steps of the built-in MPM. Refuses methods that the
-/// study or the scene does not support.
+/// Compiles the methods, which must take time steps of the built-in MPM.
 fn time_stepping_methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],

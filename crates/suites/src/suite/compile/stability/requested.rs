@@ -42,8 +42,7 @@ fn refuse_several_bodies(
     Err(path.diagnostic(&message))
 }
 
-/// Whether a requested quantity needs the null space of the grid. Refuses several bodies, for which
-/// the null space is not implemented.
+/// Whether a requested quantity needs the null space of the grid. Refuses several bodies.
 pub(crate) fn null_space(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

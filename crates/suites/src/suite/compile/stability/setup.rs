@@ -1,6 +1,4 @@
-//! Computes the set-up of a run from parameter values.
-//!
-//! Any parameter can be swept, so the whole specification is evaluated again for every value.
+//! Computes the set-up of a run from parameter values. Any parameter can be swept.
 
 use super::requested;
 use crate::suite::compile::check::levels;
@@ -18,7 +16,6 @@ use crate::verify::Scales;
 /// Default initial perturbation amplitude for a run in which the particles do not move.
 const PERTURBATION: f64 = 1e-9;
 
-/// A suite that can be evaluated for other values of its parameters.
 #[derive(Clone)]
 pub(crate) struct SetupTemplate {
     pub(crate) source: Source,
@@ -169,8 +166,7 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| path.positive(text, "the size of the perturbation"))
 }
 
-/// Refuses a run without particle motion for bodies that have an initial stress or motion, carry
-/// loads, or are in contact.
+/// Refuses a frozen run of bodies that are loaded, moving, stressed or in contact.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -199,8 +195,7 @@ const STABLE_BELOW: f64 = 1e3;
 /// Default energy, relative to the initial energy, above which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Returns the values by which measured quantities are divided, and the energy bounds, for runs of
-/// `scene`.
+/// Returns the divisors of measured quantities, and the energy bounds.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

@@ -1,5 +1,4 @@
-//! Compiles heat problems with a stated temperature, for moving bodies and bodies at rest, and
-//! checks that the methods support heat.
+//! Compiles heat problems with a stated temperature, of bodies that move or are at rest.
 
 use super::tolerance::{if_rounded, tolerance};
 use crate::exact::Motion;
@@ -97,8 +96,7 @@ fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagn
     })
 }
 
-/// Compiles the heat problem of `scene` with the temperature at `path`, which is checked later.
-/// Returns `None` if the suite has neither heat nor temperature.
+/// Compiles the heat problem with the temperature at `path`; `None` without heat.
 pub(crate) fn problem(
     path: &SuitePath<'_>,
     temperature: Option<&NumberText>,

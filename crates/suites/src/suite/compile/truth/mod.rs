@@ -1,7 +1,4 @@
-//! Compiles the exact solution or equilibrium of a suite, and checks that it solves the problem of
-//! the suite.
-//!
-//! A stated equilibrium is compared with the state at the end of the run.
+//! Compiles the exact solution or equilibrium of a suite, and checks it.
 
 mod conduction;
 mod interface;
@@ -20,18 +17,15 @@ use conduction::ConductionInputs;
 use places::{JudgedPlaces, places, without_distant_faces};
 use tolerance::{TOLERANCE, no_solution, tolerances, violated};
 
-/// Maximum number of operations in a formula of a solution, because the check before a run
-/// evaluates the formula about 30000 times with all its derivatives.
+/// Maximum number of operations in a formula, which is evaluated about 30000 times.
 const MOST_OPERATIONS: u64 = 5000;
 
-/// Solution that a suite states, and the positions at which the error is judged.
 pub(crate) struct StatedTruth {
     /// Problem of a body that moves, or is in equilibrium.
     pub(crate) exact: Option<Problem>,
     /// Heat problem of a body at rest.
     pub(crate) conduction: Option<Conduction>,
-    /// Sampled positions and largest terms of the exact motion of a single body. For several
-    /// bodies, they are computed together with the conditions on the common faces.
+    /// Sampled positions and largest terms of the exact motion; `None` for several bodies.
     pub(crate) survey: Option<Survey>,
     pub(crate) places: JudgedPlaces,
 }
@@ -101,8 +95,7 @@ fn exact(
     Ok(Some(Problem { bodies, ..problem }))
 }
 
-/// Refuses keys that need a solution in a suite without one, and a solution that violates its
-/// problem. `survey` is computed from the motion of a single body; `None` for several bodies.
+/// Refuses keys that need a solution in a suite without one, and a wrong solution.
 pub(crate) fn refuse_unfit(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -118,9 +111,7 @@ pub(crate) fn refuse_unfit(
     refuse_violated(evaluator, spec, plan, survey)
 }
 
-/// Refuses a solution that violates its problem: the equation, a condition on a face or the initial
-/// conditions. `survey` contains sampled positions and the largest terms of a single body. For
-/// several bodies, these are computed here.
+/// Refuses a solution that violates its problem. `survey` is `None` for several bodies.
 fn refuse_violated(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -295,8 +286,7 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// Returns a face with its condition. For a face with a load, this is the condition that the load
-/// imposes.
+/// Returns a face with its condition, or with that of its load.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -362,8 +352,7 @@ fn refuse_equilibrium_with(
     }
 }
 
-/// Refuses prescribed velocities in an equilibrium study, because the velocity at the end of a run
-/// does not determine the final position.
+/// Refuses prescribed velocities, because they do not determine the final position.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = evaluator.top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {

@@ -15,16 +15,13 @@ use crate::verify::{JudgedBox, format_number};
 /// Help for a box in a suite that states no motion.
 const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
-/// Positions at which the error is judged.
 pub(crate) struct JudgedPlaces {
-    /// The box to which errors are restricted.
     pub(crate) within: Option<JudgedBox>,
     /// The observed point (m).
     pub(crate) observe: Option<Vec<f64>>,
 }
 
-/// Compiles the box of `judge.within` and the observed point, if the suite has them. `exact` is the
-/// problem of a stated solution.
+/// Compiles the box of `judge.within` and the observed point, if the suite has them.
 pub(crate) fn places(
     evaluator: &Evaluator<'_>,
     spec: &ConvergenceSpec,
@@ -105,12 +102,8 @@ fn refuse_outside(path: &SuitePath<'_>, scene: &Scene, place: &[f64]) -> Result<
     Ok(())
 }
 
-/// Returns `exact` without the faces whose condition the motion violates, so that the check of the
-/// solution skips them. `survey` must have been computed from `exact`.
-///
-/// # Errors
-/// A diagnostic about a box that an elastic wave from such a face reaches before the end of the
-/// run.
+/// Returns `exact` without the faces whose condition the motion violates. Refuses a box that a wave
+/// from such a face reaches before the end of the run.
 pub(crate) fn without_distant_faces(
     evaluator: &Evaluator<'_>,
     within: &JudgedBox,

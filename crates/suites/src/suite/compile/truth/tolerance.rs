@@ -5,8 +5,7 @@ use crate::suite::evaluator::SuitePath;
 use crate::suite::grammar::ExactSpec;
 use crate::suite::yaml::{Diagnostic, NumberText};
 
-/// Default tolerance of an exact solution (relative residual). The value allows for rounding errors
-/// of second derivatives.
+/// Default tolerance (relative residual), above the rounding errors of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
 /// Maximum tolerance that a suite may state.

@@ -31,7 +31,6 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
 
 /// Context for compiling a boundary condition: its path in the file, and the scene's dimension.
 pub(crate) struct FaceEntry<'a> {
-    /// Path of the condition's value.
     pub(crate) path: SuitePath<'a>,
     pub(crate) dimension: usize,
 }
@@ -64,8 +63,7 @@ pub(crate) enum FaceMotion {
     Driven,
     /// The face may leave the grid face.
     MayLeave,
-    /// The body face always stays on the grid face. The tangential motion may be prescribed in
-    /// addition to the normal motion.
+    /// The body face always stays on the grid face.
     Stays { holds_all_components: bool },
 }
 
@@ -77,7 +75,6 @@ pub(crate) struct FaceKind {
     pub(crate) verb: &'static str,
     pub(crate) motion: FaceMotion,
     /// Priority at nodes that several faces share: the condition with the largest number applies.
-    /// A fixed face, for example, has priority over a face with a prescribed velocity.
     pub(crate) strength: u8,
     /// Whether the FEM of this crate lacks the condition.
     pub(crate) is_lacked_by_fem: bool,

@@ -26,8 +26,7 @@ impl LoadKeys for BodyForceSpec {
     }
 }
 
-/// Force per unit mass (m/s2): one formula of the coordinates, t and optionally the displacement
-/// for each component.
+/// Force per unit mass (m/s2): formulas of the coordinates, t and optionally the displacement.
 #[derive(Debug)]
 struct BodyForceLoad(Vec<Formula>);
 

@@ -31,7 +31,6 @@ impl LoadTarget {
     }
 }
 
-/// A body for which effects are created.
 pub(crate) struct BodySite<'a> {
     pub(crate) dimension: usize,
     /// The heat problem that the exact temperature solves.
@@ -60,14 +59,12 @@ pub(crate) trait SceneLoad: Term + 'static {
         None
     }
 
-    /// Returns the tension (Pa), as a function of t, that the load applies to the end of a bar at
-    /// `x` (m). `outwards` is the sign of the outward normal.
+    /// Returns the tension (Pa) along the outward normal at the end `x` (m) of a bar.
     fn tension(&self, _x: f64, _outwards: f64) -> Option<TimeFunction> {
         None
     }
 
-    /// Returns the force per reference area (Pa) on the undeformed face, for `values` of the
-    /// coordinates and t. Empty if the load does not act on a face.
+    /// Returns the force per reference area (Pa) for `values` of the coordinates and t.
     fn traction(&self, _values: &[f64]) -> Vec<f64> {
         Vec::new()
     }

@@ -15,7 +15,6 @@ use std::sync::Arc;
 
 /// Properties of a convergence study that may exclude a load.
 pub(crate) struct StudyFacts {
-    /// Whether the body force is manufactured.
     pub(crate) manufactured: bool,
     /// End of the longest run (s).
     pub(crate) until: f64,
@@ -106,8 +105,7 @@ impl LoadEntry<'_> {
         path.vector(texts, d, &coordinates_and_time(d))
     }
 
-    /// Compiles one formula of the coordinates, t and optionally the displacement for each
-    /// component.
+    /// Compiles formulas of the coordinates, t and optionally the displacement.
     pub(crate) fn of_displacement(
         &self,
         path: &SuitePath<'_>,

@@ -151,8 +151,7 @@ impl SceneLoad for SceneHeat {
     }
 }
 
-/// Returns the initial temperature (K) and its gradient (K/m): from the scene if stated there,
-/// otherwise from the exact solution.
+/// Returns the initial temperature (K) and its gradient (K/m), as stated or exact.
 fn initial(heat: &SceneHeat, site: &BodySite<'_>) -> TemperatureAt {
     let stated = heat.initial.clone().map(|formula| Temperature::new(formula, site.dimension));
     let field = stated.or_else(|| Some(site.heat?.temperature.clone()));
@@ -200,8 +199,7 @@ impl HeatSourceAt for ManufacturedSource {
     }
 }
 
-/// Compiles the conditions on all faces of the body. Faces without a stated condition are
-/// insulated.
+/// Compiles the conditions on all faces, which are insulated by default.
 fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
@@ -227,8 +225,7 @@ fn faces(
     Ok(faces)
 }
 
-/// Refuses prescribed temperatures and heat fluxes on a face that does not stay on a grid face,
-/// because the condition applies to the nodes of the grid face.
+/// Refuses conditions on a face that does not stay on the nodes of a grid face.
 fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.kind().verb);
     if face.hold.is_periodic() {

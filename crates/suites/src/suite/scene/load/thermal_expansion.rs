@@ -45,11 +45,8 @@ impl LoadKeys for ExpansionSpec {
     }
 }
 
-/// Returns Young's modulus (Pa) and Poisson's ratio for a law in rate form; `None` for a law whose
-/// stress depends only on the deformation gradient.
-///
-/// # Errors
-/// A diagnostic if the material supports no thermal stress in the dimension of the scene.
+/// Returns Young's modulus (Pa) and Poisson's ratio for a law in rate form, otherwise `None`.
+/// Refuses a material without thermal stress.
 fn rate_form(entry: &LoadEntry<'_>) -> Result<Option<(f64, f64)>, Diagnostic> {
     let LoadEntry { path, scene, .. } = entry;
     let (name, d) = (scene.material.name(), scene.dimension());

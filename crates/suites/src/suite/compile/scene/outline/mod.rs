@@ -11,7 +11,6 @@ use crate::suite::scene::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Shape of a body.
 pub(crate) struct Shape {
     /// Lowest corner of the bounding box (m).
     pub(crate) from: Vec<f64>,
@@ -24,8 +23,7 @@ pub(crate) struct Shape {
     pub(crate) plane: PlaneState,
 }
 
-/// Compiles the shape at `path`. Refuses conditions and loads of `scene` on faces that the body
-/// does not have.
+/// Compiles the shape at `path`. Refuses conditions and loads on faces that it does not have.
 pub(crate) fn shape(
     path: &SuitePath<'_>,
     spec: &BodySpec,

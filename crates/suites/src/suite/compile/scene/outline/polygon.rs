@@ -9,8 +9,7 @@ use crate::suite::scene::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
-/// Maximum number of corners of a polygon. The limit bounds the run time, because every side is
-/// intersected with every lattice cell.
+/// Maximum number of corners, because every side is intersected with every lattice cell.
 const MOST: usize = 100;
 
 pub(super) fn polygon(
@@ -78,8 +77,7 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// Refuses conditions and loads on a face of the bounding box that contains no side of the
-/// quadrilateral.
+/// Refuses conditions and loads on a face of the bounding box that contains no side.
 pub(super) fn faces_are_sides(
     path: &SuitePath<'_>,
     spec: &SceneSpec,

@@ -1,5 +1,4 @@
-//! Heat conduction in a scene, and thermal conditions on faces: their keys, and the compiled
-//! condition.
+//! Heat conduction in a scene, and thermal conditions on faces.
 
 use crate::exact::formula::Formula;
 use crate::exact::heat::{HeatFace, ThermalCondition};
