@@ -187,6 +187,20 @@ impl SuitePath<'_> {
         texts.iter().enumerate().map(bind).collect()
     }
 
+    /// Parses a formula of the coordinates and t.
+    pub(crate) fn field(&self, text: &NumberText, dimension: usize) -> Result<Formula, Diagnostic> {
+        self.formula(text, &coordinates_and_time(dimension))
+    }
+
+    /// Parses one formula of the coordinates and t for each component.
+    pub(crate) fn fields(
+        &self,
+        texts: &[NumberText],
+        d: usize,
+    ) -> Result<Vec<Formula>, Diagnostic> {
+        self.vector(texts, d, &coordinates_and_time(d))
+    }
+
     /// Evaluates a finite number, or a formula of parameters.
     pub(crate) fn number(&self, text: &NumberText) -> Result<f64, Diagnostic> {
         let value = self.formula(text, &[])?.constant().unwrap_or(f64::NAN);

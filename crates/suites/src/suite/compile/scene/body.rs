@@ -4,7 +4,7 @@ use super::material;
 use super::outline::{self, Shape};
 use super::sets;
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{SuitePath, coordinates_and_time, shown};
+use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{OneBodySpec, SceneSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::boundary::{BoundaryCondition, FaceAtRest, FaceEntry, FreeFace};
@@ -39,8 +39,7 @@ pub(crate) fn body(
     material::refuse_outside_yield_surface(&at, &initial_stress, &material, &shape)?;
     let initial_displacement = material::displacement(path, own, dimension, &material)?;
     let at = path.then("initial_velocity");
-    let variables = coordinates_and_time(dimension);
-    let velocity = |texts: &Vec<NumberText>| at.vector(texts, dimension, &variables);
+    let velocity = |texts: &Vec<NumberText>| at.fields(texts, dimension);
     let initial_velocity = own.initial_velocity.as_ref().map(velocity).transpose()?;
     let is_free = shape.outline.is_some() && shape.mapped.is_none();
     let has_faces = !is_free || spec.bodies.is_some();

@@ -5,7 +5,7 @@ use crate::exact::formula::Formula;
 use crate::exact::{Density, InitialStress, NoDensity};
 use crate::mpm::{Contradiction, MaterialParameter, MaterialPlan, MaterialSpec, Matrix, Range};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{COORDINATES, SuitePath, coordinates_and_time, shown};
+use crate::suite::evaluator::{COORDINATES, SuitePath, shown};
 use crate::suite::grammar::{OneBodySpec, StressSpec};
 use crate::suite::scene::holds;
 use crate::suite::scene::load::{EffectName, LoadSpec};
@@ -151,7 +151,7 @@ pub(super) fn displacement(
     let Some(texts) = &own.initial_displacement else { return Ok(Vec::new()) };
     let admitted = material.properties().starts_deformed();
     admit(&path, material, admitted, "cannot start deformed")?;
-    path.vector(texts, dimension, &coordinates_and_time(dimension))
+    path.fields(texts, dimension)
 }
 
 pub(super) fn stress(

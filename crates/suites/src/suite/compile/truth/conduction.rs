@@ -5,7 +5,7 @@ use crate::exact::Motion;
 
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
-use crate::suite::evaluator::{Evaluator, SuitePath, coordinates_and_time};
+use crate::suite::evaluator::{Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
 use crate::suite::model::Scene;
 use crate::suite::scene::boundary::thermal::ThermalFace;
@@ -120,7 +120,7 @@ pub(crate) fn problem(
         }
     };
     let dimension = scene.dimension();
-    let formula = path.formula(text, &coordinates_and_time(dimension))?;
+    let formula = path.field(text, dimension)?;
     let ConductionInputs { motion, manufactured, until, tolerance } = rest;
     if manufactured && heat.source.is_some() {
         let message = "the manufactured temperature defines the source: remove `source`";

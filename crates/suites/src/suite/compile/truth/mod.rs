@@ -8,7 +8,7 @@ pub(crate) mod tolerance;
 use crate::exact::heat::Conduction;
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::mpm::MaterialPlan;
-use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath, coordinates_and_time};
+use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath};
 use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
@@ -272,9 +272,8 @@ fn motion(
     displacement: &[NumberText],
     dimension: usize,
 ) -> Result<Motion, Diagnostic> {
-    let variables = coordinates_and_time(dimension);
     let path = path.then("displacement");
-    let components = path.vector(displacement, dimension, &variables)?;
+    let components = path.fields(displacement, dimension)?;
     for (i, component) in components.iter().enumerate() {
         let operations = component.operations();
         if operations > MOST_OPERATIONS {

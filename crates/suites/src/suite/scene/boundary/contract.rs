@@ -1,21 +1,15 @@
 //! Boundary conditions on the faces of a body: their keys, and the compiled condition.
 
 use crate::exact::Condition;
-use crate::exact::formula::Formula;
 use crate::mpm::input::WallCondition;
-use crate::suite::evaluator::{SuitePath, coordinates_and_time};
+use crate::suite::evaluator::SuitePath;
 use crate::suite::scene::numbers::LoadNumbers;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 pub(crate) trait BoundaryKeys {
     /// Checks the keys and returns the condition with all numbers computed.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
-
-    /// Whether the face coincides with the opposite face.
-    fn is_periodic(&self) -> bool {
-        false
-    }
 }
 
 /// A condition without parameters is also the type of its keys.
@@ -23,33 +17,12 @@ impl<T: BoundaryCondition + Copy> BoundaryKeys for T {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
         Ok(Arc::new(*self))
     }
-
-    fn is_periodic(&self) -> bool {
-        self.kind().motion == FaceMotion::Periodic
-    }
 }
 
 /// Context for compiling a boundary condition: its path in the file, and the scene's dimension.
 pub(crate) struct FaceEntry<'a> {
     pub(crate) path: SuitePath<'a>,
     pub(crate) dimension: usize,
-}
-
-impl FaceEntry<'_> {
-    /// Compiles a formula of the coordinates and t at `path`.
-    pub(crate) fn scalar(
-        &self,
-        path: &SuitePath<'_>,
-        text: &NumberText,
-    ) -> Result<Formula, Diagnostic> {
-        path.formula(text, &coordinates_and_time(self.dimension))
-    }
-
-    /// Compiles one formula of the coordinates and t for each component.
-    pub(crate) fn vector(&self, texts: &[NumberText]) -> Result<Vec<Formula>, Diagnostic> {
-        let variables = coordinates_and_time(self.dimension);
-        self.path.vector(texts, self.dimension, &variables)
-    }
 }
 
 /// How a boundary condition lets a face move.

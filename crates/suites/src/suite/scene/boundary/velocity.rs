@@ -16,7 +16,7 @@ pub(crate) struct VelocitySpec(Vec<NumberText>);
 
 impl BoundaryKeys for VelocitySpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic> {
-        Ok(Arc::new(MovingFace(entry.vector(&self.0)?)))
+        Ok(Arc::new(MovingFace(entry.path.fields(&self.0, entry.dimension)?)))
     }
 }
 

@@ -3,8 +3,9 @@
 use super::contract::{BodySite, SceneLoad};
 use super::entry::{LoadEntry, LoadKeys};
 use crate::exact::Term;
-use crate::exact::formula::{Formula, FormulaForce};
+use crate::exact::formula::{Expr, Formula, FormulaForce};
 use crate::mpm::input::{EffectInput, ForceAt};
+use crate::suite::evaluator::{DISPLACEMENTS, coordinates_and_time};
 use crate::suite::scene::numbers::{LoadNumbers, value_with_unit};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
@@ -22,7 +23,14 @@ impl LoadKeys for BodyForceSpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("a body force")?;
-        Ok(Arc::new(BodyForceLoad(entry.of_displacement(&entry.path, &self.0)?)))
+        let (path, d) = (&entry.path, entry.dimension());
+        let u = &DISPLACEMENTS[..d];
+        let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| u.contains(&name.as_str()));
+        let is_of_u = |text: &NumberText| Expr::parse(&text.to_string()).is_ok_and(names_it);
+        let with_u = [&coordinates_and_time(d)[..], u].concat();
+        let is_displaced = self.0.iter().any(is_of_u);
+        let variables = if is_displaced { &with_u[..] } else { &with_u[..=d] };
+        Ok(Arc::new(BodyForceLoad(path.vector(&self.0, d, variables)?)))
     }
 }
 

@@ -2,15 +2,14 @@
 
 use super::contract::{LoadTarget, SceneLoad};
 use super::name::EffectName;
-use crate::exact::formula::{Expr, Formula};
 use crate::exact::{Circle, Region};
 use crate::mpm::input::{FaceInput, SetInput};
 use crate::mpm::{Placement, Side};
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{DISPLACEMENTS, SuitePath, coordinates_and_time, suggestion};
+use crate::suite::evaluator::{SuitePath, suggestion};
 use crate::suite::scene::Scene;
 use crate::suite::scene::face::face;
-use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 /// Properties of a convergence study that may exclude a load.
@@ -85,49 +84,6 @@ impl LoadEntry<'_> {
             return Err(self.path.diagnostic(&format!("{title} appears twice")));
         }
         Ok(())
-    }
-
-    pub(crate) fn of_time(
-        &self,
-        path: &SuitePath<'_>,
-        texts: &[NumberText],
-    ) -> Result<Vec<Formula>, Diagnostic> {
-        path.vector(texts, self.dimension(), &["t"])
-    }
-
-    /// Compiles one formula of the coordinates and t for each component.
-    pub(crate) fn of_place_and_time(
-        &self,
-        path: &SuitePath<'_>,
-        texts: &[NumberText],
-    ) -> Result<Vec<Formula>, Diagnostic> {
-        let d = self.dimension();
-        path.vector(texts, d, &coordinates_and_time(d))
-    }
-
-    /// Compiles formulas of the coordinates, t and optionally the displacement.
-    pub(crate) fn of_displacement(
-        &self,
-        path: &SuitePath<'_>,
-        texts: &[NumberText],
-    ) -> Result<Vec<Formula>, Diagnostic> {
-        let d = self.dimension();
-        let u = &DISPLACEMENTS[..d];
-        let names_it = |expr: Expr| expr.names().iter().any(|(name, _)| u.contains(&name.as_str()));
-        let is_of_u = |text: &NumberText| Expr::parse(&text.to_string()).is_ok_and(names_it);
-        if !texts.iter().any(is_of_u) {
-            return self.of_place_and_time(path, texts);
-        }
-        path.vector(texts, d, &[&coordinates_and_time(d)[..], u].concat())
-    }
-
-    /// Compiles one formula of the coordinates and t.
-    pub(crate) fn scalar(
-        &self,
-        path: &SuitePath<'_>,
-        text: &NumberText,
-    ) -> Result<Formula, Diagnostic> {
-        path.formula(text, &coordinates_and_time(self.dimension()))
     }
 
     /// Returns the face called `name`, which must be free.

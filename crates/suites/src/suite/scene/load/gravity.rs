@@ -22,7 +22,7 @@ impl LoadKeys for GravitySpec {
 
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         entry.refuse_second("gravity")?;
-        Ok(Arc::new(GravityLoad(entry.of_time(&entry.path, &self.0)?)))
+        Ok(Arc::new(GravityLoad(entry.path.vector(&self.0, entry.dimension(), &["t"])?)))
     }
 }
 

@@ -59,7 +59,8 @@ impl LoadKeys for HeatSpec {
             return Err(path.diagnostic_at_key("heat appears twice"));
         }
         let source = self.source.as_ref().map(|text| source(entry, &path.then("source"), text));
-        let initial = self.initial.as_ref().map(|text| entry.scalar(&path.then("initial"), text));
+        let initial =
+            self.initial.as_ref().map(|text| path.then("initial").field(text, entry.dimension()));
         let number = |key: &str, text: &NumberText, what| path.then(key).positive(text, what);
         Ok(Arc::new(SceneHeat {
             conductivity: number("conductivity", &self.conductivity, "the conductivity")?,
@@ -218,9 +219,9 @@ fn faces(
         let at = path.then(name.as_str());
         let i = face(&at, name, dimension, true)?;
         let (condition, spec) = spec.named();
-        on_grid(&at, spec.lets_heat_in(), &entry.scene.faces[i])?;
-        let entry = FaceEntry { path: at.then(condition), dimension };
-        faces[i].condition = spec.compile(&entry)?;
+        let condition = spec.compile(&FaceEntry { path: at.then(condition), dimension })?;
+        on_grid(&at, condition.input().is_some(), &entry.scene.faces[i])?;
+        faces[i].condition = condition;
     }
     Ok(faces)
 }

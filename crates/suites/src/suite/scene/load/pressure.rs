@@ -49,7 +49,7 @@ impl LoadKeys for PressureSpec {
         } else {
             PressedSite::Face(entry.free_face(&self.on)?, self.at.unwrap_or_default())
         };
-        let value = entry.scalar(&entry.path.then("value"), &self.value)?;
+        let value = entry.path.then("value").field(&self.value, entry.dimension())?;
         Ok(Arc::new(PressureLoad { site, value }))
     }
 

@@ -32,7 +32,7 @@ impl LoadKeys for SetForceSpec {
         let of_box = || from.iter().zip(&to).map(|(from, to)| to - from).product();
         let volume = scene.outline.as_ref().map_or_else(of_box, |o| o.volume_within(&from, &to));
         Ok(Arc::new(SetForceLoad {
-            value: entry.of_time(&entry.path.then("value"), &self.value)?,
+            value: entry.path.then("value").vector(&self.value, entry.dimension(), &["t"])?,
             volume,
             // A varying density is refused in `compile::scene::density`.
             density: scene.density.largest(),

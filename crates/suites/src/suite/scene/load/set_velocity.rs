@@ -28,7 +28,7 @@ impl LoadKeys for SetVelocitySpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(SetVelocityLoad {
             set: entry.free_set(&self.on)?,
-            value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
+            value: entry.path.then("value").fields(&self.value, entry.dimension())?,
         }))
     }
 }

@@ -35,7 +35,7 @@ impl LoadKeys for TractionSpec {
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic> {
         Ok(Arc::new(TractionLoad {
             face: entry.free_face(&self.on)?,
-            value: entry.of_place_and_time(&entry.path.then("value"), &self.value)?,
+            value: entry.path.then("value").fields(&self.value, entry.dimension())?,
             placement: self.at.unwrap_or_default(),
         }))
     }

@@ -4,6 +4,7 @@ use crate::exact::{Outline, Polygon};
 use crate::mpm::{Quadrilateral, Vector};
 use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{QuadrilateralSpec, SceneSpec};
+use crate::suite::scene::boundary::BoundarySpec;
 use crate::suite::scene::face::FACES;
 use crate::suite::scene::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText};
@@ -96,7 +97,7 @@ pub(super) fn faces_are_sides(
     };
     for (face, hold) in spec.boundary.as_slice() {
         let at = path.then("boundary").then(face.as_str());
-        if hold.named().1.is_periodic() {
+        if matches!(hold, BoundarySpec::Periodic) {
             return Err(at.diagnostic_at_key("a quadrilateral cannot have periodic faces"));
         }
         if !is_side(face) {

@@ -10,11 +10,6 @@ use std::sync::Arc;
 pub(crate) trait ThermalKeys {
     /// Checks the keys and returns the condition with all numbers computed.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
-
-    /// Whether heat can enter through the face.
-    fn lets_heat_in(&self) -> bool {
-        true
-    }
 }
 
 /// Heat conduction with all numbers computed.

@@ -25,7 +25,7 @@ impl ThermalKeys for ConvectionSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         let (at, what) = (entry.path.then("coefficient"), "the coefficient of convection");
         let coefficient = at.positive(&self.coefficient, what)?;
-        let ambient = entry.scalar(&entry.path.then("ambient"), &self.ambient)?;
+        let ambient = entry.path.then("ambient").field(&self.ambient, entry.dimension)?;
         Ok(Arc::new(Convection { coefficient, ambient }))
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct FluxSpec(NumberText);
 
 impl ThermalKeys for FluxSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
-        Ok(Arc::new(GivenFlux(entry.scalar(&entry.path, &self.0)?)))
+        Ok(Arc::new(GivenFlux(entry.path.field(&self.0, entry.dimension)?)))
     }
 }
 

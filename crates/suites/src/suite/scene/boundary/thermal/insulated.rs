@@ -15,10 +15,6 @@ impl ThermalKeys for Insulated {
     fn compile(&self, _: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
         Ok(Arc::new(Self))
     }
-
-    fn lets_heat_in(&self) -> bool {
-        false
-    }
 }
 
 impl ThermalCondition for Insulated {

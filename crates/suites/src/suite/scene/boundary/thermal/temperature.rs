@@ -18,7 +18,7 @@ pub(crate) struct TemperatureSpec(NumberText);
 
 impl ThermalKeys for TemperatureSpec {
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic> {
-        Ok(Arc::new(GivenTemperature(entry.scalar(&entry.path, &self.0)?)))
+        Ok(Arc::new(GivenTemperature(entry.path.field(&self.0, entry.dimension)?)))
     }
 }
 
