@@ -2,6 +2,7 @@
 
 use super::change::Change;
 use mpm_verify::external::{Capabilities, LevelProblem, ProblemNeeds, SolverFactory};
+use mpm_verify::mpm::input::MpmMethod;
 use mpm_verify::mpm::{
     Block, BodyForce, Boundary, Effect, Fixed, Grid, MaterialParameter, MaterialPlan, Matrix,
     Particles, Roller, Setup, Side, Solver, TransferName, Vector, kernel, mass_matrix,
@@ -44,9 +45,9 @@ impl SolverFactory for ChangedSolver {
 /// Whether a problem for solvers contains the whole initial state of the method. It does not
 /// contain affine fields, whose initial values are not zero.
 pub(super) fn is_known(method: Method) -> bool {
-    let Method::Mpm { transfer, .. } = method else { return false };
+    let Method::Mpm(method) = method else { return false };
     let without_affine = [TransferName::Flip, TransferName::Flip99, TransferName::Pic];
-    without_affine.into_iter().any(|name| transfer == name.into())
+    without_affine.into_iter().any(|name| method.transfer == name.into())
 }
 
 fn made<const D: usize>(
@@ -57,10 +58,8 @@ fn made<const D: usize>(
     if let Some(why) = change.excluded(&problem) {
         return Err(why.into());
     }
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, .. } = factory.method
-    else {
-        return Err("no MPM".into());
-    };
+    let Method::Mpm(method) = factory.method else { return Err("no MPM".into()) };
+    let MpmMethod { basis, transfer, scheme, start, mass, frame, volume, .. } = method;
     let kernel = kernel::<D>(basis);
     let (origin, h, cells) = grid_of::<D>(&change, &problem);
     let mut periodic = [false; D];

@@ -106,10 +106,10 @@ fn row(suite: &Suite) -> Option<Row> {
     let case = plan
         .cases
         .iter()
-        .find(|case| case.against == Against::Exact && matches!(case.method, Method::Mpm { .. }))?;
+        .find(|case| case.against == Against::Exact && matches!(case.method, Method::Mpm(_)))?;
     let mut single = case.method;
-    if let Method::Mpm { precision, .. } = &mut single {
-        *precision = Precision::Single;
+    if let Method::Mpm(method) = &mut single {
+        method.precision = Precision::Single;
     }
     let steps = time_steps(suite, Extent::Usual);
     let mut all: Vec<&TimeStep> = steps.iter().filter(|step| step.case == case.name).collect();

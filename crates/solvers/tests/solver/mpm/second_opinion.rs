@@ -2,6 +2,7 @@
 //! fields on some levels of the suites must agree to 1e-9.
 
 use mpm_judge::verify::{Clock, errors};
+use mpm_solvers::mpm::input::MpmMethod;
 use mpm_solvers::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferChoice, TransferName, VolumeName,
 };
@@ -45,7 +46,7 @@ fn named<T: Copy>(all: &[T], name: impl Fn(T) -> &'static str, wanted: &str) -> 
 fn method(words: &[&str]) -> Method {
     let [basis, scheme, start] = words else { panic!("{words:?}") };
     let starts = [Start::AtZero, Start::HalfStepBack];
-    Method::Mpm {
+    Method::Mpm(MpmMethod {
         basis: named(BasisName::ALL, BasisName::name, basis),
         transfer: TransferChoice::Named(TransferName::Flip),
         scheme: named(SchemeName::ALL, SchemeName::name, scheme),
@@ -54,7 +55,7 @@ fn method(words: &[&str]) -> Method {
         frame: FrameName::Updated,
         volume: VolumeName::Particle,
         precision: Precision::Double,
-    }
+    })
 }
 
 /// Reads the levels in a file, each with the method of its case.

@@ -56,7 +56,7 @@ fn sums(plan: &ConvergencePlan, case: &Case) -> Vec<Conserved> {
         Conserved::KineticEnergyGain => false,
         Conserved::Mass | Conserved::Momentum | Conserved::KineticEnergy => true,
     };
-    let moves = matches!(case.method, Method::Mpm { .. });
+    let moves = matches!(case.method, Method::Mpm(_));
     Conserved::ALL.iter().copied().filter(|sum| moves && has(sum)).collect()
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
 /// non-zero.
 pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
-        Method::Mpm { start, scheme, .. } => (start, scheme == SchemeName::Usf),
+        Method::Mpm(method) => (method.start, method.scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
         // For load steps the order is not used, because they are not refined. Heat conduction is
         // integrated by forward Euler.

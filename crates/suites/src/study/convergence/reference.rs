@@ -291,8 +291,8 @@ fn compare(a: &[f64], b: &[f64]) -> Ordering {
 /// Changes the method to double precision and to velocities at t = -dt/2 (second order).
 fn second_order(mut method: Method) -> Method {
     match &mut method {
-        Method::Mpm { start, precision, .. } => {
-            (*start, *precision) = (Start::HalfStepBack, Precision::Double);
+        Method::Mpm(method) => {
+            (method.start, method.precision) = (Start::HalfStepBack, Precision::Double);
         }
         Method::Fem { start, .. } => *start = Start::HalfStepBack,
         Method::QuasiStatic { .. } | Method::Heat { .. } | Method::External { .. } => {}

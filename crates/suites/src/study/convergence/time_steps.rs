@@ -6,6 +6,7 @@
 //! With linear basis functions the stability limit may decrease when particles move (suite
 //! `tiny-nodal-mass`), so an automatic step is a fraction of the stable step.
 
+use crate::mpm::input::MpmMethod;
 use crate::mpm::simplest_with_same_response;
 use crate::study::kind::StepWarning;
 use crate::study::setup::dispatch;
@@ -121,7 +122,7 @@ impl StableSteps {
         case: &Case,
         level: LevelPlan,
     ) -> Result<Stepped, SubjectError> {
-        let Method::Mpm { .. } = case.method else { return Ok((level, None)) };
+        let Method::Mpm(_) = case.method else { return Ok((level, None)) };
         let limit = |rounds| self.limit(plan, case.method, level, rounds);
         if let Some(share) = plan.refine.rule {
             let limit = limit(ROUNDS)?;
@@ -171,12 +172,10 @@ impl StableSteps {
 
 /// Returns the simplest method with the same stable time step as `method`.
 fn simplest(method: Method) -> Method {
-    let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
-        return method;
-    };
-    let (scheme, transfer) = simplest_with_same_response(scheme, transfer);
+    let Method::Mpm(method) = method else { return method };
+    let (scheme, transfer) = simplest_with_same_response(method.scheme, method.transfer);
     let (start, precision) = (Start::AtZero, Precision::Double);
-    Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision }
+    Method::Mpm(MpmMethod { transfer, scheme, start, precision, ..method })
 }
 
 /// Returns the actual time step (s).

@@ -3,6 +3,7 @@
 //! Any solver can run changes of the problem and of the levels. Changes of a method apply only to
 //! methods of this crate.
 
+use crate::mpm::input::MpmMethod;
 use crate::mpm::{
     BasisName, FrameName, MassName, SchemeName, TransferName, combine, combine_across,
 };
@@ -161,10 +162,11 @@ pub(super) const START: ProbeKind = ProbeKind {
     cause: |_, _| "the start: v(0) is used as v(-dt/2), which is an error of first order in time",
     remedy: "`start: half_step_back`",
     apply: |plan| {
-        with_method(plan, |method| {
-            if let Method::Mpm { start, .. } | Method::Fem { start, .. } = method {
+        with_method(plan, |method| match method {
+            Method::Mpm(MpmMethod { start, .. }) | Method::Fem { start, .. } => {
                 *start = Start::HalfStepBack;
             }
+            _ => {}
         })
     },
 };
@@ -174,9 +176,9 @@ pub(super) const SCHEME: ProbeKind = ProbeKind {
     cause: |_, _| "the scheme: USF updates the stress half a step late, an error of first order in time",
     remedy: "`scheme: musl` or `usl`, or shorter steps",
     apply: |plan| {
-        with_method(plan, |method| {
-            if let Method::Mpm { scheme: scheme @ SchemeName::Usf, .. } = method {
-                *scheme = SchemeName::Musl;
+        with_mpm(plan, |method| {
+            if method.scheme == SchemeName::Usf {
+                method.scheme = SchemeName::Musl;
             }
         })
     },
@@ -190,9 +192,9 @@ pub(super) const DOMAINS: ProbeKind = ProbeKind {
     },
     remedy: "`basis: cpgimp`, whose domains follow the deformation",
     apply: |plan| {
-        with_method(plan, |method| {
-            if let Method::Mpm { basis: basis @ BasisName::UniformGimp, .. } = method {
-                *basis = BasisName::ContiguousGimp;
+        with_mpm(plan, |method| {
+            if method.basis == BasisName::UniformGimp {
+                method.basis = BasisName::ContiguousGimp;
             }
         })
     },
@@ -207,11 +209,10 @@ pub(super) const GRADIENTS: ProbeKind = ProbeKind {
     remedy: "`transfer: apic`, which takes its gradients from the basis",
     apply: |plan| {
         let has_walls = plan.scene.faces.iter().any(|face| face.hold.is_held());
-        with_method(plan, |method| match method {
-            Method::Mpm { transfer, .. } if has_walls && *transfer == TransferName::Mls.into() => {
-                *transfer = TransferName::Apic.into();
+        with_mpm(plan, |method| {
+            if has_walls && method.transfer == TransferName::Mls.into() {
+                method.transfer = TransferName::Apic.into();
             }
-            _ => {}
         })
     },
 };
@@ -224,11 +225,7 @@ pub(super) const MASS: ProbeKind = ProbeKind {
         let walls = plan.scene.faces.iter();
         let mut refuses = walls.filter_map(|face| face.hold.kind().against_consistent_mass);
         (refuses.next().is_none()).then_some(())?;
-        with_method(plan, |method| {
-            if let Method::Mpm { mass, .. } = method {
-                *mass = MassName::Consistent;
-            }
-        })
+        with_mpm(plan, |method| method.mass = MassName::Consistent)
     },
 };
 
@@ -239,7 +236,7 @@ pub(super) const FRAME: ProbeKind = ProbeKind {
             "the motion itself, although no particle changes its cell: the grid does not follow the \
              motion, and an exact solution for small strains neglects the motion"
         }
-        Method::Mpm { basis: BasisName::Linear, .. } => {
+        Method::Mpm(MpmMethod { basis: BasisName::Linear, .. }) => {
             "grid crossing: the nodal forces of linear functions jump whenever a particle changes \
              its cell"
         }
@@ -249,13 +246,7 @@ pub(super) const FRAME: ProbeKind = ProbeKind {
         }
     },
     remedy: "`frame: total_lagrangian`, a smoother basis, or a smaller motion",
-    apply: |plan| {
-        with_method(plan, |method| {
-            if let Method::Mpm { frame, .. } = method {
-                *frame = FrameName::Total;
-            }
-        })
-    },
+    apply: |plan| with_mpm(plan, |method| method.frame = FrameName::Total),
 };
 
 pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
@@ -266,9 +257,9 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
     remedy: "a basis with continuous gradients",
     apply: |plan| {
-        with_method(plan, |method| {
-            if let Method::Mpm { basis: basis @ BasisName::Linear, .. } = method {
-                *basis = BasisName::QuadraticBSpline;
+        with_mpm(plan, |method| {
+            if method.basis == BasisName::Linear {
+                method.basis = BasisName::QuadraticBSpline;
             }
         })
     },
@@ -280,12 +271,19 @@ fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<C
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));
     let (before, after) = (plan.cases[0].method, changed.cases[0].method);
     let combined = match after {
-        Method::Mpm { basis, transfer, mass, frame, .. } => combine(basis, transfer, mass, frame)
-            .and_then(|()| combine_across(plan.scene.plane, basis, transfer)),
-        Method::QuasiStatic { .. }
-        | Method::Fem { .. }
-        | Method::Heat { .. }
-        | Method::External { .. } => Ok(()),
+        Method::Mpm(MpmMethod { basis, transfer, mass, frame, .. }) => {
+            combine(basis, transfer, mass, frame)
+                .and_then(|()| combine_across(plan.scene.plane, basis, transfer))
+        }
+        _ => Ok(()),
     };
     (after != before && combined.is_ok()).then_some(changed)
+}
+
+fn with_mpm(plan: &ConvergencePlan, change: impl Fn(&mut MpmMethod)) -> Option<ConvergencePlan> {
+    with_method(plan, |method| {
+        if let Method::Mpm(method) = method {
+            change(method);
+        }
+    })
 }

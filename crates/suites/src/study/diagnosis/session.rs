@@ -145,19 +145,16 @@ pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
 
 /// Converts the method to its form in a suite; `None` for methods that are never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } = method
-    else {
-        return None;
-    };
+    let Method::Mpm(method) = method else { return None };
     Some(MethodSpec::Mpm {
-        basis: basis.into(),
-        transfer: Some(TransferSpec(transfer).into()),
-        scheme: SchemeKey::from(scheme).into(),
-        start: Some(start.into()),
-        mass: Some(mass.into()),
-        frame: Some(frame.into()),
-        volume: Some(volume.into()),
-        precision: Some(precision.into()),
+        basis: method.basis.into(),
+        transfer: Some(TransferSpec(method.transfer).into()),
+        scheme: SchemeKey::from(method.scheme).into(),
+        start: Some(method.start.into()),
+        mass: Some(method.mass.into()),
+        frame: Some(method.frame.into()),
+        volume: Some(method.volume.into()),
+        precision: Some(method.precision.into()),
     })
 }
 

@@ -122,7 +122,7 @@ fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
         return None;
     }
     // Steps of the built-in MPM are stable, except if a prediction shows that they are too long.
-    if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm { .. }) {
+    if level.stable_time_step.is_some() || matches!(plan.cases[0].method, Method::Mpm(_)) {
         return level.stable_time_step;
     }
     let speed = plan.exact.as_ref().map_or(0.0, |exact| Extremes::of(exact).speed);

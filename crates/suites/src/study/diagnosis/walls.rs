@@ -38,7 +38,7 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
     let stays = match session.case.method {
-        Method::Mpm { frame, .. } => frame == FrameName::Updated,
+        Method::Mpm(method) => method.frame == FrameName::Updated,
         Method::QuasiStatic { .. } | Method::External { .. } => true,
         Method::Fem { .. } | Method::Heat { .. } => false,
     };
@@ -88,8 +88,8 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();
-    let Method::Mpm { frame, .. } = &mut case.method else { return false };
-    *frame = FrameName::Total;
+    let Method::Mpm(method) = &mut case.method else { return false };
+    method.frame = FrameName::Total;
     let finest = plan.refine.levels.len().saturating_sub(1)..;
     let changed = only(plan, &case, &plan.refine.levels[finest]);
     let accepted = refusal(session.source, plan, &only(plan, &case, &plan.refine.levels));

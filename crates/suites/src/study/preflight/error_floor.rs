@@ -77,7 +77,7 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     }
     let strain = motion.gradient;
     let is_small = !problem.equation.is_finite() && strain > 0.0;
-    if !is_small || !matches!(case.method, Method::Mpm { .. }) {
+    if !is_small || !matches!(case.method, Method::Mpm(_)) {
         return None;
     }
     // The neglected forces are of the order of the strain e. They cause an acceleration e u_tt, and

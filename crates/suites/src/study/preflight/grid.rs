@@ -2,6 +2,7 @@
 
 use super::subject::{Preflight, moves_on_grid};
 use crate::mpm::BasisName;
+use crate::mpm::input::MpmMethod;
 use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::CrossingLevels;
 use crate::suite::model::method::Method;
@@ -104,7 +105,8 @@ pub(crate) fn end_on_node(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
         use BasisName::Linear;
         matches!(
             method,
-            Method::Mpm { basis: Linear, .. } | Method::QuasiStatic { basis: Linear, .. }
+            Method::Mpm(MpmMethod { basis: Linear, .. })
+                | Method::QuasiStatic { basis: Linear, .. }
         )
     };
     let is_box = plan.scene.outline.is_none() && plan.scene.bodies.is_empty();

@@ -80,7 +80,7 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
 /// Warns of a step that is too long for the motion.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
-    let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm { .. }));
+    let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm(_)));
     if let Some(share) = plan.refine.rule {
         let message = format!("the time step is {share} times the stable time step");
         let found = preflight.finding(Severity::Warning, &steps(preflight), &message);
@@ -129,7 +129,7 @@ fn fixed(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     if refine.axis != Axis::Space || refine.rule.is_some() || !same {
         return None;
     }
-    let case = preflight.of_an_order().find(|case| matches!(case.method, Method::Mpm { .. }))?;
+    let case = preflight.of_an_order().find(|case| matches!(case.method, Method::Mpm(_)))?;
     let order = in_time(case.method, preflight.plan.exact.as_ref());
     let message = format!(
         "the time step is the same on every level: its error, of order {order}, does not fall with \

@@ -86,6 +86,8 @@ impl<'a> Preflight<'a> {
 
 /// Whether the particles of a case move through the grid.
 pub(crate) fn moves_on_grid(case: &Case) -> bool {
-    let is_updated = matches!(case.method, Method::Mpm { frame: FrameName::Updated, .. });
-    is_updated || matches!(case.method, Method::QuasiStatic { .. })
+    match case.method {
+        Method::Mpm(method) => method.frame == FrameName::Updated,
+        method => matches!(method, Method::QuasiStatic { .. }),
+    }
 }

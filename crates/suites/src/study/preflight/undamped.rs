@@ -64,7 +64,7 @@ fn removes_energy(scene: &Scene, case: &Case) -> bool {
         || scene.each().iter().any(is_viscous)
         || scene.faces.iter().any(|face| face.condition() == "friction")
         || scene.contact.is_some_and(|friction| friction > 0.0)
-        || matches!(case.method, Method::Mpm { transfer, .. } if !keeps_energy(transfer))
+        || matches!(case.method, Method::Mpm(method) if !keeps_energy(method.transfer))
 }
 
 /// Whether a transfer conserves the energy of motions that the grid resolves.

@@ -29,7 +29,7 @@ pub fn subject(
 /// Converts a method to the method of an MPM solver.
 fn method_input(method: Method) -> Result<MethodInput, SubjectError> {
     Ok(match method {
-        Method::Mpm { .. } => MethodInput::Dynamic(dynamic(method)?),
+        Method::Mpm(method) => MethodInput::Dynamic(method),
         Method::QuasiStatic { basis, load_steps } => MethodInput::QuasiStatic { basis, load_steps },
         Method::Heat { basis } => MethodInput::Heat { basis },
         Method::External { .. } => return Err("no solver was named on the command line".into()),
@@ -38,11 +38,8 @@ fn method_input(method: Method) -> Result<MethodInput, SubjectError> {
 }
 
 fn dynamic(method: Method) -> Result<MpmMethod, SubjectError> {
-    let Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } = method
-    else {
-        return Err("not an MPM method".into());
-    };
-    Ok(MpmMethod { basis, transfer, scheme, start, mass, frame, volume, precision })
+    let Method::Mpm(method) = method else { return Err("not an MPM method".into()) };
+    Ok(method)
 }
 
 /// Returns the profile of the second step of `method`; `None` for FEM, and after a failure.

@@ -270,7 +270,7 @@ fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<
         let message = "the force of `volume: averaged` does not derive from a stored energy";
         return path.then(key).refuse_key(message, "bound the drift of `momentum` or `mass`");
     }
-    if !asks || matches!(method, Method::Mpm { .. } | Method::External { .. }) {
+    if !asks || matches!(method, Method::Mpm(_) | Method::External { .. }) {
         return Ok(());
     }
     let message = match method {

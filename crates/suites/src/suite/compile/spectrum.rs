@@ -1,11 +1,12 @@
 //! Compiles a spectrum study: waves in a periodic row of cells.
 
 use crate::exact::formula::Formula;
+use crate::mpm::input::MpmMethod;
 use crate::mpm::{MaterialPlan, Spline, VolumeName, WaveMethod, WaveTransfer, combine};
 use crate::suite::compile::expect::assign;
-use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
+use crate::suite::compile::run::methods::{NamedMethod, methods};
 use crate::suite::compile::scene;
-use crate::suite::evaluator::{Evaluator, SuitePath, coordinates_and_time, shown, suggestion};
+use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, SpectrumExpectSpec, SpectrumSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::method::Method;
@@ -153,7 +154,7 @@ fn waves(
 fn velocity(path: &SuitePath<'_>, scene: &Scene, length: f64) -> Result<Formula, Diagnostic> {
     let (size, k, from) = (AMPLITUDE * scene.wave_speed(), TAU / length, scene.from[0]);
     let text = NumberText::Formula(format!("{size:e}*sin({k:e}*(X - ({from:e})))"));
-    path.formula(&text, &coordinates_and_time(1))
+    path.field(&text, 1)
 }
 
 fn cases(
@@ -168,11 +169,11 @@ fn cases(
             return Err(needs(&path, "methods of MPM in time").with_help(help));
         }
     }
-    let limit = CaseLimit { most: MOST, of_each_method: 1 };
-    let named = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
+    let named = methods(evaluator, &spec.methods, &plan.scene.material, [MOST, 1])?;
     let curves = named.iter().map(|named| curve(&named.path(evaluator), named.method, plan));
     let curves = curves.collect::<Result<Vec<_>, Diagnostic>>()?;
-    let names: Vec<&str> = named.iter().map(|named| named.name.as_str()).collect();
+    let names: Vec<String> = named.iter().map(NamedMethod::name).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
     let expected = spec.expect.iter().enumerate().map(|(i, spec)| expectation(evaluator, i, spec));
@@ -180,7 +181,7 @@ fn cases(
     let case = |((named, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {
         let expected = owner.map(|owner| expected[owner].clone());
         let limit = Some(curve.stability_limit());
-        let (name, method, curve) = (named.name, named.method, Some(curve));
+        let (name, method, curve) = (named.name(), named.method, Some(curve));
         SpectrumCase { name, method, curve, limit, expected, gating: None }
     };
     Ok(named.into_iter().zip(curves).zip(owners).map(case).collect())
@@ -196,7 +197,7 @@ fn curve(
         let property = "double precision, because the wave is small";
         return Err(needs(&at.then("precision"), property));
     }
-    let Method::Mpm { basis, transfer, scheme, mass, frame, volume, .. } = method else {
+    let Method::Mpm(MpmMethod { basis, transfer, scheme, mass, frame, volume, .. }) = method else {
         return Err(needs(path, "methods of MPM in time"));
     };
     combine(basis, transfer, mass, frame).map_err(|reason| {

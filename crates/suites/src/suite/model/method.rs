@@ -1,7 +1,8 @@
 //! Methods of a suite, and the accuracy that `run --gate` may require of external solvers.
 
 use crate::fem::{Element, Mass, Sampling};
-use crate::mpm::{BasisName, FrameName, MassName, SchemeName, TransferChoice, VolumeName};
+use crate::mpm::input::MpmMethod;
+use crate::mpm::{BasisName, FrameName, MassName, VolumeName};
 use crate::subject::{Precision, Start};
 use crate::suite::grammar::EquationName;
 
@@ -9,24 +10,7 @@ use crate::suite::grammar::EquationName;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Method {
     /// The MPM of this crate.
-    Mpm {
-        /// Basis functions.
-        basis: BasisName,
-        /// Velocity transfer.
-        transfer: TransferChoice,
-        /// Time scheme.
-        scheme: SchemeName,
-        /// Treatment of the initial velocity.
-        start: Start,
-        /// Mass matrix.
-        mass: MassName,
-        /// Configuration in which the basis functions are defined.
-        frame: FrameName,
-        /// Volume ratio at which the material law is evaluated.
-        volume: VolumeName,
-        /// Precision of the state.
-        precision: Precision,
-    },
+    Mpm(MpmMethod),
     /// The MPM of this crate with quasi-static load steps.
     QuasiStatic {
         /// Basis functions.
@@ -65,7 +49,7 @@ impl Method {
     /// Returns the kind of solver: `mpm`, `fem` or `external`.
     pub fn subject(&self) -> &'static str {
         match self {
-            Self::Mpm { .. } | Self::QuasiStatic { .. } | Self::Heat { .. } => "mpm",
+            Self::Mpm(_) | Self::QuasiStatic { .. } | Self::Heat { .. } => "mpm",
             Self::Fem { .. } => "fem",
             Self::External { .. } => "external",
         }
@@ -75,14 +59,14 @@ impl Method {
     pub fn is_single_precision(&self) -> bool {
         matches!(
             self,
-            Self::Mpm { precision: Precision::Single, .. }
+            Self::Mpm(MpmMethod { precision: Precision::Single, .. })
                 | Self::External { precision: Precision::Single, .. }
         )
     }
 
     /// Whether the material law is evaluated at an averaged volume ratio.
     pub(crate) fn averages_volume(&self) -> bool {
-        matches!(self, Self::Mpm { volume: VolumeName::Averaged, .. })
+        matches!(self, Self::Mpm(MpmMethod { volume: VolumeName::Averaged, .. }))
     }
 
     /// Returns the theoretical order of the displacement error on a smooth solution. This is p + 1
@@ -90,10 +74,10 @@ impl Method {
     /// of superconvergent elements have the order 2p (Strang & Fix 1973, section 1.6).
     pub fn formal_order(&self) -> f64 {
         match self {
-            Self::Mpm { basis, mass: MassName::Consistent, .. } => basis.formal_order(),
-            Self::Mpm { basis, .. } | Self::QuasiStatic { basis, .. } | Self::Heat { basis } => {
-                basis.formal_order().min(2.0)
-            }
+            Self::Mpm(MpmMethod { basis, mass: MassName::Consistent, .. }) => basis.formal_order(),
+            Self::Mpm(MpmMethod { basis, .. })
+            | Self::QuasiStatic { basis, .. }
+            | Self::Heat { basis } => basis.formal_order().min(2.0),
             Self::Fem { element, sampling: Sampling::Inside, .. } => element.degree() as f64 + 1.0,
             Self::Fem { element, sampling: Sampling::Nodes, .. } => 2.0 * element.degree() as f64,
             Self::External { formal_order, .. } => *formal_order,
@@ -115,23 +99,23 @@ impl Method {
             rows.into_iter().map(|(key, value)| (key.to_owned(), value.to_owned())).collect()
         };
         match self {
-            Self::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
-                let transfer = transfer.name();
+            Self::Mpm(method) => {
+                let transfer = method.transfer.name();
                 let mut rows = vec![
-                    ("basis", basis.name()),
+                    ("basis", method.basis.name()),
                     ("transfer", transfer.as_str()),
-                    ("scheme", scheme.name()),
-                    ("mass matrix", mass.name()),
-                    ("start", start.name()),
+                    ("scheme", method.scheme.name()),
+                    ("mass matrix", method.mass.name()),
+                    ("start", method.start.name()),
                 ];
                 // The default frame is omitted.
-                if *frame == FrameName::Total {
-                    rows.push(("frame", frame.name()));
+                if method.frame == FrameName::Total {
+                    rows.push(("frame", method.frame.name()));
                 }
-                if *volume == VolumeName::Averaged {
-                    rows.push(("volume ratio", volume.name()));
+                if method.volume == VolumeName::Averaged {
+                    rows.push(("volume ratio", method.volume.name()));
                 }
-                if *precision == Precision::Single {
+                if method.precision == Precision::Single {
                     rows.push(("precision", "single, with the state rounded after each pass"));
                 }
                 owned(rows)

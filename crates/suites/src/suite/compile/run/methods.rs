@@ -2,6 +2,7 @@
 
 use crate::exact::Equation;
 use crate::fem::{BarLaw, Sampling};
+use crate::mpm::input::MpmMethod;
 use crate::mpm::{FrameName, MassName, MaterialPlan, SchemeName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
@@ -10,50 +11,30 @@ use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use std::collections::BTreeMap;
 
-/// A method before its name is final.
-struct MethodDraft {
+/// A method of a study, which is the first part of the names of its cases.
+pub(crate) struct NamedMethod {
+    /// Index in the list `methods`.
     entry: usize,
-    method: Method,
+    pub(crate) method: Method,
     /// Name of the solver; `None` for built-in methods.
-    solver: Option<String>,
+    pub(crate) solver: Option<String>,
     /// Whether each setting appears in the name, in the order of [`settings`].
     said: Vec<bool>,
 }
 
-/// A method, and the first part of the names of its cases.
-pub(crate) struct NamedMethod {
-    /// Index in the list `methods`.
-    entry: usize,
-    pub(crate) name: String,
-    pub(crate) method: Method,
-    pub(crate) solver: Option<String>,
-}
-
-impl NamedMethod {
-    pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>) -> SuitePath<'a> {
-        evaluator.top("methods").then(self.entry)
-    }
-}
-
-/// Maximum number of cases of a study, and the number of cases that each method has.
-pub(crate) struct CaseLimit {
-    pub(crate) most: usize,
-    pub(crate) of_each_method: usize,
-}
-
 /// Compiles the entries of `methods`, one method for each combination of list values. `material`
-/// determines the default law of FEM cases.
+/// determines the default law of FEM cases. There may be at most `most` cases.
 pub(crate) fn methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
     material: &MaterialPlan,
-    limit: &CaseLimit,
+    [most, of_each_method]: [usize; 2],
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     // Too many combinations are refused before they are computed.
-    let (mut all, CaseLimit { most, of_each_method }) = (0_usize, limit);
+    let mut all = 0_usize;
     for (entry, spec) in specs.iter().enumerate() {
-        all = all.saturating_add(count(spec).saturating_mul(*of_each_method));
-        if all > *most {
+        all = all.saturating_add(count(spec).saturating_mul(of_each_method));
+        if all > most {
             let message = format!("these lists give {all} cases");
             let diagnostic = evaluator.top("methods").then(entry).diagnostic(&message);
             return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
@@ -74,8 +55,13 @@ pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     BarLaw::find(name).and(EquationName::find(name))
 }
 
-impl MethodDraft {
-    fn name(&self) -> String {
+impl NamedMethod {
+    /// Returns the path of the entry of `methods`.
+    pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>) -> SuitePath<'a> {
+        evaluator.top("methods").then(self.entry)
+    }
+
+    pub(crate) fn name(&self) -> String {
         let (subject, settings) = settings(&self.method);
         let subject = self.solver.as_deref().unwrap_or(subject);
         let said = settings.iter().zip(&self.said).filter(|(_, said)| **said);
@@ -87,7 +73,16 @@ impl MethodDraft {
 /// Returns the first part of the name of `method`, and the settings that may follow, in order.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
+        Method::Mpm(MpmMethod {
+            basis,
+            transfer,
+            scheme,
+            start,
+            mass,
+            frame,
+            volume,
+            precision,
+        }) => {
             let transfer = transfer.name();
             let rest = [
                 scheme.name(),
@@ -121,7 +116,7 @@ fn combinations(
     entry: usize,
     spec: &MethodSpec,
     own_law: EquationName,
-) -> Result<Vec<MethodDraft>, Diagnostic> {
+) -> Result<Vec<NamedMethod>, Diagnostic> {
     let lengths = lengths(spec);
     // The first `shown` settings have no default.
     let said = |shown: usize| {
@@ -129,7 +124,7 @@ fn combinations(
         lengths.iter().enumerate().map(said).collect::<Vec<bool>>()
     };
     let mut drafts = Vec::new();
-    let mut push = |method, said| drafts.push(MethodDraft { entry, method, solver: None, said });
+    let mut push = |method, said| drafts.push(NamedMethod { entry, method, solver: None, said });
     match spec {
         MethodSpec::Mpm { basis, .. } if spec.is_quasi_static() => {
             refuse_keys_of_dynamics(evaluator, entry, spec)?;
@@ -148,7 +143,7 @@ fn combinations(
                 scheme.as_slice().iter().filter_map(|scheme| scheme.explicit()).collect();
             for number in 0..count(spec) {
                 let mut rest = Combination(number);
-                let method = Method::Mpm {
+                let method = MpmMethod {
                     precision: rest.one_of(precision.as_ref(), Precision::Double),
                     volume: rest.one_of(volume.as_ref(), VolumeName::Particle),
                     frame: rest.one_of(frame.as_ref(), FrameName::Updated),
@@ -158,7 +153,7 @@ fn combinations(
                     transfer: rest.next(transfer.as_slice()).0,
                     basis: rest.next(basis.as_slice()),
                 };
-                push(method, said(3));
+                push(Method::Mpm(method), said(3));
             }
         }
         MethodSpec::Heat { basis } => {
@@ -186,7 +181,7 @@ fn combinations(
                 precision: precision.unwrap_or_default(),
             };
             let solver = Some(solver_name(&path, name)?);
-            drafts.push(MethodDraft { entry, method, solver, said: Vec::new() });
+            drafts.push(NamedMethod { entry, method, solver, said: Vec::new() });
         }
     }
     Ok(drafts)
@@ -274,34 +269,25 @@ impl Combination {
 /// Assigns final names to the methods. Refuses an empty list and duplicate methods.
 fn named(
     evaluator: &Evaluator<'_>,
-    mut drafts: Vec<MethodDraft>,
+    mut drafts: Vec<NamedMethod>,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
     let path = evaluator.top("methods");
     if drafts.is_empty() {
         return Err(path.diagnostic("the suite has no cases: `methods` is empty"));
     }
-    tell_apart(&mut drafts);
-    let mut named: Vec<NamedMethod> = Vec::new();
-    for draft in drafts {
-        let name = draft.name();
-        if named.iter().any(|known| known.name == name) {
-            let message = format!("the case `{name}` appears twice");
-            let diagnostic = path.then(draft.entry).diagnostic(&message);
-            return Err(diagnostic.with_label("the second time"));
-        }
-        let MethodDraft { entry, method, solver, .. } = draft;
-        named.push(NamedMethod { entry, name, method, solver });
+    while say_differences(&mut drafts) {}
+    let names: Vec<String> = drafts.iter().map(NamedMethod::name).collect();
+    if let Some(i) = (1..names.len()).find(|i| names[..*i].contains(&names[*i])) {
+        let message = format!("the case `{}` appears twice", names[i]);
+        let diagnostic = path.then(drafts[i].entry).diagnostic(&message);
+        return Err(diagnostic.with_label("the second time"));
     }
-    Ok(named)
+    Ok(drafts)
 }
 
-/// Adds settings to equal names of different methods until all names are unique.
-fn tell_apart(drafts: &mut [MethodDraft]) {
-    while say_differences(drafts) {}
-}
-
-/// Adds settings to equal names, and returns whether a name has changed.
-fn say_differences(drafts: &mut [MethodDraft]) -> bool {
+/// Adds the settings in which methods differ to their equal names, and returns whether a name has
+/// changed. A new name may equal the name of another method.
+fn say_differences(drafts: &mut [NamedMethod]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
         of_one_name.entry(draft.name()).or_default().push(i);

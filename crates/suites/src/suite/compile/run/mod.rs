@@ -4,6 +4,7 @@ pub(crate) mod methods;
 pub(crate) mod reference;
 pub(crate) mod refine;
 
+use crate::mpm::input::MpmMethod;
 use crate::mpm::{
     CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
     combine_precision, combine_volume,
@@ -17,7 +18,7 @@ use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
-use methods::{CaseLimit, NamedMethod, methods};
+use methods::{NamedMethod, methods};
 use refine::LevelPaths;
 
 const MOST_CASES: usize = 1000;
@@ -159,8 +160,8 @@ pub(crate) fn cases(
     for (i, method) in spec.methods.iter().enumerate() {
         possible(&evaluator.top("methods").then(i), method, plan)?;
     }
-    let limit = CaseLimit { most: MOST_CASES, of_each_method: until.len() * truths.len() };
-    let found = methods(evaluator, &spec.methods, &plan.scene.material, &limit)?;
+    let limit = [MOST_CASES, until.len() * truths.len()];
+    let found = methods(evaluator, &spec.methods, &plan.scene.material, limit)?;
     found.iter().try_for_each(|method| combined(evaluator, method, plan))?;
     Ok(found.iter().flat_map(|method| runs(method, &truths, until)).collect())
 }
@@ -181,7 +182,7 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
     let mut cases = Vec::new();
     for (text, until_value) in until {
         for (against, suffix) in truths {
-            let mut name = method.name.clone();
+            let mut name = method.name();
             if until.len() > 1 {
                 name += &format!("-{text}");
             }
@@ -217,9 +218,8 @@ fn combined(
     if let Method::QuasiStatic { basis, .. } = method {
         return combine_basis(plan.scene.plane, basis).map_err(refuse);
     }
-    let Method::Mpm { basis, transfer, mass, frame, start, volume, precision, .. } = method else {
-        return Ok(());
-    };
+    let Method::Mpm(method) = method else { return Ok(()) };
+    let MpmMethod { basis, transfer, mass, frame, start, volume, precision, .. } = method;
     let mut known = combine(basis, transfer, mass, frame)
         .and_then(|()| combine_across(plan.scene.plane, basis, transfer))
         .and_then(|()| combine_precision(precision, plan.scene.bodies.len()));

@@ -4,9 +4,10 @@ pub(crate) mod expect;
 mod requested;
 pub(crate) mod setup;
 
+use crate::mpm::input::MpmMethod;
 use crate::mpm::{combine, combine_across, combine_volume};
 use crate::suite::compile::expect::assign;
-use crate::suite::compile::run::methods::{CaseLimit, NamedMethod, methods};
+use crate::suite::compile::run::methods::{NamedMethod, methods};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
 use crate::suite::grammar::{MethodSpec, StabilityExpectSpec, StabilitySpec};
 use crate::suite::model::method::Method;
@@ -127,8 +128,7 @@ fn time_stepping_methods(
             return Err(path.then("mpm").then("scheme").diagnostic(message));
         }
     }
-    let limit = CaseLimit { most: MOST, of_each_method: 1 };
-    let methods = methods(evaluator, specs, &scene.material, &limit)?;
+    let methods = methods(evaluator, specs, &scene.material, [MOST, 1])?;
     let plane = scene.plane;
     for named in &methods {
         let path = named.path(evaluator);
@@ -137,7 +137,7 @@ fn time_stepping_methods(
                            in single precision";
             return Err(path.then("mpm").then("precision").diagnostic(message));
         }
-        if let Method::Mpm { basis, transfer, mass, frame, volume, .. } = named.method {
+        if let Method::Mpm(MpmMethod { basis, transfer, mass, frame, volume, .. }) = named.method {
             let across = |()| combine_across(plane, basis, transfer);
             let averaged = |()| {
                 scene.each().iter().try_for_each(|body| {
@@ -167,7 +167,8 @@ fn cases(
     values: &[f64],
     seeks: bool,
 ) -> Result<(Vec<StabilityCase>, Option<RowExpectations>), Diagnostic> {
-    let names: Vec<&str> = methods.iter().map(|method| method.name.as_str()).collect();
+    let names: Vec<String> = methods.iter().map(NamedMethod::name).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let (of_cases, has_any) = split(evaluator, spec)?;
     let selectors: Vec<_> = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
     let owners = assign(evaluator, &selectors, &names)?;
@@ -183,7 +184,7 @@ fn cases(
     let entries: Vec<RowExpectations> =
         spec.expect.iter().enumerate().map(entry).collect::<Result<_, Diagnostic>>()?;
     let case = |(named, owner): (NamedMethod, Option<usize>)| {
-        let NamedMethod { name, method, .. } = named;
+        let (name, method) = (named.name(), named.method);
         let expectations = owner.map(|owner| entries[owner].clone()).unwrap_or_default();
         StabilityCase { name, method, expectations, gating: None }
     };

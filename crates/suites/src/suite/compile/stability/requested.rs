@@ -2,6 +2,7 @@
 //! compute only on request.
 
 use crate::mpm::TransferKind;
+use crate::mpm::input::MpmMethod;
 use crate::subject::PlaneState;
 use crate::suite::compile::check::sums::refuse_law_without_energy;
 use crate::suite::evaluator::{Evaluator, SuitePath};
@@ -83,7 +84,7 @@ pub(crate) fn ledger(
 
 /// Refuses the method at `path` if the energy ledger does not describe its steps.
 pub(crate) fn refuse_unledgered(path: &SuitePath<'_>, method: &Method) -> Result<(), Diagnostic> {
-    let Method::Mpm { transfer, .. } = method else { return Ok(()) };
+    let Method::Mpm(MpmMethod { transfer, .. }) = method else { return Ok(()) };
     let path = path.then("mpm");
     if transfer.kind() == TransferKind::Cells {
         let message = format!(
