@@ -172,7 +172,7 @@ fn run(suite: &Suite, solver: &Differentiable, gate: bool) -> Vec<CaseOutcome> {
     let (name, formal_order, precision) = (solver.name(), 2.0, solver.precision);
     let method = ExternalMethod { name, formal_order, precision };
     let terms = gate.then(GateTerms::default);
-    let judged = suite.of_external_on(method, terms.as_ref()).expect("a study of solvers");
+    let judged = suite.of_external(method, terms.as_ref()).expect("a study of solvers");
     Runner::new(&judged).judging(solver).run(&|| ()).cases
 }
 

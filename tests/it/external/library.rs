@@ -6,7 +6,7 @@ use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, level_problem};
 use mpm_verify::subject::{Failure, RunCounters, Samples, Subject, SubjectError};
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{Extent, ExternalMethod, Suite};
+use mpm_verify::suite::{Extent, ExternalMethod, GateTerms, Suite};
 use mpm_verify::verify::CaseOutcome;
 
 /// Second-order finite differences with one unknown at each particle: `u_tt = c^2 u_XX`.
@@ -81,7 +81,8 @@ fn outcome(text: &str) -> CaseOutcome {
     let maker = Maker("differences");
     let (name, precision) = (maker.name(), maker.precision());
     let method = ExternalMethod { name, formal_order: maker.formal_order(), precision };
-    let suite = suite.of_external(method, true).expect("a convergence study");
+    let suite =
+        suite.of_external(method, Some(&GateTerms::default())).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&maker).case(0, &|| ())
 }
 
@@ -125,7 +126,8 @@ fn a_solver_that_fails_in_its_setup_fails_the_case() {
             formal_order: Failing.formal_order(),
             precision: Failing.precision(),
         };
-        let suite = suite.of_external(method, true).expect("a study of solvers");
+        let suite =
+            suite.of_external(method, Some(&GateTerms::default())).expect("a study of solvers");
         let found = Runner::over(&suite, Extent::Usual).judging(&Failing).case(0, &|| ());
         assert!(!found.passed(), "{name}: {} {}", found.verdict, found.reason);
         assert!(found.unmet.iter().any(|unmet| unmet.text.contains("out of memory")), "{name}");

@@ -64,7 +64,7 @@ fn repeated(noise: f64) -> SuiteOutcome {
         formal_order: solver.formal_order(),
         precision: solver.precision(),
     };
-    let suite: Suite = loaded(&bar()).of_external(method, false).expect("a convergence study");
+    let suite: Suite = loaded(&bar()).of_external(method, None).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(&solver).repeating(3).run(&|| ())
 }
 

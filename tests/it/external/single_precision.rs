@@ -101,7 +101,7 @@ fn bar(amplitude: &str, cells: &str) -> String {
 fn run(solver: &Single, text: &str) -> SuiteOutcome {
     let (name, formal_order) = (solver.name(), solver.formal_order());
     let method = ExternalMethod { name, formal_order, precision: solver.precision };
-    let suite = loaded(text).of_external(method, false).expect("a convergence study");
+    let suite = loaded(text).of_external(method, None).expect("a convergence study");
     Runner::over(&suite, Extent::Usual).judging(solver).run(&|| ())
 }
 

@@ -17,7 +17,7 @@ fn with_entry(entry: &str) -> String {
 fn under(maker: &Maker, suite: &Suite) -> Vec<CaseOutcome> {
     let (name, precision) = (maker.name(), maker.precision());
     let method = ExternalMethod { name, formal_order: 3.0, precision };
-    let suite = suite.of_external(method, false).expect("a convergence study");
+    let suite = suite.of_external(method, None).expect("a convergence study");
     Runner::new(&suite).judging(maker).run(&|| ()).cases
 }
 

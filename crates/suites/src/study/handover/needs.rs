@@ -69,23 +69,17 @@ pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
-/// Replaces the methods of the suite by `solver`. If `gate` is true, the cases get the requirements
-/// of `run --gate` (see [`Suite::of_external`]).
-pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
-    under_on(suite, solver, gate.then(GateTerms::default).as_ref())
-}
-
 /// Replaces the methods of the suite by `solver`. If `terms` are given, the cases get the
 /// requirements of `run --gate`, as modified by these terms of the solver's author. If no body
 /// deforms, the law may be replaced by one that the solver supports.
-pub fn under_on(
+pub fn under(
     suite: &Suite,
     solver: &dyn SolverFactory,
     terms: Option<&GateTerms>,
 ) -> Option<Suite> {
     let (name, formal_order) = (solver.name(), solver.formal_order());
     let method = ExternalMethod { name, formal_order, precision: solver.precision() };
-    let under = suite.of_external_on(method, terms)?;
+    let under = suite.of_external(method, terms)?;
     let plan = under.convergence().and_then(|plan| with_law_of(solver, plan));
     Some(match plan {
         Some(plan) => Suite { study: plan.into(), ..under },

@@ -1,10 +1,11 @@
 //! Compiles a convergence study: computes numbers, resolves names and checks the exact solution.
 
-use super::check::{CompiledStudy, load_steps, refuse_contradictions, sums};
+use super::check::{load_steps, refuse_contradictions, sums};
 use super::expect;
 use super::run::reference::references;
 use super::run::{self, RunPlan};
 use super::scene;
+use super::study::{CompiledStudy, StudyDraft};
 use super::truth::{self, StatedTruth};
 use crate::suite::evaluator::Evaluator;
 use crate::suite::grammar::{AcknowledgeSpec, ConvergenceSpec, WarningName};
@@ -18,11 +19,12 @@ pub(crate) fn convergence_plan(
     spec: &ConvergenceSpec,
 ) -> Result<ConvergencePlan, Diagnostic> {
     let scene = scene::scene(evaluator, &spec.scene)?;
-    load_steps::refuse_unfit(evaluator, spec, &scene)?;
-    let run = run::plan(evaluator, spec, &scene)?;
+    let draft = StudyDraft { evaluator, spec, scene };
+    load_steps::refuse_unfit(&draft)?;
+    let run = run::plan(&draft)?;
     let latest = run.until.iter().map(|(_, t)| *t).fold(0.0, f64::max);
-    let truth = truth::truth(evaluator, spec, &scene, latest)?;
-    let (reference, same_method) = references(evaluator, spec, &scene, &run)?;
+    let truth = truth::truth(&draft, latest)?;
+    let (reference, same_method) = references(&draft, &run)?;
     let scale = spec
         .judge
         .scale
@@ -32,7 +34,7 @@ pub(crate) fn convergence_plan(
     let StatedTruth { exact, conduction, survey, places } = truth;
     let mut plan = ConvergencePlan {
         observe: places.observe,
-        scene,
+        scene: draft.scene,
         exact,
         conduction,
         reference,
@@ -61,9 +63,15 @@ pub(crate) fn convergence_plan(
     let study = CompiledStudy { evaluator, spec, plan: &plan, survey, levels };
     refuse_contradictions(&study)?;
     // The exact value of the sum needs the solution, which has been checked above.
-    plan.sum = sums::judged(evaluator, spec, &plan)?;
-    plan.scale = plan.scale.or(plan.sum.as_ref().map(|sum| sum.size()));
-    expect::complete(evaluator, spec, &mut plan)?;
+    let sum = sums::judged(&study)?;
+    let any_method = expect::any_method(&study)?;
+    let expectations = expect::expectations(&study)?;
+    plan.scale = plan.scale.or(sum.as_ref().map(|sum| sum.size()));
+    (plan.sum, plan.any_method) = (sum, any_method);
+    for (case, expected) in plan.cases.iter_mut().zip(expectations) {
+        let (expectation, in_full) = expected.unzip();
+        (case.expectation, case.expectation_in_full) = (expectation, in_full.flatten());
+    }
     Ok(plan)
 }
 

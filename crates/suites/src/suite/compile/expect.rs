@@ -3,8 +3,9 @@
 use crate::exact::Problem;
 use crate::subject::{HIGHEST_ORDER, PlaneState};
 use crate::suite::compile::check::sums::refuse_law_without_energy;
+use crate::suite::compile::study::CompiledStudy;
 use crate::suite::evaluator::{Evaluator, SuitePath, shown, suggestion};
-use crate::suite::grammar::{AnyMethodSpec, ConvergenceSpec, CrossingsName, DriftSpec, ExpectSpec};
+use crate::suite::grammar::{CrossingsName, DriftSpec, ExpectSpec};
 use crate::suite::model::ConvergencePlan;
 use crate::suite::model::method::{AnyMethod, Method};
 use crate::suite::pattern;
@@ -14,35 +15,17 @@ use crate::verify::{
 };
 use std::str::FromStr;
 
-/// Compiles the expectations of all cases in `plan`, and `any_method`.
-pub(crate) fn complete(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &mut ConvergencePlan,
-) -> Result<(), Diagnostic> {
-    if let Some(spec) = &spec.any_method {
-        plan.any_method = any_method(evaluator, spec, plan)?;
-    }
-    let expectations = expectations(evaluator, &spec.expect, plan)?;
-    for (case, expected) in plan.cases.iter_mut().zip(expectations) {
-        let (expectation, in_full) = expected.unzip();
-        (case.expectation, case.expectation_in_full) = (expectation, in_full.flatten());
-    }
-    Ok(())
-}
-
 /// Expectation of a case, and its expectation for a full run if different.
-type CaseExpectation = (Expectation, Option<Expectation>);
+pub(crate) type CaseExpectation = (Expectation, Option<Expectation>);
 
 /// Returns the expectations in the order of the cases; all `None` if the suite states none.
-fn expectations(
-    evaluator: &Evaluator<'_>,
-    spec: &[ExpectSpec],
-    plan: &ConvergencePlan,
+pub(crate) fn expectations(
+    study: &CompiledStudy<'_>,
 ) -> Result<Vec<Option<CaseExpectation>>, Diagnostic> {
-    let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
-    let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, &selectors, &names)?;
+    let (evaluator, spec, plan) = (study.evaluator, &study.spec.expect, study.plan);
+    let names: Vec<String> = plan.cases.iter().map(|case| case.name.clone()).collect();
+    let selectors = spec.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, selectors, &names)?;
     let both = |(i, spec): (usize, &ExpectSpec)| {
         let path = evaluator.top("expect").then(i);
         Ok((expectation(&path, spec, plan)?, in_full(&path, spec, plan)?))
@@ -62,8 +45,8 @@ fn expectations(
 /// Returns for each case the index of its only entry of `expect`; `None` without entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
-    selectors: &[Option<&OneOrMany<String>>],
-    names: &[&str],
+    selectors: Vec<Option<&OneOrMany<String>>>,
+    names: &[String],
 ) -> Result<Vec<Option<usize>>, Diagnostic> {
     if selectors.is_empty() {
         return Ok(vec![None; names.len()]);
@@ -82,7 +65,7 @@ pub(crate) fn assign(
             return at.refuse(&message, &format!("cases: {}", names.join(", ")));
         }
     }
-    let owner = |name: &&str| {
+    let owner = |name: &String| {
         let owners: Vec<usize> = (0..selectors.len()).filter(|i| speaks(*i, name)).collect();
         match owners[..] {
             [only] => Ok(Some(only)),
@@ -287,12 +270,10 @@ const PLACES: usize = 5;
 /// Displacement gradients up to this value count as rounding errors.
 const UNDEFORMED: f64 = 1e-14;
 
-fn any_method(
-    evaluator: &Evaluator<'_>,
-    spec: &AnyMethodSpec,
-    plan: &ConvergencePlan,
-) -> Result<AnyMethod, Diagnostic> {
-    let path = evaluator.top("any_method");
+/// Compiles the key `any_method`.
+pub(crate) fn any_method(study: &CompiledStudy<'_>) -> Result<AnyMethod, Diagnostic> {
+    let Some(spec) = &study.spec.any_method else { return Ok(AnyMethod::default()) };
+    let path = study.evaluator.top("any_method");
     let because = path.because("this requirement", &spec.because)?;
     let order = spec.order.as_ref().map(|text| {
         let path = path.then("order");
@@ -321,7 +302,7 @@ fn any_method(
         let diagnostic = path.then("gated").diagnostic_at_key(message);
         return Err(diagnostic.with_help("remove `gated`, or `order` and `error_below`"));
     }
-    if spec.any_law && !plan.exact.as_ref().is_some_and(is_translation) {
+    if spec.any_law && !study.plan.exact.as_ref().is_some_and(is_translation) {
         let message = "the solution depends on the law, because it is not a translation";
         return path.then("any_law").refuse(message, "remove `any_law`");
     }

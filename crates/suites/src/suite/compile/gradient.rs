@@ -11,7 +11,7 @@ use crate::suite::grammar::{
 };
 use crate::suite::model::gradient::{Differentiated, GradientCase, GradientPlan, SweepPlan};
 use crate::suite::model::{Case, ConvergencePlan, Scene};
-use crate::suite::yaml::{Diagnostic, NumberText, Source};
+use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{Axis, GradientTerms};
 
 const MOST_POINTS: u64 = 1000;
@@ -19,18 +19,26 @@ const MOST_POINTS: u64 = 1000;
 /// Relative change of a parameter for which the stated solution must still hold.
 const CHANGE: f64 = 1.0 / 64.0;
 
+/// A gradient study whose problem has been compiled.
+struct GradientDraft<'a> {
+    evaluator: &'a Evaluator<'a>,
+    spec: &'a GradientSpec,
+    problem: ConvergencePlan,
+}
+
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
-    source: &Source,
     spec: &GradientSpec,
 ) -> Result<GradientPlan, Diagnostic> {
     let methods = methods(evaluator, spec)?;
     let problem = convergence_plan(evaluator, &spec.convergence(methods))?;
-    refuse_unfit_problem(evaluator, spec, &problem)?;
-    let of = functional(evaluator, spec, &problem)?;
-    let parameters = parameters(evaluator, source, spec, &problem)?;
-    let level = level(evaluator, spec, &problem)?;
+    let draft = GradientDraft { evaluator, spec, problem };
+    refuse_unfit_problem(&draft)?;
+    let of = functional(&draft)?;
+    let parameters = parameters(&draft)?;
+    let level = level(&draft)?;
     let sweep = sweep(evaluator, spec, &parameters)?;
+    let problem = draft.problem;
     let mut plan = GradientPlan { problem, of, parameters, level, sweep, cases: Vec::new() };
     plan.cases = cases(evaluator, spec, &plan)?;
     Ok(plan)
@@ -53,11 +61,8 @@ fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodS
 }
 
 /// Refuses a problem whose exact sensitivities are not implemented.
-fn refuse_unfit_problem(
-    evaluator: &Evaluator<'_>,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
-) -> Result<(), Diagnostic> {
+fn refuse_unfit_problem(draft: &GradientDraft<'_>) -> Result<(), Diagnostic> {
+    let GradientDraft { evaluator, spec, problem } = draft;
     let scene: &Scene = &problem.scene;
     let (key, truth) = spec.truth();
     let is_displacement =
@@ -118,11 +123,8 @@ fn index(
     Err(diagnostic.with_label(&format!("expected a whole number from 0 to {}", count - 1)))
 }
 
-fn functional(
-    evaluator: &Evaluator<'_>,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
-) -> Result<Functional, Diagnostic> {
+fn functional(draft: &GradientDraft<'_>) -> Result<Functional, Diagnostic> {
+    let GradientDraft { evaluator, spec, problem } = draft;
     let path = evaluator.top("gradient.of");
     let axis = |name: &str, text: &NumberText| {
         let count = problem.scene.dimension();
@@ -152,14 +154,9 @@ fn coarsest_particles(problem: &ConvergencePlan) -> usize {
     (cells * level.ppc.unwrap_or(1) as f64).max(1.0) as usize
 }
 
-fn parameters(
-    evaluator: &Evaluator<'_>,
-    source: &Source,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
-) -> Result<Vec<Differentiated>, Diagnostic> {
-    let path = evaluator.top("gradient.with_respect_to");
-    let entries = spec.gradient.with_respect_to.as_slice();
+fn parameters(draft: &GradientDraft<'_>) -> Result<Vec<Differentiated>, Diagnostic> {
+    let path = draft.evaluator.top("gradient.with_respect_to");
+    let entries = draft.spec.gradient.with_respect_to.as_slice();
     if entries.is_empty() {
         return path
             .refuse("`with_respect_to` names no parameter", "write `with_respect_to: {young: E}`");
@@ -172,7 +169,7 @@ fn parameters(
             let message = format!("`{key}` is not a parameter of the problem");
             return path.refuse_key(&message, &suggestion("parameters", key, &known));
         };
-        differentiated(&path, source, spec, problem, *parameter, name)
+        differentiated(&path, draft, *parameter, name)
     };
     let all = entries.iter().map(one).collect::<Result<Vec<Differentiated>, Diagnostic>>()?;
     let has_velocity = all.iter().any(|one| one.parameter == GradientParameter::InitialVelocity);
@@ -193,12 +190,11 @@ fn parameters(
 /// Returns the problem parameter that the suite parameter `name` sets.
 fn differentiated(
     path: &SuitePath<'_>,
-    source: &Source,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
+    draft: &GradientDraft<'_>,
     parameter: GradientParameter,
     name: &String,
 ) -> Result<Differentiated, Diagnostic> {
+    let GradientDraft { spec, problem, .. } = draft;
     let declared = spec.parameters.as_slice();
     if spec.parameters.get(name).is_none() {
         let known: Vec<&str> = declared.iter().map(|(name, _)| name.as_str()).collect();
@@ -210,7 +206,7 @@ fn differentiated(
         let message = format!("`{name}` is 0, but perturbations are relative to its value");
         return path.expected("a value other than 0", &message);
     }
-    let motion = motion(path.evaluator, spec, problem, name, value)?;
+    let motion = motion(draft, name, value)?;
     let factor = motion.velocity_factor().ok_or_else(|| {
         path.diagnostic(&format!("the shape of the initial velocity depends on `{name}`"))
     })?;
@@ -222,7 +218,7 @@ fn differentiated(
     let growth = factor * value;
     let other = value * (1.0 + CHANGE);
     let is_set = sets(parameter, &problem.scene, value, growth)
-        && with_value(source, spec, name, other, |evaluator| {
+        && with_value(draft, name, other, |evaluator| {
             let scene = scene::scene(evaluator, &spec.scene)?;
             Ok(sets(parameter, &scene, other, growth))
         })?;
@@ -242,7 +238,7 @@ fn differentiated(
     let check = |evaluator: &Evaluator<'_>| {
         convergence_plan(evaluator, &spec.convergence(vec![solver])).map(|_| ())
     };
-    with_value(source, spec, name, other, check).map_err(|error| {
+    with_value(draft, name, other, check).map_err(|error| {
         let reason = error.message();
         path.diagnostic(&format!("the suite is not valid for {name} = {}: {reason}", shown(other)))
     })?;
@@ -269,23 +265,20 @@ fn sets(parameter: GradientParameter, scene: &Scene, value: f64, growth: f64) ->
 
 /// Returns the result of `check` for the suite with a changed value of a suite parameter.
 fn with_value<T>(
-    source: &Source,
-    spec: &GradientSpec,
+    GradientDraft { evaluator, spec, .. }: &GradientDraft<'_>,
     name: &str,
     value: f64,
     check: impl FnOnce(&Evaluator<'_>) -> Result<T, Diagnostic>,
 ) -> Result<T, Diagnostic> {
     let number = ParameterSpec::Number(NumberText::Number(value));
     let parameters = spec.parameters.clone().with(name, number);
-    let (evaluator, _) = Evaluator::new(source, &parameters, &spec.functions)?;
+    let (evaluator, _) = Evaluator::new(evaluator.source(), &parameters, &spec.functions)?;
     check(&evaluator)
 }
 
 /// Returns the exact motion as a function of the suite parameter `name`.
 fn motion(
-    evaluator: &Evaluator<'_>,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
+    GradientDraft { evaluator, spec, problem }: &GradientDraft<'_>,
     name: &str,
     value: f64,
 ) -> Result<ParametricMotion, Diagnostic> {
@@ -306,11 +299,8 @@ fn motion(
 }
 
 /// Returns the index of the level whose parameters are perturbed.
-fn level(
-    evaluator: &Evaluator<'_>,
-    spec: &GradientSpec,
-    problem: &ConvergencePlan,
-) -> Result<usize, Diagnostic> {
+fn level(draft: &GradientDraft<'_>) -> Result<usize, Diagnostic> {
+    let GradientDraft { evaluator, spec, problem } = draft;
     let levels = &problem.refine.levels[..problem.refine.usual];
     let Some(text) = &spec.gradient.cells else { return Ok(levels.len().saturating_sub(1)) };
     let path = evaluator.top("gradient.cells");
@@ -357,16 +347,14 @@ fn cases(
 ) -> Result<Vec<GradientCase>, Diagnostic> {
     let of_solver = |solver: &Case| plan.cases_of(&solver.name, solver);
     let cases: Vec<GradientCase> = plan.problem.cases.iter().flat_map(of_solver).collect();
-    let names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
-    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, &selectors, &names)?;
+    let names: Vec<String> = cases.iter().map(|case| case.name.clone()).collect();
+    let selectors = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, selectors, &names)?;
     let stated = spec.expect.iter().enumerate().map(|(i, spec)| terms(evaluator, i, spec));
     let stated = stated.collect::<Result<Vec<(GradientTerms, String)>, _>>()?;
-    let with = |(case, owner): (GradientCase, Option<usize>)| GradientCase {
-        expected: owner.map(|owner| stated[owner].clone()),
-        ..case
-    };
-    Ok(cases.iter().cloned().zip(owners).map(with).collect())
+    let expected = owners.into_iter().map(|owner| Some(stated[owner?].clone()));
+    let all = cases.into_iter().zip(expected);
+    Ok(all.map(|(case, expected)| GradientCase { expected, ..case }).collect())
 }
 
 fn terms(

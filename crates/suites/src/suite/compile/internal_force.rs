@@ -53,15 +53,14 @@ fn cases(
     }
     let names: Vec<String> =
         bases.iter().map(|basis| format!("mpm-{}", basis.name().replace('_', "-"))).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     if let Some(twice) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
         let message = format!("the case `{}` appears twice", twice.1);
         return Err(evaluator.top("methods").diagnostic(&message));
     }
-    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, &selectors, &names)?;
-    let case = |((basis, name), owner): ((BasisName, &str), Option<usize>)| {
-        let (name, mut expected, mut because) = (name.to_owned(), None, String::new());
+    let selectors = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, selectors, &names)?;
+    let case = |((basis, name), owner): ((BasisName, String), Option<usize>)| {
+        let (mut expected, mut because) = (None, String::new());
         if let Some(owner) = owner {
             let (path, spec) = (evaluator.top("expect").then(owner), &spec.expect[owner]);
             expected = Some(expectation(&path, spec)?);

@@ -11,6 +11,7 @@ pub(crate) mod scene;
 pub(crate) mod schema;
 pub(crate) mod spectrum;
 pub(crate) mod stability;
+pub(crate) mod study;
 pub(crate) mod suite;
 pub(crate) mod truth;
 

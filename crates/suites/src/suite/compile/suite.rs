@@ -8,14 +8,13 @@ use crate::suite::model::fingerprint::fingerprint;
 use crate::suite::model::{Scene, Suite};
 use crate::suite::yaml::{Diagnostic, NumberText, Source};
 
-/// Creates a suite from its keys and the study that an expression compiles. Group and fingerprint
+/// Creates a suite from its keys and the function that compiles its study. Group and fingerprint
 /// are set by [`Suite::load`] only: changed copies of a study have none.
 macro_rules! compile_suite {
-    ($source:ident, $spec:ident, |$evaluator:ident| $plan:expr) => {{
+    ($source:ident, $spec:ident, $plan:path) => {{
         let (evaluator, parameters) = Evaluator::new($source, &$spec.parameters, &$spec.functions)?;
         refuse_unusable_name(&evaluator, &$spec.suite)?;
-        let $evaluator = &evaluator;
-        let plan = $plan?;
+        let plan = $plan(&evaluator, &$spec)?;
         evaluator.refuse_unused(&$spec.parameters, &$spec.functions)?;
         let functions = $spec.functions.as_slice().to_vec();
         Suite {
@@ -40,18 +39,10 @@ impl Suite {
     pub fn load(source: &Source) -> Result<Self, Diagnostic> {
         let suite = match SuiteSpec::read(source)? {
             SuiteSpec::Convergence(spec) => convergence(source, *spec)?,
-            SuiteSpec::InternalForce(spec) => {
-                compile_suite!(source, spec, |evaluator| internal_force::plan(evaluator, &spec))
-            }
-            SuiteSpec::Stability(spec) => {
-                compile_suite!(source, spec, |evaluator| stability::plan(evaluator, source, &spec))
-            }
-            SuiteSpec::Gradient(spec) => {
-                compile_suite!(source, spec, |evaluator| gradient::plan(evaluator, source, &spec))
-            }
-            SuiteSpec::Spectrum(spec) => {
-                compile_suite!(source, spec, |evaluator| spectrum::plan(evaluator, &spec))
-            }
+            SuiteSpec::InternalForce(spec) => compile_suite!(source, spec, internal_force::plan),
+            SuiteSpec::Stability(spec) => compile_suite!(source, spec, stability::plan),
+            SuiteSpec::Gradient(spec) => compile_suite!(source, spec, gradient::plan),
+            SuiteSpec::Spectrum(spec) => compile_suite!(source, spec, spectrum::plan),
         };
         let fingerprint = fingerprint(source.text().as_bytes());
         Ok(Self { group: source.group(), fingerprint, ..suite })
@@ -102,7 +93,7 @@ fn scale_amplitude(spec: &mut ConvergenceSpec, factor: f64) {
 }
 
 fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnostic> {
-    Ok(compile_suite!(source, spec, |evaluator| convergence_plan(evaluator, &spec)))
+    Ok(compile_suite!(source, spec, convergence_plan))
 }
 
 /// Refuses a suite name that cannot be used in names of tests and files.

@@ -1,7 +1,7 @@
 //! Replaces the methods of a suite by an external solver.
 
 use super::method::{ExternalMethod, GateTerms, Method};
-use super::plan::Suite;
+use super::plan::{StudyPlan, Suite};
 use super::{Against, Case, ConvergencePlan};
 use crate::verify::{Axis, CaseFigure, Expectation, Gating, Requirement, format_number};
 
@@ -9,20 +9,20 @@ impl Suite {
     /// Returns the suite with an external solver in place of its methods; `None` if the study
     /// examines the internals of a method. A convergence study keeps the cases stated for this
     /// solver. If there are none, the solver gets one case for each combination of end time and
-    /// reference solution. With `gate`, each case without an expectation must reach an order or an
+    /// reference solution. With `terms`, each case without an expectation must reach an order or an
     /// error bound.
-    pub fn of_external(&self, solver: ExternalMethod<'_>, gate: bool) -> Option<Self> {
-        self.of_external_on(solver, gate.then(GateTerms::default).as_ref())
-    }
-
-    /// Replaces the methods as in [`Suite::of_external`]; the solver must meet the requirements
-    /// `terms`, if any.
-    pub fn of_external_on(
+    pub fn of_external(
         &self,
         solver: ExternalMethod<'_>,
         terms: Option<&GateTerms>,
     ) -> Option<Self> {
-        let study = self.study.of_external(solver, terms)?;
+        let study = match &self.study {
+            StudyPlan::Convergence(plan) => plan.under(solver, terms).into(),
+            StudyPlan::InternalForce(_) => return None,
+            StudyPlan::Stability(plan) => plan.under(solver, terms).into(),
+            StudyPlan::Gradient(plan) => plan.under(solver, terms).into(),
+            StudyPlan::Spectrum(plan) => plan.under(solver, terms).into(),
+        };
         Some(Self { study, ..self.clone() })
     }
 

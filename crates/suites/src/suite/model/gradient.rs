@@ -81,11 +81,7 @@ impl GradientPlan {
         Some((terms.summary(), because))
     }
 
-    pub(super) fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<Self> {
+    pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let ExternalMethod { name, formal_order, precision } = solver;
         let mut plan = self.clone();
         let is_stated = |case: &GradientCase| case.solver.solver.as_deref() == Some(name);
@@ -93,9 +89,9 @@ impl GradientPlan {
             plan.cases.retain(is_stated);
         } else {
             let method = Method::External { formal_order, precision };
-            let template = self.problem.cases.first()?.clone();
-            let solver = Case { method, solver: Some(name.to_owned()), ..template };
-            plan.cases = self.cases_of(name, &solver);
+            let own = |own: &Case| Case { method, solver: Some(name.to_owned()), ..own.clone() };
+            let solver = self.problem.cases.first().map(own);
+            plan.cases = solver.map_or(Vec::new(), |solver| self.cases_of(name, &solver));
         }
         for case in plan.cases.iter_mut().filter(|case| case.expected.is_none()) {
             let Some(terms) = terms else { continue };
@@ -111,6 +107,6 @@ impl GradientPlan {
             };
             case.expected = Some((GradientTerms::of_gate(order), because));
         }
-        Some(plan)
+        plan
     }
 }

@@ -3,7 +3,6 @@
 use super::ConvergencePlan;
 use super::gradient::GradientPlan;
 use super::internal_force::ForcePlan;
-use super::method::{ExternalMethod, GateTerms};
 use super::spectrum::SpectrumPlan;
 use super::stability::StabilityPlan;
 use std::sync::Arc;
@@ -107,21 +106,6 @@ impl StudyPlan {
             plan.cases.retain(|_| index.next().is_some_and(keep));
             plan.into()
         })
-    }
-
-    /// Returns the study with an external solver; `None` if it examines the internals of a method.
-    pub(super) fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Option<Self> {
-        match self {
-            Self::Convergence(plan) => Some(plan.under(solver, terms).into()),
-            Self::InternalForce(_) => None,
-            Self::Stability(plan) => Some(plan.of_external(solver, terms).into()),
-            Self::Gradient(plan) => plan.of_external(solver, terms).map(Self::from),
-            Self::Spectrum(plan) => Some(plan.of_external(solver, terms).into()),
-        }
     }
 }
 

@@ -85,11 +85,7 @@ impl SpectrumPlan {
         Some((expected.summary(), because))
     }
 
-    pub(super) fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Self {
+    pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let ExternalMethod { name, formal_order, precision } = solver;
         let same = self.case_of(name);
         let unknown = || {

@@ -109,11 +109,7 @@ impl StabilityPlan {
         Some((summary.clone()?, because))
     }
 
-    pub(super) fn of_external(
-        &self,
-        solver: ExternalMethod<'_>,
-        terms: Option<&GateTerms>,
-    ) -> Self {
+    pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let ExternalMethod { name, formal_order, precision } = solver;
         let case = StabilityCase {
             name: name.to_owned(),

@@ -1,10 +1,11 @@
 //! Checks each level: its size, nodes on fixed faces, particles, and time step.
 
-use crate::suite::compile::run::refine::{COARSE_TO_FINE, LevelPaths};
-use crate::suite::evaluator::{Evaluator, SuitePath, shown};
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::compile::run::refine::COARSE_TO_FINE;
+use crate::suite::compile::study::CompiledStudy;
+use crate::suite::evaluator::{SuitePath, shown};
+use crate::suite::grammar::MethodSpec;
 use crate::suite::model::refine_plan::{LevelPlan, MOST_POINTS, SameMethod};
-use crate::suite::model::{Against, Case, ConvergencePlan, Scene};
+use crate::suite::model::{Against, Case, Scene};
 use crate::suite::scene::lattice::{any_particle, is_vacant};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::suite::yaml::Diagnostic;
@@ -14,19 +15,15 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 const ROUNDING: f64 = 1e-6;
 
 /// Refuses levels that are too large, or lack nodes, particles or a valid time step.
-pub(crate) fn refuse_unfit(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-    levels: &[LevelPaths<'_>],
-) -> Result<(), Diagnostic> {
-    references(evaluator, plan)?;
+pub(crate) fn refuse_unfit(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { spec, plan, levels, .. } = study;
+    references(study)?;
     if !spec.methods.iter().all(|method| matches!(method, MethodSpec::Fem { .. })) {
         for (level, place) in plan.refine.levels.iter().zip(levels) {
             fits(&place.size, &plan.scene, *level)?;
         }
     }
-    refuse_unusable_steps(evaluator, plan, levels)
+    refuse_unusable_steps(study)
 }
 
 fn fits(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Diagnostic> {
@@ -111,7 +108,8 @@ fn sets(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
 }
 
 /// Refuses a reference that is on an invalid fine grid or too large to store.
-fn references(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
+fn references(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, plan, .. } = study;
     let fits_into_memory = |path: &SuitePath<'_>, count: f64, text: &str, what: &str| {
         if count * plan.instants as f64 <= MOST_POINTS {
             return Ok(());
@@ -143,14 +141,11 @@ struct StatedStep {
 
 /// Checks the time steps of all levels and of the reference. Refined steps must decrease. Steps
 /// that are compared with a computed reference must end at its instants, up to [`STEP_TOLERANCE`].
-fn refuse_unusable_steps(
-    evaluator: &Evaluator<'_>,
-    plan: &ConvergencePlan,
-    places: &[LevelPaths<'_>],
-) -> Result<(), Diagnostic> {
+fn refuse_unusable_steps(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, plan, levels, .. } = study;
     for case in &plan.cases {
         let mut coarser: Option<StatedStep> = None;
-        for (level, place) in plan.refine.levels.iter().zip(places) {
+        for (level, place) in plan.refine.levels.iter().zip(levels) {
             let clock = case.clock(plan, level.dt);
             let clock = usable(&place.dt, clock, level.cells, level.dt)?;
             let step = StatedStep { dt: level.dt, clock };

@@ -1,8 +1,9 @@
 //! Refuses keys and features that load steps do not support.
 
 use crate::subject::PlaneState;
-use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath};
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::compile::study::StudyDraft;
+use crate::suite::evaluator::{COORDINATES, SuitePath};
+use crate::suite::grammar::MethodSpec;
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::EffectName;
 use crate::suite::scene::load::ListedLoad;
@@ -10,16 +11,13 @@ use crate::suite::yaml::Diagnostic;
 use crate::verify::Quantity;
 
 /// Refuses keys and features that load steps do not support, and load steps without a number.
-pub(crate) fn refuse_unfit(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
-    refuse_time(evaluator, spec)?;
-    if spec.run.load_steps.is_some() { refuse_unfit_scene(evaluator, spec, scene) } else { Ok(()) }
+pub(crate) fn refuse_unfit(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    refuse_time(draft)?;
+    if draft.spec.run.load_steps.is_some() { refuse_unfit_scene(draft) } else { Ok(()) }
 }
 
-fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+fn refuse_time(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, .. } = draft;
     let method = |wanted: &dyn Fn(&MethodSpec) -> bool| spec.methods.iter().position(wanted);
     if spec.run.load_steps.is_none() {
         let Some(i) = method(&MethodSpec::is_quasi_static) else { return Ok(()) };
@@ -65,11 +63,8 @@ fn refuse_time(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), 
     }
 }
 
-fn refuse_unfit_scene(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn refuse_unfit_scene(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let top = evaluator.top("scene");
     let help = "load steps need loads and walls that depend neither on time nor on the motion";
     let in_plane_stress =
@@ -88,7 +83,7 @@ fn refuse_unfit_scene(
     if let Some((_, key, message)) = refused.into_iter().find(|(is_refused, ..)| *is_refused) {
         return Err(top.then(key).diagnostic_at_key(message));
     }
-    for (listed, stated) in scene.loads.iter().zip(listed_paths(evaluator, spec, scene)) {
+    for (listed, stated) in scene.loads.iter().zip(listed_paths(draft)) {
         if let Some(reason) = against_load(listed, scene.dimension()) {
             let message =
                 format!("`{}` is not supported in load steps: {reason}", listed.effect.name());
@@ -167,11 +162,8 @@ fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
 }
 
 /// Returns the paths of the loads in the suite file, in the order of `scene`.
-fn listed_paths<'a>(
-    evaluator: &'a Evaluator<'a>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Vec<SuitePath<'a>> {
+fn listed_paths<'a>(draft: &StudyDraft<'a>) -> Vec<SuitePath<'a>> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let mut stated: Vec<(EffectName, SuitePath<'_>)> = spec
         .scene
         .loads

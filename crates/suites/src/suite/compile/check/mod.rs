@@ -4,28 +4,15 @@ pub(crate) mod levels;
 pub(crate) mod load_steps;
 pub(crate) mod sums;
 
-use crate::exact::Survey;
 use crate::fem::BarLaw;
 use crate::subject::PlaneState;
 use crate::suite::compile::run::methods::law_of_bar;
-use crate::suite::compile::run::refine::LevelPaths;
+use crate::suite::compile::study::CompiledStudy;
 use crate::suite::compile::truth;
-use crate::suite::evaluator::Evaluator;
-use crate::suite::grammar::{ConvergenceSpec, EquationName, MethodSpec};
-use crate::suite::model::{ConvergencePlan, Scene};
+use crate::suite::grammar::{EquationName, MethodSpec};
+use crate::suite::model::Scene;
 use crate::suite::scene::load::{LoadEntry, StudyFacts};
 use crate::suite::yaml::Diagnostic;
-
-/// A convergence study after its scene, exact solution, levels and cases have been compiled.
-pub(crate) struct CompiledStudy<'a> {
-    pub(crate) evaluator: &'a Evaluator<'a>,
-    pub(crate) spec: &'a ConvergenceSpec,
-    pub(crate) plan: &'a ConvergencePlan,
-    /// Sampled positions and largest terms of the exact motion of a single body.
-    pub(crate) survey: Option<Survey>,
-    /// Paths of the levels in the file.
-    pub(crate) levels: Vec<LevelPaths<'a>>,
-}
 
 type CrossCheck = fn(&CompiledStudy<'_>) -> Result<(), Diagnostic>;
 
@@ -36,8 +23,8 @@ const CROSS_CHECKS: [CrossCheck; 7] = [
     refuse_foreign,
     refuse_quantity_unknown_to_fem,
     refuse_unknown_stress,
-    |study| truth::refuse_unfit(study.evaluator, study.spec, study.plan, study.survey.as_ref()),
-    |study| levels::refuse_unfit(study.evaluator, study.spec, study.plan, &study.levels),
+    truth::refuse_unfit,
+    levels::refuse_unfit,
 ];
 
 /// Refuses a study whose keys contradict each other.

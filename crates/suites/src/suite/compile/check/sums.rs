@@ -3,8 +3,9 @@
 use crate::exact::Problem;
 use crate::mpm::{MassName, VolumeName};
 use crate::subject::PlaneState;
+use crate::suite::compile::study::CompiledStudy;
 use crate::suite::evaluator::{Evaluator, SuitePath};
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec};
+use crate::suite::grammar::MethodSpec;
 use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
 use crate::suite::scene::face::face;
 use crate::suite::yaml::Diagnostic;
@@ -12,11 +13,8 @@ use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
 /// Returns the judged sum with its exact value; `None` if the suite judges another quantity.
-pub(crate) fn judged(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-) -> Result<Option<Arc<JudgedSum>>, Diagnostic> {
+pub(crate) fn judged(study: &CompiledStudy<'_>) -> Result<Option<Arc<JudgedSum>>, Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
     let path = evaluator.top("judge");
     let Some(need) = plan.of.sum_need() else {
         return match spec.judge.face {
@@ -28,23 +26,15 @@ pub(crate) fn judged(
         return Err(no_face(evaluator, plan));
     }
     let name = plan.of.words();
-    if plan.norm.is_over_instants() {
-        let message = format!(
-            "the {name} is one number for the whole body, so a norm over particles does not apply"
-        );
-        return path
-            .then("norm")
-            .refuse(&message, "use `rms`, or `linf` for the largest value over the instants");
-    }
-    if plan.norm.is_by_mass() {
-        let norm = plan.norm.name();
-        let message = format!(
-            "the {name} is one number for the whole body, so `{norm}`, a norm over particles, does \
-             not apply"
-        );
-        return path
-            .then("norm")
-            .refuse(&message, "use `rms`, or `linf` for the largest value over the instants");
+    let norm = if plan.norm.is_by_mass() && !plan.norm.is_over_instants() {
+        format!("so `{}`, a norm over particles, does", plan.norm.name())
+    } else {
+        "so a norm over particles does".to_owned()
+    };
+    if plan.norm.is_over_instants() || plan.norm.is_by_mass() {
+        let message = format!("the {name} is one number for the whole body, {norm} not apply");
+        let help = "use `rms`, or `linf` for the largest value over the instants";
+        return path.then("norm").refuse(&message, help);
     }
     let path = path.then("of");
     if plan.scene.plane == PlaneState::Axisymmetric {
@@ -60,14 +50,14 @@ pub(crate) fn judged(
         SumNeed::Nothing => Vec::new(),
         SumNeed::StoredEnergy => {
             stored_energy(&path, problem, plan)?;
-            averaged_volume(evaluator, spec)?;
+            averaged_volume(study)?;
             Vec::new()
         }
         SumNeed::Rotation => {
             rotation(&path, plan)?;
             Vec::new()
         }
-        SumNeed::Wall => walls(evaluator, spec, plan)?,
+        SumNeed::Wall => walls(study)?,
     };
     let sum = JudgedSum::new(plan.of, problem, &walls)
         .map_err(|reason| path.diagnostic(&format!("the exact {name} of the body {reason}")))?;
@@ -107,10 +97,10 @@ fn stored_energy(
 }
 
 /// Refuses an energy for methods whose internal force does not derive from one.
-fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+fn averaged_volume(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let message = "the force of `volume: averaged` does not derive from a stored energy";
     let help = "use `particle` to judge an energy";
-    refuse_setting(evaluator, spec, "volume", [message, help], |method| match method {
+    refuse_setting(study, "volume", [message, help], |method| match method {
         MethodSpec::Mpm { volume: Some(volume), .. } => {
             volume.as_slice().contains(&VolumeName::Averaged)
         }
@@ -120,8 +110,7 @@ fn averaged_volume(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<
 
 /// Refuses `key` of the first MPM entry in `methods` for which `is_meant` returns true.
 fn refuse_setting(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
+    CompiledStudy { evaluator, spec, .. }: &CompiledStudy<'_>,
     key: &str,
     [message, help]: [&str; 2],
     is_meant: impl Fn(&MethodSpec) -> bool,
@@ -142,18 +131,15 @@ fn rotation(path: &SuitePath<'_>, plan: &ConvergencePlan) -> Result<(), Diagnost
     Ok(())
 }
 
-fn walls(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-) -> Result<Vec<usize>, Diagnostic> {
+fn walls(study: &CompiledStudy<'_>) -> Result<Vec<usize>, Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, .. } = study;
     let (path, faces) = (evaluator.top("judge"), &plan.scene.faces);
     let of = path.then("of");
     if !plan.scene.bodies.is_empty() {
         let message = "the reaction is not supported for several bodies: they share the walls";
         return Err(of.diagnostic(message));
     }
-    consistent_mass(evaluator, spec)?;
+    consistent_mass(study)?;
     let Some(name) = &spec.judge.face else {
         let held: Vec<usize> = (0..faces.len()).filter(|i| faces[*i].hold.is_held()).collect();
         if held.is_empty() {
@@ -193,10 +179,10 @@ fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
 }
 
 /// Refuses a consistent mass matrix: a reaction would include the inertia of other nodes.
-fn consistent_mass(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+fn consistent_mass(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
     let help = "use `lumped` to judge a reaction";
-    refuse_setting(evaluator, spec, "mass", [message, help], |method| match method {
+    refuse_setting(study, "mass", [message, help], |method| match method {
         MethodSpec::Mpm { mass: Some(mass), .. } => mass.as_slice().contains(&MassName::Consistent),
         _ => false,
     })

@@ -9,17 +9,17 @@ use crate::mpm::{
     CombinationError, FrameName, MassName, combine, combine_across, combine_basis, combine_bodies,
     combine_precision, combine_volume,
 };
+use crate::suite::compile::study::{LevelPaths, StudyDraft};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
 use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RunSpec, ScatterSpec};
 use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::RefinePlan;
-use crate::suite::model::{Against, Case, ConvergencePlan, Scene, SceneFace};
+use crate::suite::model::{Against, Case, ConvergencePlan, SceneFace};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::load::{ListedLoad, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 use methods::{NamedMethod, methods};
-use refine::LevelPaths;
 
 const MOST_CASES: usize = 1000;
 
@@ -39,17 +39,14 @@ pub(crate) struct RunPlan<'a> {
     pub(crate) scatter: LatticeOffsets,
 }
 
-pub(crate) fn plan<'a>(
-    evaluator: &'a Evaluator<'a>,
-    spec: &'a ConvergenceSpec,
-    scene: &Scene,
-) -> Result<RunPlan<'a>, Diagnostic> {
+pub(crate) fn plan<'a>(draft: &StudyDraft<'a>) -> Result<RunPlan<'a>, Diagnostic> {
+    let StudyDraft { evaluator, spec, .. } = draft;
     let until = ends(evaluator, &spec.run)?;
-    let (refine, levels) = refine::plan(evaluator, spec, scene)?;
+    let (refine, levels) = refine::plan(draft)?;
     let instants = spec.run.instants.as_ref().map_or(Ok(INSTANTS), |text| {
         evaluator.top("run.instants").count(text, "the number of instants")
     })?;
-    Ok(RunPlan { until, refine, levels, instants, scatter: scatter(evaluator, spec, scene)? })
+    Ok(RunPlan { until, refine, levels, instants, scatter: scatter(draft)? })
 }
 
 fn ends(evaluator: &Evaluator<'_>, run: &RunSpec) -> Result<Vec<(String, f64)>, Diagnostic> {
@@ -102,11 +99,8 @@ const MOST_OFFSET_AT_LOADS: f64 = 0.25;
 
 const SEED: u64 = 1;
 
-fn scatter(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<LatticeOffsets, Diagnostic> {
+fn scatter(draft: &StudyDraft<'_>) -> Result<LatticeOffsets, Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let Some(ScatterSpec { shift, perturb, seed }) = &spec.particles else {
         return Ok(LatticeOffsets::default());
     };

@@ -2,31 +2,25 @@
 
 use super::RunPlan;
 use super::refine::{STEP_OF_EACH_H, step_formula};
-use crate::suite::evaluator::{Evaluator, SuitePath, shown};
-use crate::suite::grammar::{ConvergenceSpec, ReferenceSpec};
+use crate::suite::compile::study::StudyDraft;
+use crate::suite::evaluator::{SuitePath, shown};
+use crate::suite::grammar::ReferenceSpec;
 use crate::suite::model::refine_plan::{FINE_GRID, LevelPlan};
-use crate::suite::model::{ReferencePlan, SameMethod, Scene};
+use crate::suite::model::{ReferencePlan, SameMethod};
 use crate::suite::scene::cell_size;
 use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{Axis, Clock};
 
 pub(crate) fn references(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
+    draft: &StudyDraft<'_>,
     run: &RunPlan<'_>,
 ) -> Result<(Option<ReferencePlan>, Option<SameMethod>), Diagnostic> {
-    let Some(stated) = &spec.reference else { return Ok((None, None)) };
-    let fem = fem(evaluator, stated, scene.dimension())?;
-    Ok((fem, same_method(evaluator, spec, stated, scene, run)?))
+    let Some(stated) = &draft.spec.reference else { return Ok((None, None)) };
+    Ok((fem(draft, stated)?, same_method(draft, stated, run)?))
 }
 
-fn fem(
-    evaluator: &Evaluator<'_>,
-    spec: &ReferenceSpec,
-    dimension: usize,
-) -> Result<Option<ReferencePlan>, Diagnostic> {
-    let path = evaluator.top("reference");
+fn fem(draft: &StudyDraft<'_>, spec: &ReferenceSpec) -> Result<Option<ReferencePlan>, Diagnostic> {
+    let (path, dimension) = (draft.evaluator.top("reference"), draft.scene.dimension());
     let (equation, fem) = match (spec.equation, &spec.fem) {
         (Some(equation), Some(fem)) => (equation, fem),
         (None, None) if spec.same_method.is_some() => return Ok(None),
@@ -54,16 +48,14 @@ fn fem(
 const SHORTER: f64 = 8.0;
 
 fn same_method(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
+    draft: &StudyDraft<'_>,
     stated: &ReferenceSpec,
-    scene: &Scene,
     RunPlan { until, refine, instants, .. }: &RunPlan<'_>,
 ) -> Result<Option<SameMethod>, Diagnostic> {
     let (Some(same), Some(finest)) = (&stated.same_method, refine.levels.last()) else {
         return Ok(None);
     };
-    let path = evaluator.top("reference.same_method");
+    let path = draft.evaluator.top("reference.same_method");
     let refused = |message, help| path.refuse_key(message, help);
     match (&same.dt, &same.cells) {
         (Some(_), None) if refine.axis != Axis::Time => {
@@ -80,11 +72,11 @@ fn same_method(
             Ok(Some(SameMethod::ShorterSteps(dt)))
         }
         (None, Some(cells)) => {
-            one_lattice(&path, spec, scene)?;
+            one_lattice(&path, draft)?;
             let path = path.then("cells");
             let cells = path.count(cells, "the number of cells")?;
             let level = LevelPlan { cells, ..*finest };
-            let level = with_step(&path, spec, scene, level)?;
+            let level = with_step(&path, draft, level)?;
             finer(&path, *finest, level)?;
             Ok(Some(SameMethod::FineGrid(level)))
         }
@@ -139,8 +131,7 @@ fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(),
 /// Returns `level` with the cell size and the time step that belong to its number of cells.
 fn with_step(
     path: &SuitePath<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
+    StudyDraft { spec, scene, .. }: &StudyDraft<'_>,
     level: LevelPlan,
 ) -> Result<LevelPlan, Diagnostic> {
     if spec.run.load_steps.is_some() {
@@ -158,11 +149,8 @@ fn with_step(
 }
 
 /// Refuses bodies without a lattice of particles, on which the reference is interpolated.
-fn one_lattice(
-    path: &SuitePath<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn one_lattice(path: &SuitePath<'_>, draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { spec, scene, .. } = draft;
     let body = match &scene.outline {
         _ if !scene.bodies.is_empty() => "several bodies",
         Some(_) if scene.mapped.is_some() => return Ok(()),

@@ -1,18 +1,14 @@
 //! Compiles the refinement plan. The refined key is the one with a list of values.
 
 use crate::exact::formula::Formula;
+use crate::suite::compile::study::{LevelPaths, StudyDraft};
 use crate::suite::evaluator::{Evaluator, SuitePath};
-use crate::suite::grammar::{ConvergenceSpec, MethodSpec, RefineSpec, StepSpec};
+use crate::suite::grammar::{MethodSpec, RefineSpec, StepSpec};
 use crate::suite::model::Scene;
 use crate::suite::model::refine_plan::{LevelPlan, RefinePlan};
 use crate::suite::scene::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
-
-pub(crate) struct LevelPaths<'a> {
-    pub(crate) size: SuitePath<'a>,
-    pub(crate) dt: SuitePath<'a>,
-}
 
 /// Label under the caret for a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
@@ -24,10 +20,9 @@ struct Located<'a, T> {
 
 /// Compiles the levels of a suite. Also returns their positions in the file, for diagnostics.
 pub(crate) fn plan<'a>(
-    evaluator: &'a Evaluator<'a>,
-    spec: &'a ConvergenceSpec,
-    scene: &Scene,
+    draft: &StudyDraft<'a>,
 ) -> Result<(RefinePlan, Vec<LevelPaths<'a>>), Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let axis = axis(evaluator, &spec.refine)?;
     let idle = spec.expect.iter().position(|entry| entry.full.is_some());
     if let (Some(i), None) = (idle, &spec.refine.full) {
@@ -36,18 +31,20 @@ pub(crate) fn plan<'a>(
         return Err(diagnostic.with_help("list the levels of a full run under `full` in `refine`"));
     }
     let d = scene.dimension();
-    let cells = counts(&listed(evaluator, spec, Axis::Space, axis), "cells")?;
-    let ppc = counts(&listed(evaluator, spec, Axis::Particles, axis), "particles per cell")?;
+    let cells = counts(&listed(draft, Axis::Space, axis), "cells")?;
+    let ppc = counts(&listed(draft, Axis::Particles, axis), "particles per cell")?;
     for entry in &ppc {
         equally_spaced(entry, d)?;
     }
     let at_run = evaluator.top("run.dt");
     let rule = spec.run.dt.as_ref().map(|spec| stable_share(&at_run, spec));
     let rule = rule.transpose()?.flatten();
-    refuse_methods_without_rule(evaluator, &spec.methods, rule)?;
+    if rule.is_some() {
+        refuse_methods_without_rule(draft)?;
+    }
     let stated = spec.run.dt.as_ref();
     let stated = stated.map(|spec| step_formula(&at_run, spec, scene));
-    let dt = steps(evaluator, spec, axis, stated.transpose()?.as_ref())?;
+    let dt = steps(draft, axis, stated.transpose()?.as_ref())?;
     let count = cells.len().max(ppc.len()).max(dt.len());
     let level = |k: usize| {
         let cells = of_level(&cells, k)?.value;
@@ -110,12 +107,11 @@ pub(crate) const STEP_OF_EACH_H: &str = "or give the time step in `run`, as a fo
 
 /// Returns the entries of a key of `refine`. If the key is refined, the entries of `full` follow.
 fn listed<'a>(
-    evaluator: &'a Evaluator<'a>,
-    spec: &'a ConvergenceSpec,
+    draft: &StudyDraft<'a>,
     key: Axis,
     refined: Axis,
 ) -> Vec<Located<'a, &'a NumberText>> {
-    let refine = &spec.refine;
+    let (evaluator, refine) = (draft.evaluator, &draft.spec.refine);
     let (name, list) = match key {
         Axis::Space => ("cells", Some(&refine.cells)),
         Axis::Time => ("dt", refine.dt.as_ref()),
@@ -163,11 +159,11 @@ fn equally_spaced(ppc: &Located<'_, u64>, dimension: usize) -> Result<(), Diagno
 }
 
 fn steps<'a>(
-    evaluator: &'a Evaluator<'a>,
-    spec: &'a ConvergenceSpec,
+    draft: &StudyDraft<'a>,
     axis: Axis,
     stated: Option<&NumberText>,
 ) -> Result<Vec<Located<'a, Formula>>, Diagnostic> {
+    let StudyDraft { evaluator, spec, .. } = draft;
     let at_run = evaluator.top("run.dt");
     let at_refine = evaluator.top("refine.dt");
     if spec.run.load_steps.is_some() {
@@ -189,7 +185,7 @@ fn steps<'a>(
             return Err(diagnostic.with_help("move it to `run`, or list several"));
         }
         (Some(value), None) => vec![Located { value, at: at_run }],
-        (None, Some(_)) => listed(evaluator, spec, Axis::Time, axis),
+        (None, Some(_)) => listed(draft, Axis::Time, axis),
     };
     let bind = |Located { value, at }: Located<'a, &NumberText>| {
         Ok(Located { value: at.formula(value, &["h"])?, at })
@@ -232,17 +228,14 @@ pub(crate) fn step_formula(
     path.expected("a number", "an automatic time step needs a wave speed, but this body has none")
 }
 
-fn refuse_methods_without_rule(
-    evaluator: &Evaluator<'_>,
-    methods: &[MethodSpec],
-    rule: Option<f64>,
-) -> Result<(), Diagnostic> {
+/// Refuses methods without automatic time steps.
+fn refuse_methods_without_rule(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     let steps = |method: &MethodSpec| {
         matches!(method, MethodSpec::Mpm { .. } | MethodSpec::External { .. })
     };
-    let other = methods.iter().position(|method| !steps(method));
-    let (Some(i), Some(_)) = (other, rule) else { return Ok(()) };
-    evaluator.top("methods").then(i).refuse(
+    let other = draft.spec.methods.iter().position(|method| !steps(method));
+    let Some(i) = other else { return Ok(()) };
+    draft.evaluator.top("methods").then(i).refuse(
         "an automatic time step is available for MPM only",
         "state `dt` as a number or a formula of h, or move this method to a separate suite",
     )

@@ -1,7 +1,7 @@
 //! Compiles the expectations for the rows of a stability study.
 
 use super::setup::SetupTemplate;
-use crate::suite::evaluator::{Evaluator, SuitePath, suggestion};
+use crate::suite::evaluator::{SuitePath, suggestion};
 use crate::suite::grammar::{FigureSpec, StabilityExpectSpec};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use crate::verify::{FigureBounds, RunFigure, StabilityExpectation, format_number};
@@ -21,18 +21,16 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect` to one expectation for each row of parameter values.
+/// Compiles entry `i` of `expect`, at `path`, to one expectation for each row of values.
 pub(crate) fn rows(
-    evaluator: &Evaluator<'_>,
+    path: &SuitePath<'_>,
     template: &SetupTemplate,
-    spec: &StabilityExpectSpec,
     i: usize,
     rows: &[Vec<(&str, f64)>],
-    seeks: bool,
 ) -> Result<Vec<StabilityExpectation>, Diagnostic> {
-    let path = evaluator.top("expect").then(i);
-    let figures = named(&path, spec)?;
-    refuse_idle(&path, spec, seeks)?;
+    let spec = &template.spec.expect[i];
+    let figures = named(path, spec)?;
+    refuse_idle(path, spec, template.spec.critical.is_some())?;
     if let Some(verdicts) = spec.verdict.as_ref().filter(|list| list.as_slice().len() > 1) {
         let (got, needed) = (verdicts.as_slice().len(), rows.len());
         if got != needed {
@@ -41,7 +39,7 @@ pub(crate) fn rows(
         }
     }
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
-    row(&path, spec, &figures, 0)?;
+    row(path, spec, &figures, 0)?;
     rows.iter()
         .enumerate()
         .map(|(k, values)| {

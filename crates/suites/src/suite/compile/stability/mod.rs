@@ -14,7 +14,7 @@ use crate::suite::model::method::Method;
 use crate::suite::model::stability::{
     CompileSetup, RowExpectations, RunSetup, StabilityCase, StabilityPlan,
 };
-use crate::suite::yaml::{Diagnostic, Source};
+use crate::suite::yaml::Diagnostic;
 use setup::{SetupTemplate, setup};
 use std::sync::Arc;
 
@@ -22,10 +22,9 @@ const MOST: usize = 500;
 
 pub(crate) fn plan(
     evaluator: &Evaluator<'_>,
-    source: &Source,
     spec: &StabilitySpec,
 ) -> Result<StabilityPlan, Diagnostic> {
-    let template = SetupTemplate { source: source.clone(), spec: spec.clone() };
+    let template = SetupTemplate { source: evaluator.source().clone(), spec: spec.clone() };
     // This evaluation, with the parameter values of the suite, also marks the parameters as used.
     let base = setup(evaluator, spec)?;
     let methods = time_stepping_methods(evaluator, &spec.methods, &base)?;
@@ -42,8 +41,20 @@ pub(crate) fn plan(
             template.setup(&with)?;
         }
     }
-    let (cases, any_method) =
-        cases(evaluator, &template, spec, methods, &swept, &values, sought.is_some())?;
+    let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(&*swept, *value)]).collect();
+    let (of_cases, has_any) = split(evaluator, spec)?;
+    let names: Vec<String> = methods.iter().map(NamedMethod::name).collect();
+    let selectors = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, selectors, &names)?;
+    let entries = (0..spec.expect.len()).map(|i| entry(evaluator, &template, i, &rows));
+    let entries = entries.collect::<Result<Vec<RowExpectations>, Diagnostic>>()?;
+    let case = |(named, owner): (NamedMethod, Option<usize>)| {
+        let (name, method) = (named.name(), named.method);
+        let expectations = owner.map(|owner| entries[owner].clone()).unwrap_or_default();
+        StabilityCase { name, method, expectations, gating: None }
+    };
+    let cases = methods.into_iter().zip(owners).map(case).collect();
+    let any_method = entries.last().filter(|_| has_any).cloned();
     let mut figures = spec.show.clone();
     for entry in &spec.expect {
         for figure in expect::named(&evaluator.top("expect"), entry)? {
@@ -158,38 +169,19 @@ fn time_stepping_methods(
     Ok(methods)
 }
 
-fn cases(
+/// Compiles entry `i` of `expect`, for each row of parameter values.
+fn entry(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,
-    spec: &StabilitySpec,
-    methods: Vec<NamedMethod>,
-    swept: &str,
-    values: &[f64],
-    seeks: bool,
-) -> Result<(Vec<StabilityCase>, Option<RowExpectations>), Diagnostic> {
-    let names: Vec<String> = methods.iter().map(NamedMethod::name).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let (of_cases, has_any) = split(evaluator, spec)?;
-    let selectors: Vec<_> = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, &selectors, &names)?;
-    let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(swept, *value)]).collect();
-    let predicted = seeks && spec.run.frozen;
-    let entry = |(i, spec): (usize, &StabilityExpectSpec)| {
-        let path = evaluator.top("expect").then(i);
-        let expected = expect::rows(evaluator, template, spec, i, &rows, seeks)?;
-        let because = path.because("this expectation", &spec.because)?;
-        let summary = Some(expect::summary(spec, &expected, &rows, predicted));
-        Ok(RowExpectations { expected, summary, because })
-    };
-    let entries: Vec<RowExpectations> =
-        spec.expect.iter().enumerate().map(entry).collect::<Result<_, Diagnostic>>()?;
-    let case = |(named, owner): (NamedMethod, Option<usize>)| {
-        let (name, method) = (named.name(), named.method);
-        let expectations = owner.map(|owner| entries[owner].clone()).unwrap_or_default();
-        StabilityCase { name, method, expectations, gating: None }
-    };
-    let cases = methods.into_iter().zip(owners).map(case).collect();
-    Ok((cases, entries.into_iter().last().filter(|_| has_any)))
+    i: usize,
+    rows: &[Vec<(&str, f64)>],
+) -> Result<RowExpectations, Diagnostic> {
+    let (path, spec) = (evaluator.top("expect").then(i), &template.spec.expect[i]);
+    let expected = expect::rows(&path, template, i, rows)?;
+    let because = path.because("this expectation", &spec.because)?;
+    let predicted = template.spec.critical.is_some() && template.spec.run.frozen;
+    let summary = Some(expect::summary(spec, &expected, rows, predicted));
+    Ok(RowExpectations { expected, summary, because })
 }
 
 /// Returns the entries of `expect` for cases, and whether an entry for external solvers follows.

@@ -2,28 +2,27 @@
 
 use super::tolerance::{if_rounded, tolerance};
 use crate::exact::Motion;
-
 use crate::exact::heat::{Conduction, Temperature};
 use crate::mpm::{FrameName, TransferKind};
-use crate::suite::evaluator::{Evaluator, SuitePath};
-use crate::suite::grammar::{ConvergenceSpec, ExactSpec, MethodSpec};
+use crate::suite::compile::study::StudyDraft;
+use crate::suite::evaluator::SuitePath;
+use crate::suite::grammar::{ExactSpec, MethodSpec};
 use crate::suite::model::Scene;
 use crate::suite::scene::boundary::thermal::ThermalFace;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 
 /// Compiles the heat problem of a body at rest; returns `None` if the body moves.
 pub(crate) fn conduction(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
+    draft: &StudyDraft<'_>,
     until: f64,
 ) -> Result<Option<Conduction>, Diagnostic> {
-    refuse_methods_of_other_bodies(evaluator, spec, scene)?;
-    refuse_methods_without_heat(evaluator, spec, scene)?;
+    let StudyDraft { evaluator, spec, scene } = draft;
+    refuse_methods_of_other_bodies(draft)?;
+    refuse_methods_without_heat(draft)?;
     if !scene.is_at_rest() {
         return Ok(None);
     }
-    judged(evaluator, spec)?;
+    judged(draft)?;
     let (path, temperature, stated, manufactured) = match (&spec.exact, &spec.manufactured) {
         (Some(exact), None) => {
             ("exact", exact.temperature.as_ref(), exact.tolerance.as_ref(), false)
@@ -49,11 +48,8 @@ pub(crate) fn conduction(
 }
 
 /// Refuses the method `heat` for moving bodies, and other methods for bodies at rest.
-fn refuse_methods_of_other_bodies(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn refuse_methods_of_other_bodies(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let at_rest = scene.is_at_rest();
     let fits = |method: &MethodSpec| matches!(method, MethodSpec::Heat { .. }) == at_rest;
     let Some(i) = spec.methods.iter().position(|method| !fits(method)) else { return Ok(()) };
@@ -73,7 +69,8 @@ fn refuse_methods_of_other_bodies(
 }
 
 /// Refuses quantities and keys that need a motion, because the body is at rest.
-fn judged(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
+fn judged(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, .. } = draft;
     if spec.judge.of.is_of_motion() {
         let message = "the judged quantity needs a motion, but the body is `rigid`";
         return evaluator.top("scene.material").refuse(message, "add `judge: {of: temperature}`");
@@ -145,11 +142,8 @@ pub(crate) fn problem(
     }))
 }
 
-fn refuse_methods_without_heat(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn refuse_methods_without_heat(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     if scene.heat().is_none() {
         return Ok(());
     }

@@ -8,9 +8,10 @@ pub(crate) mod tolerance;
 use crate::exact::heat::Conduction;
 use crate::exact::{Equation, Face, Motion, Problem, Survey};
 use crate::mpm::MaterialPlan;
+use crate::suite::compile::study::{CompiledStudy, StudyDraft};
 use crate::suite::evaluator::{COORDINATES, Evaluator, SuitePath};
-use crate::suite::grammar::{ConvergenceSpec, EquationName, ExactSpec, ExpectSpec};
-use crate::suite::model::{ConvergencePlan, Scene, SceneFace};
+use crate::suite::grammar::{EquationName, ExactSpec, ExpectSpec};
+use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use conduction::ConductionInputs;
@@ -31,22 +32,17 @@ pub(crate) struct StatedTruth {
 }
 
 /// Compiles the solution of runs that end at `until` (s) at the latest. It is checked later.
-pub(crate) fn truth(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-    until: f64,
-) -> Result<StatedTruth, Diagnostic> {
-    let conduction = conduction::conduction(evaluator, spec, scene, until)?;
+pub(crate) fn truth(draft: &StudyDraft<'_>, until: f64) -> Result<StatedTruth, Diagnostic> {
+    let conduction = conduction::conduction(draft, until)?;
     let exact = match &conduction {
         Some(_) => None,
-        None => exact(evaluator, spec, scene, until)?,
+        None => exact(draft, until)?,
     };
-    let places = places(evaluator, spec, scene, exact.as_ref())?;
+    let places = places(draft, exact.as_ref())?;
     let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
     let exact = match (&places.within, exact, &survey) {
         (Some(within), Some(exact), Some(survey)) => {
-            Some(without_distant_faces(evaluator, within, exact, survey)?)
+            Some(without_distant_faces(draft.evaluator, within, exact, survey)?)
         }
         (_, exact, _) => exact,
     };
@@ -54,12 +50,8 @@ pub(crate) fn truth(
 }
 
 /// Compiles the problem that the stated formulas must solve, if any.
-fn exact(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-    until: f64,
-) -> Result<Option<Problem>, Diagnostic> {
+fn exact(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     if scene.each().iter().any(|body| body.mapped.is_some()) {
         // The check of solutions is implemented only for boxes and bodies with a free surface.
         let stated = [
@@ -75,7 +67,7 @@ fn exact(
         interface::refuse(evaluator, spec)?;
     }
     if let Some(state) = &spec.equilibrium {
-        refuse_equilibrium_with(evaluator, spec, state, scene)?;
+        refuse_equilibrium_with(draft, state)?;
         let path = evaluator.top("equilibrium");
         return Ok(Some(Problem {
             at_rest: true,
@@ -83,7 +75,7 @@ fn exact(
             ..solution(&path, state, scene, true, until)?
         }));
     }
-    let Some(exact) = &spec.exact else { return manufactured(evaluator, spec, scene, until) };
+    let Some(exact) = &spec.exact else { return manufactured(draft, until) };
     let path = evaluator.top("exact");
     if spec.manufactured.is_some() {
         let message = "the suite states both `exact` and `manufactured`: keep one";
@@ -96,28 +88,16 @@ fn exact(
 }
 
 /// Refuses keys that need a solution in a suite without one, and a wrong solution.
-pub(crate) fn refuse_unfit(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-    survey: Option<&Survey>,
-) -> Result<(), Diagnostic> {
-    if plan.is_truthless() {
-        refuse_need_of_truth(evaluator, spec)?;
+pub(crate) fn refuse_unfit(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    if study.plan.is_truthless() {
+        refuse_need_of_truth(study)?;
     }
-    if evaluator.source().is_trusted() {
-        return Ok(());
-    }
-    refuse_violated(evaluator, spec, plan, survey)
+    if study.evaluator.source().is_trusted() { Ok(()) } else { refuse_violated(study) }
 }
 
-/// Refuses a solution that violates its problem. `survey` is `None` for several bodies.
-fn refuse_violated(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    plan: &ConvergencePlan,
-    survey: Option<&Survey>,
-) -> Result<(), Diagnostic> {
+/// Refuses a solution that violates its problem.
+fn refuse_violated(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, plan, survey, .. } = study;
     let path = evaluator.top(match (&spec.equilibrium, &spec.exact) {
         (Some(_), _) => "equilibrium",
         (None, Some(_)) => "exact",
@@ -188,12 +168,8 @@ fn equation(
 }
 
 /// Compiles the problem with the body force that the stated motion requires.
-fn manufactured(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
-    until: f64,
-) -> Result<Option<Problem>, Diagnostic> {
+fn manufactured(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let Some(made) = &spec.manufactured else { return Ok(None) };
     let path = evaluator.top("manufactured");
     let equation = manufactured_law(&scene.material).map_err(|reason| {
@@ -306,12 +282,8 @@ fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     equation_of(material).ok_or("the law has no equation")
 }
 
-fn refuse_equilibrium_with(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    state: &ExactSpec,
-    scene: &Scene,
-) -> Result<(), Diagnostic> {
+fn refuse_equilibrium_with(draft: &StudyDraft<'_>, state: &ExactSpec) -> Result<(), Diagnostic> {
+    let StudyDraft { evaluator, spec, scene } = draft;
     let path = evaluator.top("equilibrium");
     let others = [
         (spec.exact.is_some(), "exact", "exact"),
@@ -371,10 +343,8 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
 }
 
 /// Refuses keys that need an exact solution or a reference, in a suite that has neither.
-fn refuse_need_of_truth(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-) -> Result<(), Diagnostic> {
+fn refuse_need_of_truth(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
+    let CompiledStudy { evaluator, spec, .. } = study;
     let asked = |spec: &ExpectSpec| {
         let ExpectSpec { order, verdict, finest_pair, floor, drift, energy_rate, .. } = spec;
         let judged = order.is_some() || verdict.is_some() || finest_pair.is_some();

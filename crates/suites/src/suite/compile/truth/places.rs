@@ -6,8 +6,9 @@
 
 use crate::exact::{Face, Problem, Survey};
 use crate::suite::compile::scene::outline;
+use crate::suite::compile::study::StudyDraft;
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
-use crate::suite::grammar::{ConvergenceSpec, ObserveSpec};
+use crate::suite::grammar::ObserveSpec;
 use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedBox, format_number};
@@ -23,17 +24,15 @@ pub(crate) struct JudgedPlaces {
 
 /// Compiles the box of `judge.within` and the observed point, if the suite has them.
 pub(crate) fn places(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
+    draft: &StudyDraft<'_>,
     exact: Option<&Problem>,
 ) -> Result<JudgedPlaces, Diagnostic> {
-    let observe = spec.observe.as_ref().map(|spec| observed(evaluator, spec, scene)).transpose()?;
-    let within = judged_box(evaluator, spec, scene, exact)?;
+    let observe = draft.spec.observe.as_ref().map(|spec| observed(draft, spec)).transpose()?;
+    let within = judged_box(draft, exact)?;
     if let (Some(within), Some(place)) = (&within, &observe)
         && !within.holds(place)
     {
-        let path = evaluator.top("observe.at");
+        let path = draft.evaluator.top("observe.at");
         let diagnostic = path.diagnostic("the observed point is outside `judge.within`");
         return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
     }
@@ -41,9 +40,7 @@ pub(crate) fn places(
 }
 
 fn judged_box(
-    evaluator: &Evaluator<'_>,
-    spec: &ConvergenceSpec,
-    scene: &Scene,
+    StudyDraft { evaluator, spec, scene }: &StudyDraft<'_>,
     exact: Option<&Problem>,
 ) -> Result<Option<JudgedBox>, Diagnostic> {
     let Some(stated) = &spec.judge.within else { return Ok(None) };
@@ -74,12 +71,8 @@ fn judged_box(
 }
 
 /// Compiles the observed point, which must be in the body.
-fn observed(
-    evaluator: &Evaluator<'_>,
-    spec: &ObserveSpec,
-    scene: &Scene,
-) -> Result<Vec<f64>, Diagnostic> {
-    let path = evaluator.top("observe.at");
+fn observed(draft: &StudyDraft<'_>, spec: &ObserveSpec) -> Result<Vec<f64>, Diagnostic> {
+    let (path, scene) = (draft.evaluator.top("observe.at"), &draft.scene);
     let place = path.point(&spec.at, scene.dimension())?;
     refuse_outside(&path, scene, &place)?;
     let outside = scene.outline.as_ref().filter(|outline| !outline.holds(&place));
