@@ -3,8 +3,7 @@
 use crate::suite::yaml::{Diagnostic, Source};
 use std::path::Path;
 
-/// Name, path (from the repository root) and text of every suite under `verification/`, sorted by
-/// name.
+/// Name, path in the repository and text of the suites in `verification/`, sorted by name.
 const FILES: &[(&str, &str, &str)] = include!(concat!(env!("OUT_DIR"), "/suites.rs"));
 
 /// Returns the names of the embedded suites, sorted.

@@ -105,8 +105,7 @@ flags! {
 }
 
 impl Capabilities {
-    /// Creates capabilities with these dimensions, laws, face conditions and loads, named as in
-    /// suites.
+    /// Creates capabilities with these dimensions, laws, conditions and loads, named as in suites.
     pub fn of(dimensions: &[usize], laws: &[&str], conditions: &[&str], loads: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         Self {
@@ -118,8 +117,7 @@ impl Capabilities {
         }
     }
 
-    /// Lists the missing capabilities, each as the entry that the solver would have to add to
-    /// `hello`.
+    /// Lists the missing capabilities, each as an entry to be added to `hello`.
     pub fn lacking(&self, needs: &ProblemNeeds) -> Vec<String> {
         let mut lacking = Vec::new();
         if !self.dimensions.contains(&needs.dimension) {
@@ -172,8 +170,7 @@ impl Capabilities {
         ]
     }
 
-    /// Returns warnings, one line for each unknown name in the lists and each unknown key in
-    /// `keys`.
+    /// Returns a warning for each unknown name in the lists and each unknown key in `keys`.
     #[cfg(feature = "external-programs")]
     pub(super) fn unknown_names(&self, keys: &[String]) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -196,8 +193,7 @@ impl Capabilities {
 }
 
 impl ProblemNeeds {
-    /// Lists the requirements that need version 2 of the protocol, each as the corresponding entry
-    /// of the capabilities.
+    /// Lists the capabilities that need version 2 of the protocol.
     #[cfg(feature = "external-programs")]
     pub(crate) fn beyond_version_1(&self) -> Vec<String> {
         let by_name = |capability: &'static str, names: &[&'static str], handed: &[&str]| {

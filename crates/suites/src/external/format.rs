@@ -45,7 +45,6 @@ impl LevelProblem {
         }
     }
 
-    /// Returns the `problem` message of the protocol as indented JSON.
     fn document(&self) -> String {
         let mut document = json!(self);
         let columns = self.particles.columns();
@@ -54,7 +53,6 @@ impl LevelProblem {
         format!("{document:#}\n")
     }
 
-    /// Returns the number of components per particle of a column.
     fn width(&self, column: &[f64]) -> usize {
         column.len() / self.particles.len().max(1)
     }

@@ -59,8 +59,7 @@ pub trait SolverFactory: Sync {
         None
     }
 
-    /// Lists the capabilities that a problem requires and the solver lacks; empty if it can run the
-    /// problem.
+    /// Lists the capabilities that a problem requires and the solver lacks.
     fn lacks(&self, _needs: &ProblemNeeds) -> Vec<String> {
         Vec::new()
     }

@@ -8,7 +8,6 @@ use crate::suite::NormName;
 use crate::suite::evaluator::shown;
 use crate::suite::model::Suite;
 
-/// Describes the largest displacement and displacement gradient of the exact solution.
 pub(crate) fn amplitude(problem: &Problem) -> String {
     const PER_AXIS: usize = 20;
     const GOLDEN: usize = 8;
@@ -17,8 +16,7 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     let (mut displacement, mut gradient) = (0.0_f64, 0.0_f64);
     let mut now = Derivatives::default();
     let even = (0..=PER_AXIS).map(|step| step as f64 / PER_AXIS as f64);
-    // The times are irregular. At regular times, a motion with whole periods in each interval would
-    // appear to be at rest.
+    // At regular times, a motion with whole periods in each interval would appear to be at rest.
     let golden = (1..=GOLDEN).map(|step| (step as f64 * 0.618_034).fract());
     for share in even.chain(golden) {
         motion.set_time(problem.until * share);
@@ -31,13 +29,11 @@ pub(crate) fn amplitude(problem: &Problem) -> String {
     format!("largest |u| {displacement:.3e} m, largest |grad u| {gradient:.3e}")
 }
 
-/// Returns the points of the body on a regular lattice with `intervals` along each axis.
 pub(crate) fn raster(problem: &Problem, intervals: usize) -> Vec<Vec<f64>> {
     let points = lattice(&problem.from, &problem.to, intervals);
     points.filter(|place| problem.holds(place)).collect()
 }
 
-/// Returns the points of a regular lattice between two corners (m).
 pub(crate) fn lattice(
     from: &[f64],
     to: &[f64],
@@ -58,7 +54,6 @@ pub(crate) fn lattice(
 /// Number of sampling intervals along each axis, by dimension.
 const ALONG: [usize; 3] = [16, 8, 4];
 
-/// Number of sampling intervals over the run.
 const OVER: usize = 8;
 
 #[derive(Debug, Clone, Default)]
@@ -121,7 +116,6 @@ impl Extremes {
         ends.filter(|x| x.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Returns the largest displacement (m) along an axis.
     pub(crate) fn largest_displacement(&self) -> f64 {
         self.displacement.iter().fold(0.0, |a, b| a.max(*b))
     }

@@ -40,7 +40,6 @@ impl CaseRunner for PlanRunner<'_, ForcePlan> {
     }
 }
 
-/// Computes and judges the force for every position.
 fn internal_force(plan: &ForcePlan, case: &ForceCase) -> CaseOutcome {
     let rows = internal_force::rows(plan, case);
     let seen = [ForceExpectation::AgreesWithin(0.0), ForceExpectation::StepsBelow(0.0)];

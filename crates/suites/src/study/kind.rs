@@ -14,7 +14,6 @@ use serde::de::DeserializeOwned;
 /// Callback that is called after each finished unit of work: a level, a row or a case.
 pub type Progress<'a> = &'a (dyn Fn() + Sync);
 
-/// A plan whose cases can be described and run.
 pub(crate) trait Study {
     fn statement(&self) -> Rows;
 
@@ -28,7 +27,6 @@ pub(crate) trait Study {
         None
     }
 
-    /// Creates a runner of the cases, without starting any run.
     fn runner<'a>(&'a self, context: RunContext<'a>) -> Box<dyn CaseRunner + 'a>;
 }
 
@@ -39,15 +37,13 @@ pub struct StepWarning {
     pub case: usize,
     /// Text of the warning.
     pub text: String,
-    /// Whether the step is too long. A suite may use such a step deliberately, and expect
-    /// the result.
+    /// Whether the step is too long, which may be intended.
     pub is_too_long: bool,
 }
 
 pub(crate) type ShowRun<'a> = &'a mut dyn FnMut(ShownRun<'_>) -> Result<(), SeriesError>;
 
 pub(crate) trait CaseRunner: Send + Sync {
-    /// Returns the number of progress units of all cases together.
     fn units(&self) -> u64;
 
     /// Returns the warnings that are found without a run. Their texts do not name the suite.
@@ -55,8 +51,7 @@ pub(crate) trait CaseRunner: Send + Sync {
         Vec::new()
     }
 
-    /// Passes the most informative run of a case to the callback: the first run that failed or
-    /// whose energy grew, otherwise the last run.
+    /// Passes on the first run that failed or whose energy grew, or else the last run.
     fn shown(&self, _: usize, _: &CaseOutcome, _: ShowRun<'_>) -> Result<(), SeriesError> {
         Err("its study has no runs to show".into())
     }
@@ -67,9 +62,7 @@ pub(crate) trait CaseRunner: Send + Sync {
 #[derive(Clone, Copy)]
 pub(crate) struct RunContext<'a> {
     pub(crate) suite: &'a str,
-    /// Hash of the suite text.
     pub(crate) fingerprint: u64,
-    /// Whether usual levels or all levels run.
     pub(crate) extent: Extent,
     pub(crate) cache: Option<&'a ResultCache>,
     /// Number of times that each level of a convergence study runs.
@@ -83,10 +76,9 @@ pub(crate) struct PlanRunner<'a, P> {
 }
 
 impl RunContext<'_> {
-    /// Returns the cached result of `key`. If there is none, caches and returns the result of
-    /// `run`. `name` is the name of the result in messages. A result of an external solver for
-    /// which `broken` returns true is not cached, because a solver that fails or times out may
-    /// succeed the next time.
+    /// Returns the cached result of `key`, called `name` in messages, or caches that of `run`. A
+    /// result of an external solver is not cached if `broken` returns true: the solver may succeed
+    /// next time.
     pub(crate) fn cached<T: Serialize + DeserializeOwned>(
         &self,
         key: &str,
@@ -115,7 +107,6 @@ impl RunContext<'_> {
     }
 }
 
-/// Returns the study of a suite.
 pub(crate) fn study(suite: &Suite) -> &dyn Study {
     match &suite.study {
         StudyPlan::Convergence(plan) => plan.as_ref(),

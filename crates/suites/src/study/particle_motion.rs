@@ -34,8 +34,7 @@ impl ParticleMotion {
         self.instants.push(positions.chunks_exact(d).step_by(each).map(padded).collect());
     }
 
-    /// Returns the document; `None` in three dimensions, or without two instants with finite
-    /// positions. The pictures of the instants follow each other at equal intervals.
+    /// Returns the animation; `None` in 3-D, or without two instants with finite positions.
     pub(crate) fn to_svg(&self, title: &str) -> Option<String> {
         if self.dimension > 2 {
             return None;
@@ -115,7 +114,6 @@ impl ParticleMotion {
         Some([0, 1].map(|axis| libm::floor((at[axis] - origin[axis]) / h) as i64))
     }
 
-    /// Returns the lowest and the highest coordinates; `None` unless all are finite.
     fn extent(&self) -> Option<([f64; 2], [f64; 2])> {
         let all = || self.instants.iter().flatten();
         let bound = |axis: usize, start: f64, of: fn(f64, f64) -> f64| {

@@ -62,16 +62,14 @@ impl<'a> Runner<'a> {
         self.cases.units()
     }
 
-    /// Returns the warnings that are found without a run, about steps that are longer than the
-    /// predicted stable time step or differ from the requested ones.
+    /// Returns the warnings about time steps, which are found without a run.
     pub fn warnings(&self) -> Vec<StepWarning> {
         let text = |warning: &StepWarning| format!("{}::{}", self.suite.name, warning.text);
         let named = |warning| StepWarning { text: text(&warning), ..warning };
         self.cases.warnings().into_iter().map(named).collect()
     }
 
-    /// Runs all cases in parallel. The outcomes are in suite order and do not depend on the number
-    /// of threads.
+    /// Runs all cases in parallel. The outcomes do not depend on the number of threads.
     pub fn run(&self, progress: Progress<'_>) -> SuiteOutcome {
         let count = self.suite.case_names().len();
         self.outcome((0..count).into_par_iter().map(|i| self.case(i, progress)).collect())

@@ -120,7 +120,6 @@ impl WaveRun<'_> {
         solver.subject(problem(self.context.suite, scene, None, level, run))
     }
 
-    /// Prepares the run of a wave for output as files.
     fn shown(&self, wave: &Wave) -> Result<ShownRun<'static>, SubjectError> {
         let steps = self.steps(wave);
         Ok(ShownRun {

@@ -12,11 +12,8 @@ use thiserror::Error;
 /// Maximum number of instants of a series, in addition to its start.
 const INSTANTS: u64 = 20;
 
-/// A run that is written as files.
 pub(crate) struct ShownRun<'a> {
-    /// Name of the run in its case, such as `64 cells`.
     pub(crate) name: String,
-    /// Solver at t = 0.
     pub(crate) subject: Box<dyn Subject>,
     /// Lengths of the steps (s), used cyclically.
     pub(crate) dt: Vec<f64>,
@@ -57,8 +54,7 @@ impl From<&str> for SeriesError {
     }
 }
 
-/// Runs `run` to its end and writes up to [`INSTANTS`] states, an animated picture, and finally the
-/// list of the files, `NAME.RUN.pvd`.
+/// Runs `run` and writes up to [`INSTANTS`] states, a picture, and last the list `NAME.RUN.pvd`.
 pub(super) fn time_series(
     name: &str,
     run: ShownRun<'_>,
@@ -166,7 +162,6 @@ fn common_fields(samples: &Samples, truth: Option<&dyn Truth>, t: f64) -> Vec<St
     [u].into_iter().chain(invariants).chain(fields.filter_map(error)).collect()
 }
 
-/// Returns the fields of a solver that reports only samples.
 fn sampled_fields(samples: &Samples) -> Vec<StateField> {
     let all = [
         ("X", &samples.label),

@@ -26,8 +26,7 @@ pub fn violations(source: &Source, suite: &str, case: &CaseOutcome) -> Vec<Diagn
     case.unmet.iter().map(diagnostic).collect()
 }
 
-/// Returns the arguments of the command that helps with a failed case. Only convergence studies can
-/// be diagnosed.
+/// Returns the arguments of the command that helps with a failed case.
 pub fn next_command(source: &Source, suite: &str, case: &CaseOutcome) -> String {
     let is_file = std::path::Path::new(source.name()).is_file();
     let suite = if is_file { source.name() } else { suite };

@@ -18,7 +18,6 @@ use std::time::{Duration, Instant};
 /// Maximum length (bytes) of an answer that arrives before a problem has been sent.
 const SHORT: usize = 1 << 20;
 
-/// Number of bytes of standard error that are stored.
 const LAST_BYTES: usize = 2000;
 
 /// Maximum number of lines of standard error in an error message.
@@ -71,8 +70,7 @@ impl Connection {
         let mut errors = child.stderr.take().ok_or(ProgramError::Pipe)?;
         let (requests, to_write) = channel::<Vec<u8>>();
         thread::spawn(move || {
-            // A process that has stopped reading will not answer, and the missing answer is
-            // reported.
+            // A process that has stopped reading will not answer, which is reported.
             while let Ok(message) = to_write.recv() {
                 if input.write_all(&message).and_then(|()| input.flush()).is_err() {
                     break;
@@ -100,7 +98,6 @@ impl Connection {
         Ok(Self { child, requests, answers, longest, last_bytes, listener, silence })
     }
 
-    /// Sets the maximum length of later answers (bytes).
     pub(super) fn expect_up_to(&mut self, bytes: usize) {
         self.longest.store(SHORT.max(bytes), Ordering::Relaxed);
     }
@@ -205,7 +202,6 @@ fn patiently<T>(most: Duration, mut look: impl FnMut() -> Option<T>) -> Option<T
     }
 }
 
-/// Creates the command with a limit on its address space (bytes), which child processes inherit.
 fn limited(command: &[String], memory: Option<u64>) -> Result<Command, ProgramError> {
     let Some(memory) = memory else {
         let mut process = Command::new(&command[0]);

@@ -23,7 +23,6 @@ pub(super) struct Outgoing {
 }
 
 impl Outgoing {
-    /// Creates a message of type `kind` with the keys of the object `content`.
     pub(super) fn new(kind: &str, content: Value, binary: bool) -> Self {
         let mut message = match content {
             Value::Object(message) => message,
@@ -105,7 +104,6 @@ pub(super) fn read_all(
     }
 }
 
-/// Reads the next message; `None` at the end of the output.
 pub(super) fn read_one(
     output: &mut impl BufRead,
     longest: &AtomicUsize,

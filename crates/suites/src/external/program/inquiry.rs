@@ -30,7 +30,6 @@ pub(super) struct Inquiry {
 }
 
 impl Inquiry {
-    /// Prepares to answer a solver of `problem`. The default points of a request are the particles.
     pub(super) fn new(problem: &LevelProblem, version: u64, binary: bool) -> Self {
         Self {
             dimension: problem.dimension,
@@ -48,8 +47,7 @@ impl Inquiry {
         }
     }
 
-    /// Sets the default points of requests (m, D numbers each). Refuses points outside the bodies,
-    /// except for solvers of version 1.
+    /// Sets the default points of requests (m, D numbers each). Refuses points outside the bodies.
     pub(super) fn set_points(&mut self, labels: &[f64]) -> Result<(), ProgramError> {
         let invalid = |reason| ProgramError::Protocol(format!("sent invalid points: {reason}"));
         self.bodies = self.bodies_of(labels).map_err(invalid)?;
@@ -63,7 +61,6 @@ impl Inquiry {
         self.fields.as_ref()?.values(of, 0.0, &at).ok()
     }
 
-    /// Resets the count of requests, and sets its maximum to `requests`.
     pub(super) fn allow(&mut self, requests: u64) {
         (self.asked, self.most) = (0, requests);
     }
@@ -272,7 +269,6 @@ fn field_named(
     Err(FieldError::Request(format!("unknown field; {}", hint(name, &names))))
 }
 
-/// Returns the time (s) of a request; 0 by default for fields of the initial state.
 fn time(field: FieldName, t: Option<f64>) -> Result<f64, FieldError> {
     match t {
         None if field.is_initial() => Ok(0.0),

@@ -19,7 +19,6 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 pub(super) const PROTOCOL: u64 = 2;
 
-/// Versions of the protocol that a solver may use.
 pub(super) const VERSIONS: [u64; 2] = [1, PROTOCOL];
 
 /// Maximum number of requests for values before the solver answers a problem with `ready`.
@@ -76,7 +75,6 @@ impl SolverProgram {
         ProgramSubject::new(connection, inquiry, problem, points, &bytes, &hello)
     }
 
-    /// Starts a process and waits until it accepts `problem`.
     fn ready(&self, problem: &LevelProblem) -> Result<Started, ProgramError> {
         let (mut connection, hello) = connected(&self.command, self.limits)?;
         if hello != self.hello {
@@ -108,8 +106,7 @@ impl SolverProgram {
         }
     }
 
-    /// Requests the value of a functional after all steps of `problem`, and its gradient, from a
-    /// new process.
+    /// Requests a functional after all steps of `problem` and its gradient from a new process.
     fn differentiate(
         &self,
         problem: &LevelProblem,

@@ -53,8 +53,7 @@ pub(super) struct ProgramSubject {
 }
 
 impl ProgramSubject {
-    /// Creates the level in the initial state of `problem`. Without `points`, the sample points are
-    /// the particles.
+    /// Without `points`, the sample points are the particles.
     pub(super) fn new(
         connection: Connection,
         mut inquiry: Inquiry,
@@ -121,7 +120,6 @@ impl ProgramSubject {
         })
     }
 
-    /// Asks the process to run all steps that the caller has requested so far.
     fn advance(&mut self) -> Result<(), ProgramError> {
         let steps = self.called - self.taken;
         let from = self.taken as f64 * self.dt;
@@ -190,7 +188,6 @@ impl Subject for ProgramSubject {
         self.counters
     }
 
-    /// Computes sums over the points; `None` if their masses are unknown.
     fn totals(&self) -> Option<Totals> {
         let masses = self.mass.as_ref()?;
         let d = self.dimension;

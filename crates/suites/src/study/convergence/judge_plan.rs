@@ -87,8 +87,7 @@ pub(super) fn rounding_sizes(
 /// centres of their volumes (Steffen, Kirby & Berzins 2008, Int. J. Numer. Meth. Engng 76, 922).
 const MIDPOINT: f64 = 2.0;
 
-/// Fraction of the largest velocity (or acceleration) above which the initial value counts as
-/// non-zero.
+/// Fraction of the largest velocity or acceleration above which an initial value is not zero.
 const AT_REST: f64 = 1e-9;
 
 pub(crate) fn formal_order(plan: &ConvergencePlan, case: &Case) -> f64 {
@@ -108,8 +107,7 @@ pub(crate) fn in_time(method: Method, exact: Option<&Problem>) -> f64 {
     let (start, updates_first) = match method {
         Method::Mpm(method) => (method.start, method.scheme == SchemeName::Usf),
         Method::Fem { start, .. } => (start, false),
-        // For load steps the order is not used, because they are not refined. Heat conduction is
-        // integrated by forward Euler.
+        // Load steps are not refined. Heat conduction is integrated by forward Euler.
         Method::QuasiStatic { .. } | Method::Heat { .. } => return 1.0,
         // The order that an external solver claims in space is assumed in time too.
         Method::External { formal_order, .. } => return formal_order,
@@ -150,8 +148,7 @@ fn begins(problem: &Problem) -> [bool; 2] {
     [first[0] > AT_REST * ever[0], first[1] > AT_REST * ever[1]]
 }
 
-/// Number of sampling intervals along each axis and in time: `FINE` in 1-D and 2-D, `COARSE` in
-/// 3-D. The numbers are even, so the middle is a sampling point.
+/// Even numbers of sampling intervals along each axis and in time: `COARSE` in 3-D.
 const FINE: usize = 20;
 const COARSE: usize = 8;
 
@@ -179,7 +176,6 @@ fn size(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     largest_exact(plan, case, truth)
 }
 
-/// Returns the largest exact value of the judged quantity over the body and the run.
 pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Truth) -> f64 {
     // A reference run of the same method has values only at the points of that run, so a formula
     // for the motion is preferred.
@@ -194,7 +190,6 @@ pub(crate) fn largest_exact(plan: &ConvergencePlan, case: &Case, truth: &dyn Tru
     plan.of.largest_exact(truth, &places(plan, per_axis), &times)
 }
 
-/// Returns the sampling points of the body, including its faces.
 fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     let scene = &plan.scene;
     let outline = scene.outline.as_ref();
@@ -202,8 +197,7 @@ fn places(plan: &ConvergencePlan, per_axis: usize) -> Vec<Vec<f64>> {
     lattice(&scene.from, &scene.to, per_axis).filter(inside).collect()
 }
 
-/// Returns the theoretical exponent k in work ~ spacing^-k. The number of steps is taken from the
-/// levels, because the time step may be any formula.
+/// Returns the theoretical exponent k in work ~ spacing^-k.
 fn growth(plan: &ConvergencePlan) -> f64 {
     let d = plan.scene.dimension() as f64;
     let levels = &plan.refine.levels;

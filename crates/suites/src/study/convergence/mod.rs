@@ -69,8 +69,7 @@ impl CaseRunner for ConvergenceRunner<'_> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let outcome = self.outcome(index, progress);
-        // Shared values are freed here, because the runners of all suites exist until the last
-        // suite ends.
+        // Shared values are freed now: the runners of all suites exist until the last suite ends.
         let exact = self.plan.exact.as_ref();
         if self.left.fetch_sub(1, Ordering::Relaxed) == 1
             && let Some(shared) = exact.and_then(|exact| exact.shared.as_ref())
@@ -121,8 +120,7 @@ impl<'a> ConvergenceRunner<'a> {
         ends.dedup();
         let references = ends.into_iter().map(|end| (end, OnceLock::new())).collect();
         let mut plan = plan.clone();
-        // Cases with automatic time steps evaluate the solution at different times, so they do not
-        // share values.
+        // Cases with automatic time steps evaluate the solution at different times.
         let same_times = plan.cases.len() > 1 && plan.refine.rule.is_none();
         if let Some(exact) = plan.exact.as_mut().filter(|_| same_times) {
             exact.shared = Some(Arc::default());
@@ -185,7 +183,6 @@ impl<'a> ConvergenceRunner<'a> {
         Ok(described(plan, case, expectation).judged(judge_case(&judging, levels?, &runs)))
     }
 
-    /// Runs the method of the case with a smaller spacing, to obtain the reference of the case.
     fn same_method(&self, case: &Case, same: SameMethod) -> Result<Box<dyn Truth>, SubjectError> {
         let plan = &self.plan;
         Ok(match same {

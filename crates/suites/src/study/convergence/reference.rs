@@ -32,7 +32,6 @@ pub(crate) struct Reference {
     until: f64,
     from: f64,
     spacing: f64,
-    /// Nodal displacements and velocities at the start and at each instant.
     states: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -54,7 +53,6 @@ impl Reference {
         Ok(Self { until, from: nodes[0], spacing: nodes[1] - nodes[0], states })
     }
 
-    /// Interpolates linearly between nodes, at the instant nearest to `t`.
     fn interpolate(
         &self,
         field: impl Fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>,
@@ -102,7 +100,6 @@ pub(crate) struct FineGrid {
 }
 
 impl FineGrid {
-    /// Runs the method of `case` on `level`. Initial velocities are taken at t = -dt/2.
     pub(crate) fn compute(
         plan: &ConvergencePlan,
         case: &Case,
@@ -121,7 +118,6 @@ impl FineGrid {
         Ok(Self { until: case.until, panel, lattice, states })
     }
 
-    /// Converts a reference position (m) to coordinates of the lattice.
     fn coordinates<'l>(&self, label: &'l [f64]) -> Cow<'l, [f64]> {
         match (&self.panel, label) {
             (Some(panel), [x, y]) => Cow::Owned(panel.inverse(&Vector::from([*x, *y])).to_vec()),
@@ -144,8 +140,8 @@ impl Truth for FineGrid {
     }
 }
 
-/// Returns the coordinates of the particles of a mapped body in the unit square. To remove rounding
-/// errors, each particle is moved to the middle of its part of the square.
+/// Returns the centres of the particles of a mapped body in the unit square, without rounding
+/// errors.
 fn middles(panel: &Quadrilateral, level: LevelPlan, samples: &Samples) -> Vec<f64> {
     let per_axis = libm::round(level.ppc.map_or(1.0, |ppc| (ppc as f64).sqrt())) as usize;
     let counts = panel.counts(level.h, per_axis);
@@ -192,7 +188,6 @@ impl Lattice {
         Some(Self { axes, particles: particles.into_iter().collect::<Option<_>>()? })
     }
 
-    /// Interpolates `field`, which has one number for each axis and particle, at `label`.
     fn interpolate(&self, field: &[f64], label: &[f64], into: &mut [f64]) {
         let along = self.axes.iter().zip(label);
         let near: Vec<_> = along.map(|(all, x)| lagrange_weights(all, *x, NEAR)).collect();
@@ -220,7 +215,6 @@ pub(crate) struct FineSteps {
     dimension: usize,
     /// Indices of the particles, sorted by reference position.
     order: Vec<usize>,
-    /// States at the start and at every instant.
     states: Vec<Samples>,
 }
 

@@ -54,7 +54,6 @@ pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     rows
 }
 
-/// Returns the rows with the exact temperature; empty without a heat problem.
 fn exact_temperature(plan: &ConvergencePlan) -> Vec<(String, String)> {
     let Some(problem) = plan.heat_problem() else { return Vec::new() };
     let Conduction { temperature, manufactured, motion, .. } = problem;
@@ -91,7 +90,6 @@ fn same_method(same: SameMethod, plan: &ConvergencePlan) -> String {
     }
 }
 
-/// Returns formula and value of the divisor of errors; empty if the suite states no formula.
 fn divisor(plan: &ConvergencePlan) -> String {
     let (Some(formula), Some(scale)) = (&plan.scale_formula, plan.scale) else {
         return String::new();

@@ -74,8 +74,7 @@ pub struct PlannedLevel {
     pub dt: f64,
     /// Number of steps.
     pub steps: u64,
-    /// Courant number c dt/h, where c is the speed of the fastest wave in the body at rest. `None`
-    /// for load steps, which have no time.
+    /// Courant number c dt/h with the fastest wave speed c at rest; `None` for load steps.
     pub courant: Option<f64>,
 }
 
@@ -103,8 +102,7 @@ pub(crate) const ROUNDS: u32 = 40;
 /// Number of power iterations in the first prediction for a time step from the suite.
 const FEW: u32 = 6;
 
-/// Fraction of the first predicted limit above which a second prediction is made. The first one has
-/// few iterations and overestimates the limit by up to 50 %.
+/// Fraction of the first limit, up to 50 % too large, above which a second one is predicted.
 const NEAR: f64 = 0.6;
 
 /// A level with its time step, and the stable time step (s) if it is known.
@@ -170,7 +168,6 @@ impl StableSteps {
     }
 }
 
-/// Returns the simplest method with the same stable time step as `method`.
 fn simplest(method: Method) -> Method {
     let Method::Mpm(method) = method else { return method };
     let (scheme, transfer) = simplest_with_same_response(method.scheme, method.transfer);
@@ -183,7 +180,6 @@ fn taken(plan: &ConvergencePlan, case: &Case, level: LevelPlan) -> f64 {
     case.clock(plan, level.dt).map_or(level.dt, |clock| clock.dt())
 }
 
-/// Returns a warning about the actual step, and whether the step is too long.
 fn warning(plan: &ConvergencePlan, case: &Case, (level, limit): Stepped) -> Option<(String, bool)> {
     let clock = case.clock(plan, level.dt)?;
     let (dt, name, cells) = (clock.dt(), &case.name, level.cells);

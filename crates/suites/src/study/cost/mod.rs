@@ -59,8 +59,7 @@ impl TimingJob<'_> {
     }
 }
 
-/// Measures the time (s) of the steps of a solver on a level, until the run ends or fails. The time
-/// of an external solver includes its response time.
+/// Measures the time (s) of the steps of a solver on a level, until the run ends or fails.
 fn seconds_of(
     plan: &ConvergencePlan,
     case: &Case,
@@ -223,7 +222,6 @@ impl Goal<'_> {
 /// Number of iterations of the fixed loop, which takes about a millisecond.
 const ROUNDS: u32 = 250_000;
 
-/// Thread pool with one thread; `None` if the system cannot create one.
 static ALONE: LazyLock<Option<ThreadPool>> =
     LazyLock::new(|| ThreadPoolBuilder::new().num_threads(1).build().ok());
 
@@ -235,7 +233,6 @@ fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// State of the machine during measurements.
 struct Observed {
     load: Option<f64>,
     loops: Vec<f64>,
@@ -254,7 +251,6 @@ impl LoadMonitor {
         Self { waited: waited(), start: Instant::now() }
     }
 
-    /// Ends the measurement and returns the time (s), without the time spent waiting for a core.
     fn stop(self) -> f64 {
         let passed = self.start.elapsed().as_secs_f64();
         let idle = self.waited.zip(waited()).map_or(0.0, |(before, after)| after - before);
@@ -277,7 +273,6 @@ impl Observed {
         Self { load: load_average(), loops, passed: Instant::now(), waited: waited() }
     }
 
-    /// Runs the fixed loop once and measures its time.
     fn look(&mut self) {
         let watch = LoadMonitor::start();
         let mut x = black_box(0.5_f64);
@@ -301,7 +296,6 @@ impl Observed {
     }
 }
 
-/// Returns the load average over the last minute, if the system reports it.
 fn load_average() -> Option<f64> {
     std::fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
 }

@@ -47,7 +47,6 @@ fn varied(suite: &Suite) -> Vec<(String, Option<&'static str>)> {
     varied
 }
 
-/// Whether a formula contains the name of one of the parameters.
 fn reads(text: &str, parameters: &[(String, Option<&'static str>)]) -> bool {
     let is_parameter = |name: &str| parameters.iter().any(|(parameter, _)| parameter == name);
     Expr::parse(text).is_ok_and(|expr| expr.names().iter().any(|(name, _)| is_parameter(name)))
@@ -55,7 +54,6 @@ fn reads(text: &str, parameters: &[(String, Option<&'static str>)]) -> bool {
 
 pub(crate) type Rows = Vec<(String, String)>;
 
-/// Adds a row, unless its value is empty.
 pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
     if !value.is_empty() {
         rows.push((key.to_owned(), value.to_owned()));
@@ -86,7 +84,6 @@ fn body(scene: &Scene) -> String {
     format!("{body}, density {density}")
 }
 
-/// Returns the text `, free rim` or `, free rims` if no load acts on one of the `count` rims.
 fn rims(scene: &Scene, count: usize) -> &'static str {
     let is_loaded = scene.loads.iter().any(|load| matches!(load.target(), LoadTarget::Rim(_)));
     match count {
@@ -96,7 +93,6 @@ fn rims(scene: &Scene, count: usize) -> &'static str {
     }
 }
 
-/// Adds the rows of each body, if there are several, and of their contact.
 fn bodies(scene: &Scene, rows: &mut Rows) {
     for (i, one) in scene.bodies.iter().enumerate() {
         push(rows, &format!("body {}", i + 1), &body(one));
@@ -147,7 +143,6 @@ pub(crate) fn scene(scene: &Scene, rows: &mut Rows) {
     }
 }
 
-/// Describes the initial stress and its term in the stress or the elastic strain.
 fn initial_stress(scene: &Scene) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     let written = |(i, j, formula): &(usize, usize, Formula)| {
@@ -223,7 +218,6 @@ pub(crate) fn without_effect(plan: &ConvergencePlan, without: Dispensable) -> Co
     plan
 }
 
-/// Removes an effect from a scene, together with the effects that require it.
 fn remove(scene: &mut Scene, effect: EffectName) {
     let goes = |other: &EffectName| *other == effect || other.needs().contains(&effect);
     scene.loads.retain(|load| !goes(&load.effect));

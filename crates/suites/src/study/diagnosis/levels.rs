@@ -11,8 +11,7 @@ use crate::verify::{
     Verdict, observed_order,
 };
 
-/// Coarse levels are the cause if omitting them reduces the difference from the theoretical order
-/// to at most this fraction.
+/// Maximum share of the difference from the theoretical order that remains without coarse levels.
 const CLOSER: f64 = 0.5;
 
 /// Maximum distance of the order of the finest two levels from the theoretical order.
@@ -75,7 +74,6 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Returns the first and the last order between neighbouring levels, if the orders rise to `p`.
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
     let order = |pair: &[&LevelOutcome]| {
         let [coarse, fine] = pair else { return None };
@@ -105,7 +103,6 @@ fn names(levels: &[&LevelOutcome], axis: Axis) -> String {
     format!("the {noun} with {}", names.join(", "))
 }
 
-/// Checks whether the suite has an equilibrium solution but no damping.
 pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     undamped::oscillates(plan, case).then_some(())?;
@@ -131,7 +128,6 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     })
 }
 
-/// Checks whether errors of an external solver are as large as the solution on all levels.
 pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     if !matches!(case.method, Method::External { .. }) || known.levels.len() < FEWEST_LEVELS {

@@ -52,7 +52,6 @@ const PROBES: [&ProbeKind; 14] = [
     &CELLS,
 ];
 
-/// Checks that look for specific causes before any change is tried.
 const CHECKS: [fn(&Known<'_>) -> Option<KnownCause>; 6] = [
     steps::check,
     walls::check,
@@ -185,7 +184,6 @@ fn changed_plans(
     changed
 }
 
-/// Returns the factor on the size of the judged quantity, relative to the divisor of the errors.
 fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     let divisor = |plan: &ConvergencePlan| plan.scale.unwrap_or(1.0);
     let sizes = match (&plan.sum, &smaller.sum, plan.of) {
@@ -196,7 +194,6 @@ fn size_factor(plan: &ConvergencePlan, smaller: &ConvergencePlan) -> f64 {
     sizes * divisor(plan) / divisor(smaller)
 }
 
-/// Checks whether the suite is valid with the remedy that the diagnosis recommends.
 fn check_remedy(session: &Session<'_>, finest: &ConvergencePlan, diagnosis: &mut Diagnosis) {
     let Some(change) = diagnosis.found().map(|(run, _)| run.change.clone()) else { return };
     let kind = PROBES.into_iter().find(|kind| kind.change == change);

@@ -14,7 +14,6 @@ use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::verify::Axis;
 
-/// Whether particles change their cell during the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Crossings {
     None,
@@ -22,14 +21,11 @@ pub(crate) enum Crossings {
     Some,
 }
 
-/// A single change, the cause that it reveals, and the remedy.
 pub(crate) struct ProbeKind {
     pub(crate) change: &'static str,
     /// Cause that is inferred if the change restores or raises the order, or reduces the error.
     pub(crate) cause: fn(&Case, Crossings) -> &'static str,
-    /// Remedy for the author of the suite.
     pub(crate) remedy: &'static str,
-    /// Applies the change to a plan; `None` if it does not apply.
     pub(crate) apply: fn(&ConvergencePlan) -> Option<ConvergencePlan>,
 }
 
@@ -140,7 +136,6 @@ fn compared_with(plan: &ConvergencePlan, against: Against) -> ConvergencePlan {
     plan
 }
 
-/// Copies the plan with all levels changed; `None` if a level cannot change or is too large.
 fn changed_levels(
     plan: &ConvergencePlan,
     change: impl Fn(LevelPlan) -> Option<LevelPlan>,
@@ -265,7 +260,6 @@ pub(super) const SMOOTH_BASIS: ProbeKind = ProbeKind {
     },
 };
 
-/// Copies the plan with a changed method; `None` if it does not change or becomes invalid.
 fn with_method(plan: &ConvergencePlan, change: impl Fn(&mut Method)) -> Option<ConvergencePlan> {
     let mut changed = plan.clone();
     changed.cases.iter_mut().for_each(|case| change(&mut case.method));

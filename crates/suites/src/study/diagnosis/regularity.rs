@@ -43,7 +43,6 @@ fn limit(plan: &ConvergencePlan, p: f64, jump: usize) -> Option<f64> {
     Some((jump as f64 - differentiated + of_support).max(0.0) * front)
 }
 
-/// Checks whether the exact solution does not allow the theoretical order.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, case) = (known.plan, known.session.case);
     let problem = plan.exact.as_ref().filter(|_| case.against == Against::Exact)?;
@@ -127,7 +126,6 @@ const POINT: f64 = 1e-9;
 /// Fraction of its natural size below which a derivative counts as rounding error.
 const ROUNDING: f64 = 1e-9;
 
-/// A derivative of the displacement: its order, and a function that returns its values.
 type Derivative = (usize, fn(&Derivatives) -> Vec<f64>);
 
 /// The displacement and its derivatives, starting with the lowest order.
@@ -149,7 +147,6 @@ pub(crate) struct Jump {
     pub(crate) time: f64,
 }
 
-/// Largest magnitudes of the displacement and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sizes([f64; GROUPS.len()]);
 
@@ -167,7 +164,6 @@ impl Sizes {
     }
 }
 
-/// Computes the sizes of the displacement and its derivatives in the body until time `until` (s).
 pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     let mut sizes = [0.0_f64; GROUPS.len()];
     for line in lines(problem) {
@@ -183,7 +179,6 @@ pub(crate) fn sizes(problem: &Problem, until: f64) -> Sizes {
     Sizes(sizes)
 }
 
-/// Finds the jump of lowest order of the displacement or its derivatives up to the second.
 pub(crate) fn lowest_jump(problem: &Problem, until: f64) -> Option<Jump> {
     let Sizes(sizes) = sizes(problem, until);
     let length = problem.from.iter().zip(&problem.to).map(|(a, b)| b - a).fold(0.0, f64::max);
@@ -219,7 +214,6 @@ impl LocalLine {
         place
     }
 
-    /// Returns the points of the line inside the body, with their numbers.
     fn inside<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
         let count = INTERVALS[problem.dimension().clamp(1, 3) - 1];
         let from = self.from[self.axis];
@@ -228,7 +222,6 @@ impl LocalLine {
         places.filter(|(_, place)| problem.holds(place))
     }
 
-    /// Finds the position where a component of the function `at` jumps by at least `least`.
     fn jump(
         &self,
         problem: &Problem,
@@ -250,7 +243,6 @@ impl LocalLine {
         None
     }
 
-    /// Finds the position of a jump of component `i` between two points with known values.
     fn bisect(
         &self,
         mut low: (f64, f64),
@@ -274,7 +266,6 @@ impl LocalLine {
     }
 }
 
-/// Creates evenly distributed lines through the body along every axis.
 fn lines(problem: &Problem) -> Vec<LocalLine> {
     let d = problem.dimension();
     let count = LINES[d.clamp(1, 3) - 1];

@@ -31,7 +31,6 @@ pub(super) struct Session<'a> {
     left: Cell<f64>,
     /// Measured time of an external solver divided by the predicted time of this crate, at least 1.
     slowness: Cell<f64>,
-    /// Descriptions of changes that were too expensive to run.
     skipped: RefCell<Vec<String>>,
 }
 
@@ -78,7 +77,6 @@ impl<'a> Session<'a> {
         outcome.convergence().cloned().ok_or(outcome.reason)
     }
 
-    /// Judges levels against an expected order near the theoretical one.
     pub(super) fn judge<'b>(
         &self,
         levels: impl IntoIterator<Item = &'b LevelOutcome>,
@@ -94,17 +92,13 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A case with the results of its levels.
 pub(super) struct Known<'a> {
     pub(super) session: &'a Session<'a>,
-    /// The study with only this case and its levels.
     pub(super) plan: &'a ConvergencePlan,
     pub(super) levels: &'a [LevelOutcome],
-    /// Judgement of the finest levels.
     pub(super) finest: &'a Judgement,
 }
 
-/// Copies the plan with a single case and the given levels.
 pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {
     let mut plan = plan.clone();
     plan.refine.levels = levels.to_vec();
@@ -131,19 +125,16 @@ pub(super) fn refusal(
     changed.err().map(|refused: Diagnostic| refused.message().to_owned())
 }
 
-/// Whether `check` accepts the suite in `source` with this time step.
 pub(super) fn accepts_step(source: &Source, step: StepSpec) -> bool {
     with_changes(source, |spec| spec.run.dt = Some(step)).is_ok()
 }
 
-/// Whether `check` accepts the suite in `source` with a grid between two corners (m).
 pub(super) fn accepts_grid(source: &Source, from: &[f64], to: &[f64]) -> bool {
     let corner = |x: &[f64]| x.iter().copied().map(NumberText::Number).collect();
     let grid = BoxSpec { from: corner(from), to: corner(to) };
     with_changes(source, |spec| spec.scene.grid = Some(grid)).is_ok()
 }
 
-/// Converts the method to its form in a suite; `None` for methods that are never changed.
 fn method_spec(method: Method) -> Option<MethodSpec> {
     let Method::Mpm(method) = method else { return None };
     Some(MethodSpec::Mpm {

@@ -130,7 +130,6 @@ fn limit(plan: &ConvergencePlan, level: &LevelOutcome) -> Option<f64> {
     crossing.is_finite().then_some(IN_QUESTION * crossing)
 }
 
-/// Suggests the first change of the time step that `check` accepts.
 fn remedy(known: &Known<'_>) -> String {
     let source = known.session.source;
     if known.plan.refine.axis == Axis::Time {

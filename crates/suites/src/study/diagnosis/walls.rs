@@ -20,7 +20,6 @@ const INTERVALS: usize = 8;
 /// `frame: total_lagrangian` is recommended if it reduces the error to at most this fraction.
 const MENDED: f64 = 0.1;
 
-/// Checks whether a wall moves, or particles have left the grid.
 pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let is_lost = |level: &LevelOutcome| {
         level.run.counters.left_domain > Some(0) || level.run.failure.is_some()
@@ -33,7 +32,6 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     beyond_the_grid(known, level).or_else(|| particle_on_wall(known.session, known.plan, level))
 }
 
-/// Checks whether a wall moves along its normal by more than a cell, while the grid does not move.
 fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let (plan, session) = (known.plan, known.session);
     let problem = plan.exact.as_ref()?;
@@ -84,7 +82,6 @@ fn path(problem: &Problem, face: &SceneFace, until: f64) -> f64 {
     longest
 }
 
-/// Whether the case is valid with `frame: total_lagrangian`, with a much smaller error.
 fn follows_in_total_frame(known: &Known<'_>) -> bool {
     let (plan, session) = (known.plan, known.session);
     let mut case = session.case.clone();
@@ -99,7 +96,6 @@ fn follows_in_total_frame(known: &Known<'_>) -> bool {
     after.is_some_and(|after| after <= MENDED * before || (after.is_finite() && before.is_nan()))
 }
 
-/// Checks whether the exact motion leaves the grid of a level.
 fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     let (plan, scene) = (known.plan, &known.plan.scene);
     let reach = Extremes::of(plan.exact.as_ref()?).reach;
@@ -144,7 +140,6 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     })
 }
 
-/// Checks whether a particle starts at the end of the grid, where rounding decides its side.
 pub(super) fn particle_on_wall(
     session: &Session<'_>,
     plan: &ConvergencePlan,

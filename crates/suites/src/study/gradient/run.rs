@@ -108,7 +108,6 @@ impl GradientRun<'_> {
         Ok(study)
     }
 
-    /// Runs the solver without derivatives, for values that help to explain a wrong derivative.
     fn evidence(&self, problem: &LevelProblem) -> Result<GradientEvidence, GradientError> {
         let Gradient { gradient, .. } = self.gradient(problem)?;
         let value = |problem: LevelProblem| Ok(self.value(&problem)?.value);
@@ -221,7 +220,6 @@ impl GradientRun<'_> {
         Err(GradientError::Failed(reason))
     }
 
-    /// Returns the value of the functional after a run without derivatives.
     fn value(&self, problem: &LevelProblem) -> Result<FunctionalValue, GradientError> {
         let run = |problem| self.plain_run(problem).map(|done| vec![done.value, done.scale]);
         match self.kept(problem, "value", run)?[..] {
@@ -241,8 +239,7 @@ impl GradientRun<'_> {
         if self.context.cache.is_none() {
             return run().numbers();
         }
-        // The key includes everything that a parameter changes: the numbers in the message, masses
-        // and velocities.
+        // The key includes everything that a parameter changes.
         let numbers = serde_json::to_string(problem)
             .map_err(|error| GradientError::Failed(error.to_string()))?;
         let particles = [&problem.particles.mass, &problem.particles.velocity];
@@ -274,8 +271,7 @@ impl GradientRun<'_> {
         Ok(self.plan.of.value(&mass, &samples))
     }
 
-    /// Returns the values of the functional with the value `q` of a parameter changed by q 2^-level
-    /// in both directions.
+    /// Returns the functional with the parameter value `q` changed by q 2^-level both ways.
     fn around(
         &self,
         problem: &LevelProblem,
@@ -288,7 +284,6 @@ impl GradientRun<'_> {
         Ok(Perturbed { level, by, above: at(q + by)?.value, below: at(q - by)?.value })
     }
 
-    /// Returns the functional with the parameter value `q` perturbed by fractions of itself.
     fn perturbed(
         &self,
         problem: &LevelProblem,
@@ -323,8 +318,7 @@ impl GradientRun<'_> {
     }
 }
 
-/// Whether all derivatives are numbers of single precision, although the `value` is not. By chance,
-/// one number in 2^29 is.
+/// Whether all derivatives are numbers of single precision, although the `value` is not.
 fn is_single(value: f64, derivatives: &[f64]) -> bool {
     let single = |x: f64| x != 0.0 && f64::from(x as f32) == x;
     let differ = derivatives.iter().any(|x| *x != derivatives[0]);
@@ -339,8 +333,7 @@ fn nominal(problem: &LevelProblem, parameter: GradientParameter) -> Result<f64, 
 
 type ValueAndSlope = (f64, f64);
 
-/// Computes the exact total derivative of the functional, including the effect of an initial
-/// velocity that depends on the parameter.
+/// Computes the exact derivative, including that of an initial velocity.
 pub(super) fn exact_derivative(
     plan: &GradientPlan,
     one: &Differentiated,
@@ -354,7 +347,6 @@ pub(super) fn exact_derivative(
     }
 }
 
-/// Computes the derivative of the functional with respect to the suite's parameter.
 fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
     let (motion, t) = (&one.motion, problem.until);
     match of {
@@ -380,13 +372,11 @@ fn slope(of: Functional, one: &Differentiated, problem: &LevelProblem) -> f64 {
     }
 }
 
-/// Computes the square of a vector, with its derivative.
 fn square(vector: &[f64], slope: &[f64]) -> ValueAndSlope {
     let both = vector.iter().zip(slope);
     both.fold((0.0, 0.0), |(sum, rise), (x, dx)| (sum + x * x, rise + 2.0 * x * dx))
 }
 
-/// Integrates a function over the body, with its derivative.
 fn integral(
     motion: &ParametricMotion,
     t: f64,
@@ -399,7 +389,6 @@ fn integral(
     })
 }
 
-/// Computes the mean of a function over the body, with its derivative.
 fn mean(
     motion: &ParametricMotion,
     t: f64,

@@ -8,8 +8,8 @@ use crate::subject::PlaneState;
 use crate::suite::model::Scene;
 use crate::suite::scene::numbers::{LoadNumbers, NumberField};
 
-/// Radius at which stresses on the axis of a body of revolution are evaluated, relative to the size
-/// of the body. At R = 0 the hoop stretch r/R is undefined.
+/// Radius, relative to the body, at which stresses on the axis are evaluated: r/R is undefined
+/// there.
 const NEAR_AXIS: f64 = 1e-8;
 
 pub(super) struct SceneFields {
@@ -40,7 +40,6 @@ impl SceneFields {
         })
     }
 
-    /// Returns one field of the initial state at each point.
     fn initial(&self, of: FieldName, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = Vec::new();
@@ -69,7 +68,6 @@ impl SceneFields {
         Ok(values)
     }
 
-    /// Computes the initial Cauchy stress by the law of each body.
     fn stress(&self, at: &FieldPlaces<'_>) -> Result<Vec<f64>, FieldError> {
         let d = self.scene.dimension();
         let mut values = vec![0.0; at.bodies.len() * d * d];

@@ -60,7 +60,6 @@ pub(crate) struct HandedRun {
     pub(crate) instants: Vec<u64>,
     pub(crate) particles: ProblemParticles,
     pub(crate) initial: Vec<Initial>,
-    /// Whether the state of the particles was perturbed by random numbers.
     pub(crate) is_perturbed: bool,
 }
 
@@ -201,7 +200,6 @@ fn forces(scene: &Scene) -> Vec<Vec<Arc<dyn Term>>> {
 #[derive(Clone)]
 struct SceneForce {
     terms: Vec<Vec<Arc<dyn Term>>>,
-    /// Motion with a manufactured force, if any.
     made: Option<Problem>,
 }
 

@@ -63,8 +63,7 @@ pub(crate) fn of_scene(scene: &Scene) -> ProblemNeeds {
     needs
 }
 
-/// Lists the capabilities that `suite` requires and `solver` lacks; empty for a study that external
-/// solvers cannot run.
+/// Lists the capabilities that `suite` requires and `solver` lacks.
 pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
@@ -118,7 +117,6 @@ fn replaced(own: &MaterialPlan, parameter: &MaterialParameter) -> f64 {
     }
 }
 
-/// Creates the solver of a level: `solver` if given, otherwise the method of the case.
 pub(crate) fn subject_under(
     solver: Option<&dyn SolverFactory>,
     suite: &str,

@@ -27,7 +27,6 @@ pub(crate) fn unloaded(scene: &Scene) -> Vec<Scene> {
     scene.each().iter().map(|own| Scene { loads: Vec::new(), ..own.clone() }).collect()
 }
 
-/// Creates the initial particles of all bodies, whose states `disturb` may modify.
 pub(crate) fn start(
     bodies: Vec<Body<'_>>,
     level: LevelPlan,
@@ -87,7 +86,6 @@ pub(super) fn starts_deformed(plan: &ConvergencePlan) -> bool {
     start.is_some_and(|start| is_deformed(&start, plan.scene.dimension()))
 }
 
-/// Whether a particle is displaced, or its F differs from I.
 pub(crate) fn is_deformed(start: &ProblemParticles, d: usize) -> bool {
     let identity = |k: usize| f64::from(u8::from(k / d == k % d));
     let mut f = start.deformation_gradient.iter().enumerate();

@@ -26,7 +26,6 @@ impl Plane {
     }
 }
 
-/// Reports planes that lie inside a cell on at least one level.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let planes = planes(&preflight.plan.scene);
     planes.iter().filter_map(|plane| inside_a_cell(preflight, plane)).collect()

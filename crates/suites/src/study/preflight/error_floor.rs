@@ -15,15 +15,13 @@ const SEEN: f64 = 0.3;
 /// Another error becomes visible after a few refinements above this fraction of the error of cells.
 const SOON: f64 = 0.003;
 
-/// Predicts the error (m) due to cells of size `h` (m) as the interpolation error of linear
-/// functions: h^2/8 times the second derivative.
+/// Estimates the interpolation error (m) of linear functions: h^2/8 times the second derivative.
 fn of_cells(preflight: &Preflight<'_>, h: f64) -> f64 {
     let curvature = preflight.extremes.as_ref().map_or(0.0, |motion| motion.curvature);
     0.125 * h * h * curvature
 }
 
-/// Creates a finding about an error of `size` (m): a warning if the error is visible on a level of
-/// the suite, a note if it would be visible on one of the next finer levels.
+/// Reports an error (m) that is visible on a level (warning) or on the next ones (note).
 fn floor_finding(
     preflight: &Preflight<'_>,
     size: f64,
@@ -96,7 +94,6 @@ fn model_error(preflight: &Preflight<'_>, case: &Case) -> Option<ModelError> {
     Some(ModelError { size: neglected * motion.largest_displacement().min(early), origin, remedy })
 }
 
-/// Reports the model error and the first level on which it is visible.
 pub(crate) fn small_strain(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     if plan.refine.axis != Axis::Space || plan.manufactured().is_some() {
@@ -123,8 +120,7 @@ struct LevelPrediction {
     rounding: f64,
 }
 
-/// Predicts the first level whose error in single precision lies below the rounding bound. The
-/// finding is a warning if fewer than four levels lie above the bound.
+/// Reports the first level whose predicted error is below the rounding bound.
 pub(crate) fn single_precision(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let case = preflight.of_an_order().find(|case| case.method.is_single_precision());
@@ -181,7 +177,6 @@ fn nearer_origin(motion: &Extremes, spacing: f64) -> Option<f64> {
     (factor > 1.0).then_some(factor)
 }
 
-/// Rounds a positive factor up to two digits.
 fn two_digits(factor: f64) -> f64 {
     let text = format!("{:.1e}", 1.05 * factor);
     text.parse().unwrap_or(factor)

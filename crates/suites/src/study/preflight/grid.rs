@@ -13,7 +13,6 @@ use crate::suite::yaml::locate::Path;
 use crate::suite::yaml::{Diagnostic, Severity};
 use crate::verify::FEWEST_LEVELS;
 
-/// Warns if an order is expected but too few levels count.
 pub(crate) fn few_levels(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let levels = preflight.levels();
     let excluded = preflight.plan.crossing_levels == CrossingLevels::Excluded;
@@ -55,7 +54,6 @@ fn crosses(preflight: &Preflight<'_>, level: &LevelPlan) -> bool {
 /// Maximum distance (cells) outside the grid that counts as rounding error.
 const ROUNDING: f64 = 1e-6;
 
-/// Warns of an exact motion that moves the body out of the grid on at least one level.
 pub(crate) fn leaves_grid(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let (Some(motion), true) = (&preflight.extremes, plan.cases.iter().any(moves_on_grid)) else {

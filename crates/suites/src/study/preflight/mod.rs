@@ -77,7 +77,6 @@ pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     found.into_iter().flatten().collect()
 }
 
-/// Warns of a step that is too long for the motion.
 fn too_long(preflight: &Preflight<'_>) -> Option<Diagnostic> {
     let plan = preflight.plan;
     let moves = plan.cases.iter().any(|case| matches!(case.method, Method::Mpm(_)));
@@ -147,9 +146,8 @@ fn steps(preflight: &Preflight<'_>) -> Path {
     }
 }
 
-/// Time (s) per particle and step, by dimension, including errors and set-up. The times were fitted
-/// to whole runs of eight suites in the profile of `cargo run`, on one thread. Single suites differ
-/// by a factor of up to three.
+/// Time (s) per particle and step, by dimension, with errors and set-up. Fitted to runs of eight
+/// suites with `cargo run` on one thread; single suites differ by a factor of up to three.
 const SECONDS: [f64; 3] = [2.5e-7, 6e-7, 1.8e-6];
 
 /// Assumed time (s) of a case without a prediction.
@@ -182,7 +180,6 @@ pub fn estimates(suite: &Suite, extent: Extent) -> Vec<Option<Estimate>> {
     }
 }
 
-/// Estimates the cost of the levels that run without `--full`.
 pub(crate) fn estimate_of(plan: &ConvergencePlan) -> Estimate {
     let none = Estimate { particle_steps: 0.0, seconds: 0.0, bytes: 0.0 };
     let cases = plan.cases.iter().map(|case| of_case(plan, case, Extent::Usual));

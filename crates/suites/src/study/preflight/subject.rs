@@ -34,7 +34,6 @@ impl<'a> Preflight<'a> {
         self.plan.refine.levels(Extent::Usual)
     }
 
-    /// Returns the cases with an expected order, from the suite or from theory.
     pub(crate) fn of_an_order(&self) -> impl Iterator<Item = &Case> {
         let claims = |case: &&Case| match &case.expectation {
             Some(expected) => expected.verdict == Some(Verdict::Converging),
@@ -43,7 +42,6 @@ impl<'a> Preflight<'a> {
         self.plan.cases.iter().filter(claims)
     }
 
-    /// Returns the path of the list of levels on the refined axis.
     pub(crate) fn sizes(&self) -> Path {
         Path::top("refine").then(match self.plan.refine.axis {
             Axis::Space => "cells",
@@ -84,7 +82,6 @@ impl<'a> Preflight<'a> {
     }
 }
 
-/// Whether the particles of a case move through the grid.
 pub(crate) fn moves_on_grid(case: &Case) -> bool {
     match case.method {
         Method::Mpm(method) => method.frame == FrameName::Updated,

@@ -21,8 +21,7 @@ const INTERVALS: usize = 4;
 /// Minimum initial distance from the equilibrium, as a fraction of its displacement.
 const AWAY: f64 = 1e-3;
 
-/// Warns of a body that oscillates about its equilibrium. If the load grows slowly, the finding is
-/// a note.
+/// Warns of a body that oscillates about its equilibrium; a note if the load grows slowly.
 pub(crate) fn check(preflight: &Preflight<'_>) -> Vec<Diagnostic> {
     let plan = preflight.plan;
     let Some(case) = plan.cases.iter().find(|case| oscillates(plan, case)) else {
@@ -50,8 +49,7 @@ pub(crate) fn oscillates(plan: &ConvergencePlan, case: &Case) -> bool {
         && starts_away(plan, case, problem)
 }
 
-/// Whether a load, a viscous material, friction or the velocity transfer dissipates energy.
-/// Plasticity does not count, because elastic oscillations remain.
+/// Whether anything dissipates energy. Plasticity does not: elastic oscillations remain.
 fn removes_energy(scene: &Scene, case: &Case) -> bool {
     let terms = scene.terms();
     let resists = |share: f64| {

@@ -40,7 +40,6 @@ pub(crate) fn bar(plan: &ConvergencePlan, method: Method, cells: u64) -> Result<
     Bar::new(setup).map_err(|error| error.to_string().into())
 }
 
-/// Combines the prescribed and manufactured forces of a bar; `None` if it has none.
 fn body_force(scene: &Scene, made: Option<Problem>) -> Option<fem::BarLoad> {
     let on_face = |load: &&ListedLoad| matches!(load.target(), LoadTarget::Face(_));
     let stated: Vec<_> = scene.loads.iter().filter(|load| !on_face(load)).cloned().collect();
@@ -129,7 +128,6 @@ mod tests {
         sigma * space.try_inverse().unwrap().transpose() * space.determinant()
     }
 
-    /// Lists one plan for every material with an exact law for finite strains.
     fn known(hardening: f64) -> impl Iterator<Item = (MaterialPlan, Equation)> {
         let every = MaterialPlan::every(|parameter| match parameter.symbol {
             "nu" => 0.3,
@@ -179,15 +177,13 @@ mod tests {
         }
     }
 
-    /// The uniaxial strain leaves the elastic range, and loading never reverses. Fluids are at
-    /// rest.
+    /// The uniaxial strain leaves the elastic range; loading never reverses. Fluids are at rest.
     #[rstest]
     fn mpm_and_exact_laws_agree(
         #[values(0.0, 40.0)] hardening: f64,
         #[values(0.7, 0.97, 1.0, 1.03, 1.4)] stretch: f64,
     ) {
-        // The return mapping of clay has order 1 in the step, so it needs many steps
-        // (`mpm::material::clay_paths`).
+        // Clay needs many steps: its return mapping has order 1 (`mpm::material::clay_paths`).
         let exact = known(hardening).filter(|(plan, _)| plan.name() != "cam_clay");
         for (plan, truth) in exact.filter(|(_, truth)| truth.admits(1, true).is_ok()) {
             let mut grad = [[0.0; 3]; 3];

@@ -17,11 +17,9 @@ use crate::suite::scene::load::{BodySite, ListedLoad, LoadTarget};
 use crate::suite::scene::{cell_size, grid_axis, per_axis};
 use crate::verify::Quantity;
 
-/// Model of a body at the start of a run.
 pub(crate) struct Body<'a> {
     /// The scene of all bodies, with the grid and its walls.
     pub(crate) scene: &'a Scene,
-    /// The scene of this body, with its shape, material and loads.
     pub(crate) own: &'a Scene,
     pub(crate) initial: Initial,
     pub(crate) manufactured: Option<&'a Problem>,
@@ -45,7 +43,6 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Creates a body in the initial state that the scene `own` describes, without exact solution.
     pub(crate) fn stated(scene: &'a Scene, own: &'a Scene, lattice: LatticeEdits) -> Self {
         let initial = Initial::stated(own);
         Self { scene, own, initial, manufactured: None, heat: None, judged: None, lattice }
@@ -88,7 +85,6 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Creates the data of all `bodies` of one scene on the cells of `level`.
 pub(crate) fn scene_input(
     bodies: Vec<Body<'_>>,
     level: LevelPlan,
@@ -122,7 +118,6 @@ pub fn effects(suite: &Suite) -> Result<Vec<EffectInput>, SubjectError> {
     Ok(plan.scene.loads.iter().map(|load| load.input(&site)).collect())
 }
 
-/// The manufactured force of a problem, with the particle positions once they are known.
 struct ManufacturedForce {
     problem: Problem,
     forcing: Option<Forcing>,
@@ -153,8 +148,7 @@ pub(crate) fn periodic(scene: &Scene, axis: usize) -> bool {
     scene.faces.get(2 * axis).is_some_and(|face| face.hold.is_periodic())
 }
 
-/// Lists the conditions on the faces of the grid. Conditions with higher priority come last,
-/// because later conditions override earlier ones at shared nodes.
+/// Lists the conditions on grid faces. Later ones override earlier ones at shared nodes.
 fn walls(scene: &Scene) -> Vec<WallInput> {
     let mut faces: Vec<&SceneFace> = scene.faces.iter().collect();
     faces.sort_by_key(|face| face.hold.kind().strength);
@@ -166,7 +160,6 @@ fn walls(scene: &Scene) -> Vec<WallInput> {
     faces.into_iter().filter_map(wall).collect()
 }
 
-/// Returns the shape of a body in a grid with cells of size `h`.
 fn shape<'a>(own: &'a Scene, scene: &Scene, h: f64) -> ShapeInput<'a> {
     if let Some(panel) = &own.mapped {
         return ShapeInput::Panel(panel.clone());

@@ -26,7 +26,6 @@ pub fn subject(
     }
 }
 
-/// Converts a method to the method of an MPM solver.
 fn method_input(method: Method) -> Result<MethodInput, SubjectError> {
     Ok(match method {
         Method::Mpm(method) => MethodInput::Dynamic(method),
@@ -71,7 +70,6 @@ pub(crate) fn stable_time_step_of(
     input::stable_time_step(scene, dynamic(method)?, &speeds, rounds)
 }
 
-/// Creates an MPM solver whose state can be perturbed.
 pub(crate) fn perturbable(
     bodies: Vec<Body<'_>>,
     method: Method,

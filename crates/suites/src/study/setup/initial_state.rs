@@ -12,7 +12,6 @@ use crate::suite::model::{ConvergencePlan, Scene};
 
 #[derive(Clone)]
 pub(crate) struct Initial {
-    /// Exact motion from which the initial state is computed, if any.
     motion: Option<Motion>,
     displacement: Option<Motion>,
     velocity: Option<Motion>,
@@ -25,7 +24,6 @@ impl Initial {
         Self { motion: exact.map(|problem| problem.motion.clone()), ..Self::stated(body) }
     }
 
-    /// Creates the initial state that the scene describes.
     pub(crate) fn stated(scene: &Scene) -> Self {
         let Scene { initial_stress, initial_displacement, initial_velocity, .. } = scene;
         let formulas = |all: &Vec<Formula>| (!all.is_empty()).then(|| Motion::new(all.clone()));
@@ -37,7 +35,6 @@ impl Initial {
         }
     }
 
-    /// Returns displacement, velocity and their gradients at `label`.
     pub(crate) fn at(&self, label: &[f64]) -> Derivatives {
         if let Some(motion) = &self.motion {
             return motion.derivatives(label, 0.0);
@@ -51,7 +48,6 @@ impl Initial {
         now
     }
 
-    /// Whether the body may be displaced or deformed.
     pub(crate) fn is_displaced(&self) -> bool {
         self.motion.is_some() || self.displacement.is_some()
     }

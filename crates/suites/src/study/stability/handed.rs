@@ -72,12 +72,10 @@ fn handed(suite: &str, setup: &RunSetup) -> Result<LevelProblem, SubjectError> {
 /// Seed of the random perturbations of the initial state.
 const SEED: u64 = 8;
 
-/// Returns the bodies at the start of a run, each with its own scene.
 pub(super) fn bodies<'a>(setup: &'a RunSetup, each: &'a [Scene]) -> Vec<Body<'a>> {
     each.iter().map(|own| Body::stated(&setup.scene, own, setup.lattice.clone())).collect()
 }
 
-/// Adds a random number to each component of the state, if the run requests it.
 pub(super) fn perturb(subject: &mut dyn Perturbable, setup: &RunSetup) {
     if !(setup.perturb > 0.0) {
         return;

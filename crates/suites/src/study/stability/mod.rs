@@ -135,7 +135,6 @@ fn common_step(plan: &StabilityPlan, setup: &RunSetup) -> Option<f64> {
     (is_given && plan.values.iter().all(is_equal)).then_some(dt)
 }
 
-/// Describes the energy by which the energies of a run are divided.
 fn reference_energy(setup: &RunSetup) -> &'static str {
     let is_at_rest = |body: &Scene| {
         body.initial_displacement.is_empty()

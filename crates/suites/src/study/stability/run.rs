@@ -109,7 +109,6 @@ impl CaseRun<'_> {
         Ok(subject)
     }
 
-    /// Prepares the run with the given parameter values for output as files.
     pub(super) fn shown(
         &self,
         values: &ParameterValues<'_>,

@@ -75,7 +75,6 @@ pub(crate) fn convergence_plan(
     Ok(plan)
 }
 
-/// Returns the acknowledged warnings. Each needs a reason, and none may be listed twice.
 fn acknowledged(
     evaluator: &Evaluator<'_>,
     specs: &[AcknowledgeSpec],

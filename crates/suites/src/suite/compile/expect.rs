@@ -178,7 +178,6 @@ fn limits(
     Ok(limits)
 }
 
-/// Refuses the bound at `path` if the study does not measure the bounded quantity.
 fn refuse_missing_figure(
     path: &SuitePath<'_>,
     figure: CaseFigure,
@@ -243,7 +242,6 @@ fn drifts(
     Ok(drifts)
 }
 
-/// Refuses a bound on the drift of a sum that `method` does not compute or conserve.
 fn check_drift(path: &SuitePath<'_>, limits: &Limits, method: Method) -> Result<(), Diagnostic> {
     let key = if limits.energy_rate.is_some() { "energy_rate" } else { "drift" };
     let asks = !limits.drift.is_empty() || limits.energy_rate.is_some();
@@ -270,7 +268,6 @@ const PLACES: usize = 5;
 /// Displacement gradients up to this value count as rounding errors.
 const UNDEFORMED: f64 = 1e-14;
 
-/// Compiles the key `any_method`.
 pub(crate) fn any_method(study: &CompiledStudy<'_>) -> Result<AnyMethod, Diagnostic> {
     let Some(spec) = &study.spec.any_method else { return Ok(AnyMethod::default()) };
     let path = study.evaluator.top("any_method");

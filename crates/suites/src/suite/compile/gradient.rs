@@ -19,7 +19,6 @@ const MOST_POINTS: u64 = 1000;
 /// Relative change of a parameter for which the stated solution must still hold.
 const CHANGE: f64 = 1.0 / 64.0;
 
-/// A gradient study whose problem has been compiled.
 struct GradientDraft<'a> {
     evaluator: &'a Evaluator<'a>,
     spec: &'a GradientSpec,
@@ -60,7 +59,6 @@ fn methods(evaluator: &Evaluator<'_>, spec: &GradientSpec) -> Result<Vec<MethodS
     Ok(vec![MethodSpec::External { name, formal_order: None, precision }])
 }
 
-/// Refuses a problem whose exact sensitivities are not implemented.
 fn refuse_unfit_problem(draft: &GradientDraft<'_>) -> Result<(), Diagnostic> {
     let GradientDraft { evaluator, spec, problem } = draft;
     let scene: &Scene = &problem.scene;
@@ -108,7 +106,6 @@ fn refuse_unfit_problem(draft: &GradientDraft<'_>) -> Result<(), Diagnostic> {
     }
 }
 
-/// Evaluates an index, which must be an integer from 0 to `count - 1`.
 fn index(
     path: &SuitePath<'_>,
     text: &NumberText,
@@ -145,7 +142,6 @@ fn functional(draft: &GradientDraft<'_>) -> Result<Functional, Diagnostic> {
     })
 }
 
-/// Returns the number of particles on the coarsest level; at least one.
 fn coarsest_particles(problem: &ConvergencePlan) -> usize {
     let scene = &problem.scene;
     let Some(level) = problem.refine.levels.first() else { return 1 };
@@ -276,7 +272,6 @@ fn with_value<T>(
     check(&evaluator)
 }
 
-/// Returns the exact motion as a function of the suite parameter `name`.
 fn motion(
     GradientDraft { evaluator, spec, problem }: &GradientDraft<'_>,
     name: &str,

@@ -90,8 +90,7 @@ pub(crate) fn rows(plan: &ForcePlan, case: &ForceCase) -> Vec<ForceRow> {
 }
 
 fn row(plan: &ForcePlan, case: &ForceCase, k: u64) -> ForceRow {
-    // The positions are the midpoints of equal parts between -1/2 and 1/2 cells, symmetric about
-    // the node.
+    // Midpoints of equal parts between -1/2 and 1/2 cells, symmetric about the node.
     let position = (k as f64 + 0.5) / plan.positions as f64 - 0.5;
     let right = plan.ppc + u64::from(position >= 0.0);
     let left = 2 * plan.ppc - right;

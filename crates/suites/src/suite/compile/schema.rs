@@ -70,8 +70,7 @@ fn names_in_one_list(schema: &mut Schema) {
     }
 }
 
-/// Removes `null` from optional keys. The program treats `null` as a missing key, but an editor
-/// should report a key without a value.
+/// Removes `null` from optional keys: editors should report a key without a value.
 fn without_null(schema: &mut Schema) {
     if schema.get("default").is_some_and(Value::is_null) {
         schema.remove("default");

@@ -71,7 +71,6 @@ fn needs(path: &SuitePath<'_>, property: &str) -> Diagnostic {
     path.diagnostic(&format!("a spectrum study needs {property}"))
 }
 
-/// Refuses a scene that is not a periodic row of a linear elastic body at rest.
 fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let fills = scene.grid.as_ref().is_none_or(|(from, to)| *from == scene.from && *to == scene.to);
     let is_linear = matches!(scene.material, MaterialPlan::LinearElastic { .. });
@@ -93,7 +92,6 @@ fn refuse_unfit_scene(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Di
     evaluator.refuse_first(&refused, |path, property| needs(&path, property))
 }
 
-/// Compiles the translation of the particles (m), which must keep them in their cells.
 fn shift(evaluator: &Evaluator<'_>, spec: &SpectrumSpec, spacing: f64) -> Result<f64, Diagnostic> {
     let Some(texts) = &spec.particles.shift else { return Ok(0.0) };
     let path = evaluator.top("particles.shift");
@@ -237,7 +235,6 @@ fn expectation(
     Ok((SpectrumExpectation { phase_within, damping_within }, because))
 }
 
-/// Refuses the key `solvers` if it assigns an unknown case to a solver.
 fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Result<(), Diagnostic> {
     let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
     let Some((solver, case)) =
@@ -249,7 +246,6 @@ fn refuse_unknown_cases(evaluator: &Evaluator<'_>, plan: &SpectrumPlan) -> Resul
     path.refuse(&format!("there is no case `{case}`"), &suggestion("cases", case, &names))
 }
 
-/// Refuses unstable time steps, and waves that the grid cannot represent.
 fn refuse_unfit_waves(
     evaluator: &Evaluator<'_>,
     spec: &SpectrumSpec,

@@ -19,11 +19,9 @@ pub(crate) struct CompiledStudy<'a> {
     pub(crate) plan: &'a ConvergencePlan,
     /// Sampled positions and largest terms of the exact motion of a single body.
     pub(crate) survey: Option<Survey>,
-    /// Paths of the levels in the file.
     pub(crate) levels: Vec<LevelPaths<'a>>,
 }
 
-/// Places of a level's values in the file.
 pub(crate) struct LevelPaths<'a> {
     pub(crate) size: SuitePath<'a>,
     pub(crate) dt: SuitePath<'a>,

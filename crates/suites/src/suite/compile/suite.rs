@@ -60,8 +60,7 @@ impl Suite {
     }
 }
 
-/// Loads a convergence study with the exact motion and the initial state, but not the loads,
-/// multiplied by `factor`.
+/// Loads a convergence study with exact motion and initial state multiplied by `factor`.
 pub(crate) fn with_amplitude(source: &Source, factor: f64) -> Result<Suite, Diagnostic> {
     with_changes(source, |spec| scale_amplitude(spec, factor))
 }
@@ -96,7 +95,6 @@ fn convergence(source: &Source, spec: ConvergenceSpec) -> Result<Suite, Diagnost
     Ok(compile_suite!(source, spec, convergence_plan))
 }
 
-/// Refuses a suite name that cannot be used in names of tests and files.
 fn refuse_unusable_name(evaluator: &Evaluator<'_>, name: &str) -> Result<(), Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
     if !name.is_empty() && name.len() <= 64 && name.chars().all(plain) {

@@ -19,7 +19,6 @@ pub(crate) const COORDINATES: [&str; 3] = ["X", "Y", "Z"];
 
 pub(crate) const DISPLACEMENTS: [&str; 3] = ["ux", "uy", "uz"];
 
-/// Returns the first `dimension` coordinate names, followed by t.
 pub(crate) fn coordinates_and_time(dimension: usize) -> Vec<&'static str> {
     COORDINATES[..dimension].iter().copied().chain(["t"]).collect()
 }
@@ -104,7 +103,6 @@ impl<'a> Evaluator<'a> {
         self.top("parameters").then(name)
     }
 
-    /// Declares a function, such as `s(tau): "..."` with one argument.
     fn declare_function(&mut self, head: &str, body: &str) -> Result<(), Diagnostic> {
         let help = "write the name and its arguments: `s(tau)`";
         let (name, arguments) = head
@@ -164,7 +162,6 @@ impl SuitePath<'_> {
         Ok(formula)
     }
 
-    /// Parses `dimension` formulas, one for each component.
     pub(crate) fn vector(
         &self,
         texts: &[NumberText],
@@ -187,12 +184,10 @@ impl SuitePath<'_> {
         texts.iter().enumerate().map(bind).collect()
     }
 
-    /// Parses a formula of the coordinates and t.
     pub(crate) fn field(&self, text: &NumberText, dimension: usize) -> Result<Formula, Diagnostic> {
         self.formula(text, &coordinates_and_time(dimension))
     }
 
-    /// Parses one formula of the coordinates and t for each component.
     pub(crate) fn fields(
         &self,
         texts: &[NumberText],
@@ -201,7 +196,6 @@ impl SuitePath<'_> {
         self.vector(texts, d, &coordinates_and_time(d))
     }
 
-    /// Evaluates a finite number, or a formula of parameters.
     pub(crate) fn number(&self, text: &NumberText) -> Result<f64, Diagnostic> {
         let value = self.formula(text, &[])?.constant().unwrap_or(f64::NAN);
         if value.is_finite() {
@@ -260,7 +254,6 @@ impl SuitePath<'_> {
         texts.iter().enumerate().map(|(i, text)| self.then(i).number(text)).collect()
     }
 
-    /// Evaluates both ends of an interval, the lower end first.
     pub(crate) fn interval(&self, pair: &[NumberText]) -> Result<(f64, f64), Diagnostic> {
         let label = "expected [low, high]";
         let [low, high] = pair else {
@@ -296,12 +289,10 @@ impl SuitePath<'_> {
         }
     }
 
-    /// Refuses the value at this place, with advice.
     pub(crate) fn refuse<T>(&self, message: &str, help: &str) -> Result<T, Diagnostic> {
         Err(self.diagnostic(message).with_help(help))
     }
 
-    /// Refuses the key of this place, with advice.
     pub(crate) fn refuse_key<T>(&self, message: &str, help: &str) -> Result<T, Diagnostic> {
         Err(self.diagnostic_at_key(message).with_help(help))
     }
@@ -369,7 +360,6 @@ impl SuitePath<'_> {
     }
 }
 
-/// Binds a formula in the given `variables`, with the names of `scope`.
 fn bind(text: &NumberText, scope: &Scope, variables: &[&str]) -> Result<Formula, FormulaError> {
     Formula::bind(&Expr::parse(&text.to_string())?, scope, variables)
 }
@@ -394,12 +384,10 @@ pub(crate) fn suggestion(kind: &str, name: &str, known: &[&str]) -> String {
     }
 }
 
-/// Values for which most formulas are finite. They replace each parameter in turn, to find the
-/// cause of an infinite or undefined formula.
+/// Values for which most formulas are finite, to find the cause of one that is not.
 const HARMLESS: [f64; 2] = [1.0, 0.5];
 
 impl Evaluator<'_> {
-    /// Returns the parameters that a formula uses, directly or through functions.
     fn read_by(&self, text: &NumberText) -> Vec<(String, f64)> {
         let formula = bind(text, &self.scope, &[]);
         let uses = formula.map(|formula| formula.uses().clone()).unwrap_or_default();
@@ -413,7 +401,6 @@ impl Evaluator<'_> {
         formula.is_ok_and(|formula| formula.constant().is_some_and(f64::is_finite))
     }
 
-    /// Formats a parameter with its value and the line of its declaration.
     fn found(&self, name: &str, value: f64) -> String {
         let value = shown(value);
         match self.line_of(name) {
@@ -422,8 +409,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// Refuses a suite to which an entry applies. An entry is a flag, the keys of the value from
-    /// the top of the file, and the text for `diagnostic`.
+    /// Refuses the first entry that applies: a flag, the place in the file, and a text.
     pub(crate) fn refuse_first(
         &self,
         entries: &[(bool, &str, &str)],

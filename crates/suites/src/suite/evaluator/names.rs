@@ -5,7 +5,6 @@ use crate::exact::formula::{Expr, Formula, Scope};
 use crate::suite::yaml::{Diagnostic, NumberText, Ordered};
 
 impl Evaluator<'_> {
-    /// Refuses declared names that equal one of the formula `variables`.
     pub(crate) fn refuse_taken(&self, variables: &[&str]) -> Result<(), Diagnostic> {
         for name in variables {
             let declared = self.scope.constants().map(|(known, _)| known);
@@ -40,7 +39,6 @@ impl Evaluator<'_> {
             .refuse_key(&message, "remove it, or use it")
     }
 
-    /// Whether `name` is a parameter that is declared later in the file.
     pub(super) fn comes_later(&self, name: &str) -> bool {
         self.parameters.iter().any(|known| known == name)
             && !self.scope.constants().any(|(known, _)| known == name)
@@ -83,7 +81,6 @@ impl Evaluator<'_> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Returns an evaluator in which the parameter `name` is a free variable.
     pub(crate) fn with_free(
         &self,
         name: &str,
@@ -118,12 +115,10 @@ impl<'a> Evaluator<'a> {
     }
 }
 
-/// Returns the function name in a head: `s` in `s(tau)`.
 fn name_in(head: &str) -> &str {
     head.split('(').next().unwrap_or(head).trim()
 }
 
-/// Evaluates the rows of the table at `path`: at least two, in ascending order.
 fn rows(path: &SuitePath<'_>, spec: &TableSpec) -> Result<Vec<(f64, f64)>, Diagnostic> {
     let mut rows: Vec<(f64, f64)> = Vec::new();
     for (i, row) in spec.table.iter().enumerate() {

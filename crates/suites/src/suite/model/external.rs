@@ -37,7 +37,6 @@ impl Suite {
 }
 
 impl ConvergencePlan {
-    /// Returns the study with one external solver as its method.
     pub(super) fn under(&self, solver: ExternalMethod<'_>, terms: Option<&GateTerms>) -> Self {
         let mut plan = self.clone();
         let is_stated = |case: &Case| case.solver.as_deref() == Some(solver.name);
@@ -45,8 +44,7 @@ impl ConvergencePlan {
             plan.cases.retain(is_stated);
         } else {
             plan.cases = unstated(&plan, solver);
-            // A reference is preferred to formulas, because formulas may solve a simplified
-            // equation.
+            // A reference is preferred: formulas may solve a simplified equation.
             let has_reference = plan.cases.iter().any(|case| case.against == Against::Reference);
             if has_reference && terms.is_some() {
                 plan.cases.retain(|case| case.against != Against::Exact);
@@ -83,7 +81,6 @@ impl ConvergencePlan {
         case.gating = Some(gating);
     }
 
-    /// Returns the requirements on a case, if any, for a solver with this formal order.
     fn gating(&self, against: Against, formal_order: f64, terms: &GateTerms) -> Gating {
         if let Some(reason) = &terms.skip {
             return Gating::Excepted(reason.clone());

@@ -64,7 +64,6 @@ impl Method {
         )
     }
 
-    /// Whether the material law is evaluated at an averaged volume ratio.
     pub(crate) fn averages_volume(&self) -> bool {
         matches!(self, Self::Mpm(MpmMethod { volume: VolumeName::Averaged, .. }))
     }
@@ -84,7 +83,6 @@ impl Method {
         }
     }
 
-    /// Returns the method with this number of load steps; unchanged if it has no load steps.
     #[must_use]
     pub(crate) fn with_load_steps(self, steps: u64) -> Self {
         match self {

@@ -51,8 +51,7 @@ pub struct ConvergencePlan {
     pub norm: NormName,
     /// The quantity whose error is measured.
     pub of: Quantity,
-    /// The sum over the body whose error is measured, with its exact value; `None` if another
-    /// quantity is measured.
+    /// The sum over the body whose error is measured, if any, with its exact value.
     pub sum: Option<Arc<JudgedSum>>,
     /// Box to which errors are restricted; `None`: errors over the whole body.
     pub within: Option<JudgedBox>,
@@ -89,8 +88,7 @@ pub struct Case {
     pub expectation: Option<Expectation>,
     /// Expectation for a full run, if different.
     pub expectation_in_full: Option<Expectation>,
-    /// Role in `run --gate` (required, exempt or excepted), for an external solver without an
-    /// expectation.
+    /// Role in `run --gate`, for an external solver without an expectation.
     pub gating: Option<Gating>,
 }
 
@@ -148,8 +146,7 @@ impl Against {
 }
 
 impl ConvergencePlan {
-    /// Returns the steps of a run that ends at `until` (s) and is compared with `against`, for a
-    /// requested step `dt` (s).
+    /// Returns the steps of about `dt` (s) of a run until `until` (s), compared with `against`.
     pub fn clock(&self, against: Against, until: f64, dt: f64) -> Option<Clock> {
         if against.is_computed() && self.steps == StepKind::Time {
             return Clock::with_common_instants(until, dt, self.instants);

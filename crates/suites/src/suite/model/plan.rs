@@ -26,7 +26,6 @@ pub struct Suite {
     pub functions: Vec<(String, String)>,
     /// The study plan.
     pub study: StudyPlan,
-    /// Hash of the text of the file.
     pub(crate) fingerprint: u64,
 }
 
@@ -71,7 +70,6 @@ pub enum StudyPlan {
     Spectrum(Arc<SpectrumPlan>),
 }
 
-/// Evaluates an expression with the plan of any kind.
 macro_rules! with_plan {
     ($study:expr, $plan:ident => $value:expr) => {
         match $study {

@@ -22,8 +22,7 @@ pub struct RefinePlan {
 /// One refinement level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelPlan {
-    /// Number of cells along the first axis of the grid, or of the body if the suite states no
-    /// grid.
+    /// Number of cells along the first axis of the grid, or of the body without a grid.
     pub cells: u64,
     /// Cell size (m).
     pub h: f64,
@@ -67,19 +66,16 @@ impl LevelPlan {
         }
     }
 
-    /// Returns the distance between neighbouring particles (m), or between nodes if there are no
-    /// particles.
+    /// Returns the distance (m) between particles, or between nodes if there are none.
     pub fn particle_spacing(self, dimension: usize) -> f64 {
         let per_cell = self.ppc.unwrap_or(1) as f64;
         self.h / libm::pow(per_cell, 1.0 / dimension as f64)
     }
 
-    /// Returns the number of particles that fill the bounding box, before rounding.
     pub(crate) fn particles(self, scene: &Scene) -> f64 {
         (0..scene.dimension()).map(|axis| self.particles_along(scene, axis).max(1.0)).product()
     }
 
-    /// Returns the number of particles along an axis, before rounding.
     pub(crate) fn particles_along(self, scene: &Scene, axis: usize) -> f64 {
         let per_axis = self.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
         (scene.to[axis] - scene.from[axis]) * per_axis.unwrap_or(1) as f64 / self.h
@@ -95,8 +91,7 @@ impl LevelPlan {
 /// Maximum number of particles per level, and of nodes per level.
 pub(crate) const MOST_POINTS: f64 = 5e7;
 
-/// Minimum ratio of the cells of a fine-grid reference to those of the finest level. At order 2,
-/// the error of the reference is then 1/16.
+/// Minimum ratio of the cells of a fine-grid reference: at order 2, its error is then 1/16.
 pub(crate) const FINE_GRID: u64 = 4;
 
 /// The spacing that a reference run of the same method reduces.

@@ -47,8 +47,7 @@ pub struct SpectrumCase {
     pub name: String,
     /// The method.
     pub method: Method,
-    /// Closed formulas for the phase speed and damping of the method; `None` for an external solver
-    /// whose method is unknown.
+    /// Closed formulas for phase speed and damping; `None` if the method is unknown.
     pub curve: Option<WaveMethod>,
     /// Stability limit of the Courant number, from `curve`.
     pub limit: Option<f64>,
@@ -59,7 +58,6 @@ pub struct SpectrumCase {
 }
 
 impl SpectrumPlan {
-    /// Returns the cells and particles of the study, with the time step of `wave`.
     pub(crate) fn level(&self, wave: &Wave) -> LevelPlan {
         let dt = wave.courant * self.h / self.scene.wave_speed();
         LevelPlan { cells: self.cells, h: self.h, dt, ppc: Some(self.ppc) }

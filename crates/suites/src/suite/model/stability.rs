@@ -17,8 +17,7 @@ pub struct StabilityPlan {
     pub swept: String,
     /// Values of the swept parameter, one for each row of the report.
     pub values: Vec<f64>,
-    /// Name of the parameter whose largest stable value is determined, and the limits of the
-    /// search.
+    /// Name of the parameter whose largest stable value is sought, and the limits of the search.
     pub sought: Option<(String, f64, f64)>,
     /// Whether the particles do not move.
     pub frozen: bool,
@@ -51,7 +50,6 @@ type SetupFunction = dyn Fn(&ParameterValues<'_>) -> Result<RunSetup, Diagnostic
 pub(crate) struct CompileSetup(pub(crate) Arc<SetupFunction>);
 
 impl CompileSetup {
-    /// Returns the set-up of a run with `values`.
     pub(crate) fn with(&self, values: &ParameterValues<'_>) -> Result<RunSetup, Diagnostic> {
         (self.0)(values)
     }
@@ -63,7 +61,6 @@ impl fmt::Debug for CompileSetup {
     }
 }
 
-/// Set-up of a run for one set of parameter values.
 #[derive(Debug, Clone)]
 pub(crate) struct RunSetup {
     pub(crate) scene: Scene,

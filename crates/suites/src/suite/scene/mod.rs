@@ -26,8 +26,7 @@ pub struct Scene {
     pub to: Vec<f64>,
     /// Shape of the body, unless it is a box.
     pub outline: Option<Arc<dyn Outline>>,
-    /// Map from a box to a quadrilateral; `None` for other shapes. All other shapes except the box
-    /// have free surfaces.
+    /// Map from a box to a quadrilateral. Other shapes except the box have free surfaces.
     pub mapped: Option<Quadrilateral>,
     /// Lowest and highest corner of the stated grid (m).
     pub grid: Option<(Vec<f64>, Vec<f64>)>,
@@ -48,8 +47,7 @@ pub struct Scene {
     /// faces and loads. `self` then describes their bounding box and the material of the first
     /// body.
     pub bodies: Vec<Self>,
-    /// Friction coefficient of the contact between bodies; `None` if the bodies share one velocity
-    /// field.
+    /// Friction coefficient between bodies; `None` if they share one velocity field.
     pub contact: Option<f64>,
     /// Stress of the reference configuration.
     pub initial_stress: InitialStress,
@@ -89,7 +87,6 @@ impl Scene {
         properties.wave_speed(low).max(properties.wave_speed(high))
     }
 
-    /// Returns the largest stiffness against uniaxial strain in the body at rest (Pa).
     pub(crate) fn wave_modulus(&self) -> f64 {
         self.material.properties().wave_modulus(self.density.largest())
     }
@@ -99,8 +96,7 @@ impl Scene {
         self.each().iter().map(Self::wave_speed).fold(0.0, f64::max)
     }
 
-    /// Returns the length (m) of the stated grid along `axis`; the length of the body if no grid is
-    /// stated.
+    /// Returns the length (m) of the grid along `axis`, or of the body without a stated grid.
     pub fn period(&self, axis: usize) -> f64 {
         let (from, to) = self.grid.as_ref().map_or((&self.from, &self.to), |(from, to)| (from, to));
         to[axis] - from[axis]
@@ -111,17 +107,14 @@ impl Scene {
         if self.bodies.is_empty() { std::slice::from_ref(self) } else { &self.bodies }
     }
 
-    /// Returns the length of the longest side of the bounding box (m).
     pub(crate) fn size(&self) -> f64 {
         longest(&self.from, &self.to)
     }
 
-    /// Returns the distance (m) that is treated as rounding error.
     pub(crate) fn rounding(&self) -> f64 {
         rounding(&self.from, &self.to)
     }
 
-    /// Whether the body contains the reference position `label`, up to rounding error.
     pub(crate) fn holds(&self, label: &[f64]) -> bool {
         holds(&self.from, &self.to, self.outline.as_deref(), label)
     }
@@ -134,7 +127,6 @@ impl Scene {
         self.loads.iter().filter(move |load| load.target() == target)
     }
 
-    /// Returns the rim on which `load` acts; `None` if the load does not act on a rim.
     pub(crate) fn rim(&self, load: &ListedLoad) -> Option<Circle> {
         let LoadTarget::Rim(number) = load.target() else { return None };
         self.outline.as_ref()?.circles().into_iter().find(|circle| circle.number == number)
@@ -148,13 +140,11 @@ impl Scene {
         self.loads.iter().map(|load| load.load.clone() as Arc<dyn Term>).collect()
     }
 
-    /// Returns the name of the first set with a prescribed velocity.
     pub(crate) fn driven_set(&self) -> Option<&str> {
         self.loads.iter().find_map(|load| Some(load.driven()?.0.name.as_str()))
     }
 }
 
-/// Whether a body with these corners (m) contains a reference position, up to rounding error.
 pub(crate) fn holds(
     from: &[f64],
     to: &[f64],
@@ -175,12 +165,10 @@ pub(crate) fn holds(
     outline.holds(label) || (0..[3, 9, 27][label.len() - 1]).any(|k| outline.holds(&moved(k)))
 }
 
-/// Returns the distance (m) that is treated as rounding error in a body with these corners (m).
 fn rounding(from: &[f64], to: &[f64]) -> f64 {
     ROUNDING * longest(from, to)
 }
 
-/// Returns the length of the longest side of a box (m).
 fn longest(from: &[f64], to: &[f64]) -> f64 {
     from.iter().zip(to).map(|(from, to)| to - from).fold(0.0, f64::max)
 }
@@ -207,7 +195,6 @@ pub(crate) fn grid_axis(scene: &Scene, axis: usize, h: f64) -> (f64, f64) {
     (low, libm::ceil((high - low) / h * (1.0 - 1e-12)).max(1.0))
 }
 
-/// Returns the number of grid nodes for the cell size `h` (m).
 pub(crate) fn nodes(scene: &Scene, h: f64) -> f64 {
     (0..scene.dimension()).map(|axis| grid_axis(scene, axis, h).1 + 1.0).product()
 }

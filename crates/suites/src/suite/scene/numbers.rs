@@ -8,7 +8,6 @@ use crate::mpm::input::VectorOfTime;
 pub(crate) struct LoadNumbers {
     /// Constants with their keys (SI units).
     pub(crate) constants: Vec<(&'static str, f64)>,
-    /// Quantity given by formulas, if any.
     pub(crate) field: Option<NumberField>,
     /// Part of the bodies on which the load acts, if it acts on a set.
     pub(crate) region: Option<Region>,
@@ -24,12 +23,10 @@ pub(crate) struct NumberField {
 }
 
 impl LoadNumbers {
-    /// Creates numbers from constants (key and value, SI units).
     pub(crate) fn constants(constants: &[(&'static str, f64)]) -> Self {
         Self { constants: constants.to_vec(), ..Self::default() }
     }
 
-    /// Creates numbers from one vector, given by one formula for each component.
     pub(crate) fn vector(key: &'static str, formulas: &[Formula]) -> Self {
         let field = NumberField { key, is_vector: true, formulas: formulas.to_vec() };
         Self { field: Some(field), ..Self::default() }
@@ -40,7 +37,6 @@ impl LoadNumbers {
         Self { field: Some(field), ..Self::default() }
     }
 
-    /// Restricts the numbers to a part of the bodies.
     pub(crate) fn on(self, region: &Region) -> Self {
         Self { region: Some(region.clone()), ..self }
     }
@@ -51,7 +47,6 @@ impl LoadNumbers {
 }
 
 impl NumberField {
-    /// Returns the value, if it is constant in space and time.
     pub(crate) fn constant(&self) -> Option<Vec<f64>> {
         self.formulas.iter().map(Formula::constant).collect()
     }
@@ -81,7 +76,6 @@ impl NumberField {
     }
 }
 
-/// Converts formulas of t, one for each component, to a function that writes a vector.
 pub(crate) fn of_time(formulas: &[Formula]) -> VectorOfTime {
     let formulas = formulas.to_vec();
     Box::new(move |t, into| {
@@ -91,7 +85,6 @@ pub(crate) fn of_time(formulas: &[Formula]) -> VectorOfTime {
     })
 }
 
-/// Converts formulas of the coordinates and t, one for each component, to a field.
 pub(crate) fn of_place_and_time(
     formulas: &[Formula],
 ) -> impl Fn(&[f64], f64, &mut [f64]) + Send + Sync + 'static {
@@ -104,7 +97,6 @@ pub(crate) fn of_place_and_time(
     }
 }
 
-/// Converts a formula of the coordinates and t to a field.
 pub(crate) fn scalar(formula: &Formula) -> impl Fn(&[f64], f64) -> f64 + Send + 'static {
     let formula = formula.clone();
     move |x, t| formula.at(x, t)

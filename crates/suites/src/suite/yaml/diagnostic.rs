@@ -44,7 +44,6 @@ struct Parts {
 struct Excerpt {
     place: Place,
     line: String,
-    /// Underlined range, in bytes of `line`.
     underlined: Range<usize>,
 }
 
@@ -234,7 +233,6 @@ fn printable(words: &str) -> String {
     shortened(words, MAX_WORDS)
 }
 
-/// Converts text to one safe line with a maximum length of `most` characters.
 fn shortened(words: &str, most: usize) -> String {
     let mut safe = String::new();
     for (count, c) in words.chars().enumerate() {
@@ -251,7 +249,6 @@ fn shortened(words: &str, most: usize) -> String {
     safe
 }
 
-/// Whether `c` is a bidirectional control character.
 fn reorders(c: char) -> bool {
     matches!(c, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

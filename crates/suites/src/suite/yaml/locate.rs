@@ -29,7 +29,6 @@ impl From<usize> for Step {
 pub(crate) struct Path(Vec<Step>);
 
 impl Path {
-    /// Creates the path of a value from its keys, separated by points and starting at the top.
     pub(crate) fn top(keys: &str) -> Self {
         Self(keys.split('.').map(Step::from).collect())
     }
@@ -88,7 +87,6 @@ impl Source {
         Some(Place::of(self.text(), part.unwrap_or_else(|| self.token(node))))
     }
 
-    /// Returns the text of a scalar value.
     pub(crate) fn text_at(&self, path: &[Step]) -> Option<&str> {
         match self.node(path)? {
             TreeNode::Scalar(scalar) => Some(&self.scalar(*scalar).value),
@@ -104,7 +102,6 @@ impl Source {
         })
     }
 
-    /// Returns the byte range of the first token of a value.
     fn token(&self, node: &TreeNode) -> Range<usize> {
         match node {
             TreeNode::Empty(start) => self.token_at(*start),

@@ -40,19 +40,16 @@ pub(crate) fn parse<T: DeserializeOwned>(
 #[error(transparent)]
 pub(crate) struct WriteError(#[from] serde_yaml::Error);
 
-/// The error in one line, for logs.
 impl From<WriteError> for String {
     fn from(error: WriteError) -> Self {
         error.to_string()
     }
 }
 
-/// Writes a value as YAML text.
 pub(crate) fn written<T: Serialize>(value: &T) -> Result<String, WriteError> {
     Ok(serde_yaml::to_string(value)?)
 }
 
-/// Parses a text of [`written`]; `None` if the text is invalid.
 pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
     serde_yaml::from_str(text).ok()
 }
@@ -60,7 +57,6 @@ pub(crate) fn read_again<T: DeserializeOwned>(text: &str) -> Option<T> {
 /// Returns a sample value for the owner of a key (empty for the whole file) and the key.
 pub(crate) type SampleOf<'a> = dyn Fn(&str, &str) -> Option<&'static str> + 'a;
 
-/// Converts an error of the library to a diagnostic at the same position.
 fn diagnostic(source: &Source, error: &serde_yaml::Error, sample: &SampleOf<'_>) -> Diagnostic {
     let text = error.to_string();
     let offset = error.location().map_or(source.text().len(), |location| location.index());
@@ -226,8 +222,7 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// Separates the three texts of a refusal in the single string of a deserialization error. Files
-/// have no control characters, so they cannot forge it.
+/// Separates the three texts of a refusal. No file contains this control character.
 const FENCE: char = '\u{1f}';
 
 /// Creates the error for a value that is refused during deserialization.
@@ -239,7 +234,6 @@ pub fn refuse<E: Error>(message: &str, label: &str, help: &str) -> E {
     E::custom(format!("{FENCE}{message}{FENCE}{label}{FENCE}{help}{FENCE}"))
 }
 
-/// Returns message, label and help, if `error` is the text of a refusal.
 fn refused(error: &str) -> Option<[&str; 3]> {
     let mut parts = error.split(FENCE).skip(1);
     Some([parts.next()?, parts.next()?, parts.next()?])

@@ -122,7 +122,6 @@ impl Source {
         Diagnostic::at(&self.name, &self.text, place.bytes(), message)
     }
 
-    /// Returns the first scalar that starts at or after byte `offset`.
     pub(crate) fn scalar_from(&self, offset: usize) -> Option<&Scalar> {
         self.scalars.get(self.scalars.partition_point(|scalar| scalar.range.start < offset))
     }
@@ -135,7 +134,6 @@ impl Source {
         &self.scalars[index]
     }
 
-    /// Whether the file has no value, or the value `null`.
     pub(crate) fn is_empty(&self) -> bool {
         match &self.root {
             TreeNode::Empty(_) => true,
@@ -153,7 +151,6 @@ impl Source {
         self.scalar_from(offset).filter(|scalar| scalar.range.start == offset)
     }
 
-    /// Returns the byte range of the scalar or of the character at `offset`.
     pub(crate) fn token_at(&self, offset: usize) -> Range<usize> {
         self.scalar_at(offset).map_or(offset..offset + 1, |scalar| scalar.range.clone())
     }
@@ -224,7 +221,6 @@ fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
     diagnostic.with_help(&format!("save the file as UTF-8{was}"))
 }
 
-/// Refuses control characters, and line breaks that only YAML recognises.
 fn characters(name: &str, text: &str) -> Result<(), Diagnostic> {
     let bad = text.char_indices().find(|(at, c)| match c {
         '\t' | '\n' => false,

@@ -7,7 +7,6 @@ use std::ops::Range;
 pub(crate) struct InvalidText<'t> {
     pub(crate) name: &'t str,
     pub(crate) text: &'t str,
-    /// Offset of the error.
     pub(crate) at: usize,
     pub(crate) problem: &'t str,
     /// End of the last event of the parser (byte offset).
@@ -106,7 +105,6 @@ impl InvalidText<'_> {
         self.at(name_range(text, at), KEY_EXPECTED).with_help(KEY_HELP)
     }
 
-    /// Returns the error for a quoted text.
     fn quote(&self) -> Diagnostic {
         let Self { text, at, .. } = *self;
         let rest = &text[at..];
@@ -136,7 +134,6 @@ impl InvalidText<'_> {
         }
     }
 
-    /// Returns the offset of the first quote after the last event.
     fn opening_quote(&self) -> Option<usize> {
         let rest = self.text.get(self.events_end..self.at)?;
         let quote = rest.find(['"', '\''])?;
@@ -181,7 +178,6 @@ impl InvalidText<'_> {
             .with_help(&format!("the `{closing}` is on line {line}, column {column}"))
     }
 
-    /// Finds the brackets at the error, in the lines that the parser reads ahead of its events.
     fn brackets(&self) -> Brackets {
         let Self { text, at, events_end, .. } = *self;
         let mut open = self.brackets.clone();
@@ -230,7 +226,6 @@ pub(crate) fn unneeded(name: &str, text: &str, what: &str, at: usize) -> Diagnos
         .with_help("put text in quotes; give a value a name under `parameters`")
 }
 
-/// Returns the error for the first tab in the line of offset `at`.
 pub(crate) fn tab(name: &str, text: &str, at: usize) -> Diagnostic {
     let line = line_start(text, at);
     let at = text[line..].find('\t').map_or(at, |tab| line + tab);
@@ -238,7 +233,6 @@ pub(crate) fn tab(name: &str, text: &str, at: usize) -> Diagnostic {
         .with_label("a tab")
 }
 
-/// Whether a tab is in the indentation of the line of offset `at`.
 pub(crate) fn is_indented_by_tab(text: &str, at: usize) -> bool {
     text[line_start(text, at)..at].trim_start_matches(' ').starts_with('\t')
 }
@@ -257,7 +251,6 @@ fn indentation(text: &str, at: usize) -> usize {
     line.len() - rest.len()
 }
 
-/// Returns the range of the name at `at`, or of one character.
 fn name_range(text: &str, at: usize) -> Range<usize> {
     let is_name = |c: char| c.is_alphanumeric() || "_-.".contains(c);
     let rest = &text[at..];

@@ -61,7 +61,6 @@ pub(crate) struct MapNode {
 }
 
 impl MapNode {
-    /// Returns key and value of the entry whose key has this text.
     pub(crate) fn entry(&self, key: &str) -> Option<&(usize, TreeNode)> {
         self.entries.get(*self.keys.get(key)?)
     }
@@ -116,7 +115,6 @@ fn directive(text: &str) -> Option<usize> {
     None
 }
 
-/// A list or map whose end is not reached.
 struct OpenNode {
     collection: Collection,
     /// Whether the list or map is written in brackets.
@@ -147,7 +145,6 @@ struct TreeBuilder<'t> {
     open: Vec<OpenNode>,
     /// End of the last event (byte offset).
     events_end: usize,
-    /// The value of the file, when it is complete.
     root: TreeNode,
 }
 
@@ -213,7 +210,6 @@ impl TreeBuilder<'_> {
         }
     }
 
-    /// Stores a scalar, unless it is empty.
     fn scalar(
         &mut self,
         value: &str,
@@ -332,7 +328,6 @@ impl TreeBuilder<'_> {
         self.offsets.get(character).copied().unwrap_or(self.text.len())
     }
 
-    /// Whether the next value is a key.
     fn is_at_key(&self) -> bool {
         let innermost = self.open.last().map(|open| &open.collection);
         matches!(innermost, Some(Collection::Map(_, None)))

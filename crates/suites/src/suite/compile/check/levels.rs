@@ -14,7 +14,6 @@ use crate::verify::{Axis, Clock, STEP_TOLERANCE};
 /// Maximum distance (cells) between a fixed face of the body and the grid face next to it.
 const ROUNDING: f64 = 1e-6;
 
-/// Refuses levels that are too large, or lack nodes, particles or a valid time step.
 pub(crate) fn refuse_unfit(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { spec, plan, levels, .. } = study;
     references(study)?;
@@ -37,7 +36,6 @@ fn fits(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
     sets(path, scene, level)
 }
 
-/// Refuses a round or polygonal body that is smaller than one particle volume.
 fn vacant(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Diagnostic> {
     let per_axis = level.ppc.and_then(|ppc| per_axis(ppc, scene.dimension()));
     if !per_axis.is_some_and(|n| is_vacant(scene, level.h, n)) {
@@ -107,7 +105,6 @@ fn sets(path: &SuitePath<'_>, scene: &Scene, level: LevelPlan) -> Result<(), Dia
     Ok(())
 }
 
-/// Refuses a reference that is on an invalid fine grid or too large to store.
 fn references(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, plan, .. } = study;
     let fits_into_memory = |path: &SuitePath<'_>, count: f64, text: &str, what: &str| {

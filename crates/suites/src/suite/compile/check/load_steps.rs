@@ -10,7 +10,6 @@ use crate::suite::scene::load::ListedLoad;
 use crate::suite::yaml::Diagnostic;
 use crate::verify::Quantity;
 
-/// Refuses keys and features that load steps do not support, and load steps without a number.
 pub(crate) fn refuse_unfit(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     refuse_time(draft)?;
     if draft.spec.run.load_steps.is_some() { refuse_unfit_scene(draft) } else { Ok(()) }
@@ -117,8 +116,7 @@ fn refuse_unfit_scene(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     }
 }
 
-/// Whether a face prevents rigid translation along an axis. A body of revolution has no rigid
-/// translation along its radius.
+/// Whether a face prevents rigid translation along an axis; a radius has none.
 fn is_held(scene: &Scene, axis: usize) -> bool {
     if scene.plane == PlaneState::Axisymmetric && axis == 0 {
         return true;
@@ -135,7 +133,6 @@ const OF_VELOCITIES: [Quantity; 4] =
 
 const KNOWN_CONDITIONS: [&str; 4] = ["free", "fixed", "roller", "periodic"];
 
-/// Returns the reason why the quasi-static solver cannot apply `load`; `None` if it can.
 fn against_load(load: &ListedLoad, dimension: usize) -> Option<&'static str> {
     match load.effect {
         EffectName::Damping | EffectName::LocalDamping | EffectName::ArtificialViscosity => {

@@ -27,7 +27,6 @@ const CROSS_CHECKS: [CrossCheck; 7] = [
     levels::refuse_unfit,
 ];
 
-/// Refuses a study whose keys contradict each other.
 pub(crate) fn refuse_contradictions(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     CROSS_CHECKS.iter().try_for_each(|check| check(study))
 }
@@ -102,7 +101,6 @@ fn refuse_law_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagnostic
     Ok(())
 }
 
-/// Refuses loads that the study or the built-in 1-D FEM does not support.
 fn refuse_foreign(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, .. } = study;
     let until = plan.cases.iter().map(|case| case.until).fold(0.0, f64::max);
@@ -144,7 +142,6 @@ fn refuse_quantity_unknown_to_fem(study: &CompiledStudy<'_>) -> Result<(), Diagn
     }
 }
 
-/// Refuses a stress component that the body does not have or the solver does not compute.
 fn refuse_unknown_stress(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, plan, .. } = study;
     let (of, d, scene) = (plan.of, plan.scene.dimension(), &plan.scene);

@@ -12,7 +12,6 @@ use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedSum, SumNeed};
 use std::sync::Arc;
 
-/// Returns the judged sum with its exact value; `None` if the suite judges another quantity.
 pub(crate) fn judged(study: &CompiledStudy<'_>) -> Result<Option<Arc<JudgedSum>>, Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, .. } = study;
     let path = evaluator.top("judge");
@@ -70,7 +69,6 @@ fn no_face(evaluator: &Evaluator<'_>, plan: &ConvergencePlan) -> Diagnostic {
     diagnostic.with_help("remove `face`, or judge the `reaction`")
 }
 
-/// Refuses an energy that the law of the solver or of the exact solution does not define.
 fn stored_energy(
     path: &SuitePath<'_>,
     problem: &Problem,
@@ -96,7 +94,6 @@ fn stored_energy(
     Ok(())
 }
 
-/// Refuses an energy for methods whose internal force does not derive from one.
 fn averaged_volume(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let message = "the force of `volume: averaged` does not derive from a stored energy";
     let help = "use `particle` to judge an energy";
@@ -108,7 +105,6 @@ fn averaged_volume(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     })
 }
 
-/// Refuses `key` of the first MPM entry in `methods` for which `is_meant` returns true.
 fn refuse_setting(
     CompiledStudy { evaluator, spec, .. }: &CompiledStudy<'_>,
     key: &str,
@@ -120,7 +116,6 @@ fn refuse_setting(
     path.refuse(message, help)
 }
 
-/// Refuses an angular momentum in 1-D, and for a periodic body.
 fn rotation(path: &SuitePath<'_>, plan: &ConvergencePlan) -> Result<(), Diagnostic> {
     if plan.scene.dimension() == 1 {
         return Err(path.diagnostic("there is no angular momentum in 1-D"));
@@ -178,7 +173,6 @@ fn no_reaction(path: &SuitePath<'_>, face: &SceneFace) -> Diagnostic {
     path.diagnostic(&message)
 }
 
-/// Refuses a consistent mass matrix: a reaction would include the inertia of other nodes.
 fn consistent_mass(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let message = "with a consistent mass matrix, a reaction contains the inertia of other nodes";
     let help = "use `lumped` to judge a reaction";
@@ -188,7 +182,6 @@ fn consistent_mass(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     })
 }
 
-/// Refuses the key at `path`, which needs the energy of the body, if the law has no energy.
 pub(crate) fn refuse_law_without_energy(
     path: &SuitePath<'_>,
     scene: &Scene,

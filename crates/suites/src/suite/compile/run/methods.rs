@@ -13,7 +13,6 @@ use std::collections::BTreeMap;
 
 /// A method of a study, which is the first part of the names of its cases.
 pub(crate) struct NamedMethod {
-    /// Index in the list `methods`.
     entry: usize,
     pub(crate) method: Method,
     /// Name of the solver; `None` for built-in methods.
@@ -49,14 +48,12 @@ pub(crate) fn methods(
     named(evaluator, drafts)
 }
 
-/// Returns the name of the FEM bar's law for a material, if there is one.
 pub(crate) fn law_of_bar(material: &MaterialPlan) -> Option<EquationName> {
     let name = Equation::of_material(material.name(), |key| material.parameter(key))?.name();
     BarLaw::find(name).and(EquationName::find(name))
 }
 
 impl NamedMethod {
-    /// Returns the path of the entry of `methods`.
     pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>) -> SuitePath<'a> {
         evaluator.top("methods").then(self.entry)
     }
@@ -285,8 +282,7 @@ fn named(
     Ok(drafts)
 }
 
-/// Adds the settings in which methods differ to their equal names, and returns whether a name has
-/// changed. A new name may equal the name of another method.
+/// Adds differing settings to equal names, and returns whether a name has changed.
 fn say_differences(drafts: &mut [NamedMethod]) -> bool {
     let mut of_one_name: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, draft) in drafts.iter().enumerate() {
@@ -320,7 +316,6 @@ fn solver_name(path: &SuitePath<'_>, name: &str) -> Result<String, Diagnostic> {
     Err(diagnostic.with_label(&label))
 }
 
-/// Returns the stated theoretical order of a solver; 2 by default.
 fn stated_order(path: &SuitePath<'_>, text: Option<&NumberText>) -> Result<f64, Diagnostic> {
     let (Some(text), path) = (text, path.then("formal_order")) else { return Ok(2.0) };
     let order = path.positive(text, "the formal order")?;

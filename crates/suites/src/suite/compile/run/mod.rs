@@ -25,16 +25,13 @@ const MOST_CASES: usize = 1000;
 
 const MOST_LOAD_STEPS: f64 = 1e5;
 
-/// Default number of instants at which the error is measured.
 const INSTANTS: u64 = 50;
 
 pub(crate) struct RunPlan<'a> {
     /// Ends of the runs: the text for case names, and the value (s, or number of load steps).
     pub(crate) until: Vec<(String, f64)>,
     pub(crate) refine: RefinePlan,
-    /// Paths of the levels in the file.
     pub(crate) levels: Vec<LevelPaths<'a>>,
-    /// Number of instants at which the error is measured.
     pub(crate) instants: u64,
     pub(crate) scatter: LatticeOffsets,
 }
@@ -171,7 +168,6 @@ fn truths(plan: &ConvergencePlan) -> Vec<(Against, &'static str)> {
     truths.into_iter().flatten().chain(nothing).collect()
 }
 
-/// Returns the cases of one method. Names include the end and the solution if there are several.
 fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)]) -> Vec<Case> {
     let mut cases = Vec::new();
     for (text, until_value) in until {
@@ -198,7 +194,6 @@ fn runs(method: &NamedMethod, truths: &[(Against, &str)], until: &[(String, f64)
     cases
 }
 
-/// Refuses a method whose components are incompatible with each other or with the scene.
 fn combined(
     evaluator: &Evaluator<'_>,
     named: &NamedMethod,
@@ -229,7 +224,6 @@ fn combined(
     known.map_err(refuse)
 }
 
-/// Refuses methods that the scene or the study does not support.
 fn possible(
     path: &SuitePath<'_>,
     spec: &MethodSpec,
@@ -277,12 +271,10 @@ fn possible(
     }
 }
 
-/// Returns the reason why walls exclude a consistent mass matrix; `None` if they do not.
 fn against_consistent_mass(plan: &ConvergencePlan) -> Option<&'static str> {
     plan.scene.faces.iter().find_map(|face| face.hold.kind().against_consistent_mass)
 }
 
-/// Whether the period of the grid differs from the length of the undeformed body.
 fn stretched(plan: &ConvergencePlan) -> bool {
     let scene = &plan.scene;
     let apart = |face: &SceneFace| {

@@ -43,8 +43,7 @@ fn fem(draft: &StudyDraft<'_>, spec: &ReferenceSpec) -> Result<Option<ReferenceP
     }))
 }
 
-/// Minimum ratio of the time step on the finest level to that of the reference run. At order 2, the
-/// error of the reference is then 1/64.
+/// Minimum ratio of the finest level's time step to that of the reference: 1/64 of the error.
 const SHORTER: f64 = 8.0;
 
 fn same_method(
@@ -88,7 +87,6 @@ fn same_method(
     }
 }
 
-/// Returns the time step of the reference run (s). Refuses a step that is too long.
 fn shorter(
     path: &SuitePath<'_>,
     dt: &NumberText,
@@ -115,7 +113,6 @@ fn shorter(
     Ok(dt)
 }
 
-/// Refuses a fine grid with fewer than [`FINE_GRID`] times the cells of the finest level.
 fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(), Diagnostic> {
     if fine.cells >= finest.cells.saturating_mul(FINE_GRID) {
         return Ok(());
@@ -128,7 +125,6 @@ fn finer(path: &SuitePath<'_>, finest: LevelPlan, fine: LevelPlan) -> Result<(),
     Err(path.diagnostic(&message).with_label(&label))
 }
 
-/// Returns `level` with the cell size and the time step that belong to its number of cells.
 fn with_step(
     path: &SuitePath<'_>,
     StudyDraft { spec, scene, .. }: &StudyDraft<'_>,
@@ -148,7 +144,6 @@ fn with_step(
     Ok(LevelPlan { h, dt, ..level })
 }
 
-/// Refuses bodies without a lattice of particles, on which the reference is interpolated.
 fn one_lattice(path: &SuitePath<'_>, draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     let StudyDraft { spec, scene, .. } = draft;
     let body = match &scene.outline {

@@ -10,7 +10,6 @@ use crate::suite::scene::{cell_size, per_axis};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use crate::verify::Axis;
 
-/// Label under the caret for a level that is not finer than the previous level.
 pub(crate) const COARSE_TO_FINE: &str = "expected levels from coarse to fine";
 
 struct Located<'a, T> {
@@ -18,7 +17,6 @@ struct Located<'a, T> {
     at: SuitePath<'a>,
 }
 
-/// Compiles the levels of a suite. Also returns their positions in the file, for diagnostics.
 pub(crate) fn plan<'a>(
     draft: &StudyDraft<'a>,
 ) -> Result<(RefinePlan, Vec<LevelPaths<'a>>), Diagnostic> {
@@ -66,7 +64,6 @@ pub(crate) fn plan<'a>(
     Ok((plan, (0..count).filter_map(place).collect()))
 }
 
-/// Returns the entry for level `k`, which is the only entry if all levels share one.
 fn of_level<'s, 'a, T>(entries: &'s [Located<'a, T>], k: usize) -> Option<&'s Located<'a, T>> {
     entries.get(k).or_else(|| entries.first().filter(|_| entries.len() == 1))
 }
@@ -128,7 +125,6 @@ fn listed<'a>(
     all
 }
 
-/// Evaluates counts, which must increase from level to level.
 fn counts<'a>(
     texts: &[Located<'a, &NumberText>],
     what: &str,
@@ -193,7 +189,6 @@ fn steps<'a>(
     texts.into_iter().map(bind).collect()
 }
 
-/// Share of the stable time step that `auto` selects.
 const AUTO: f64 = 0.5;
 
 /// Returns the share of the stable time step, if the step of `spec` at `path` is automatic.
@@ -228,7 +223,6 @@ pub(crate) fn step_formula(
     path.expected("a number", "an automatic time step needs a wave speed, but this body has none")
 }
 
-/// Refuses methods without automatic time steps.
 fn refuse_methods_without_rule(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     let steps = |method: &MethodSpec| {
         matches!(method, MethodSpec::Mpm { .. } | MethodSpec::External { .. })

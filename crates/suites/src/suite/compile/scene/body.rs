@@ -109,7 +109,6 @@ fn holds(
     Ok(holds)
 }
 
-/// Refuses a periodic face whose opposite face is not periodic.
 fn both_ends(path: &SuitePath<'_>, holds: &[Arc<dyn BoundaryCondition>]) -> Result<(), Diagnostic> {
     for (i, hold) in holds.iter().enumerate() {
         let (name, other) = (FACES[i], FACES[i ^ 1]);
@@ -164,7 +163,6 @@ fn settle(
     }
 }
 
-/// Compiles the stated plane state; the default is plane strain.
 fn plane(
     path: &SuitePath<'_>,
     spec: &SceneSpec,
@@ -189,7 +187,6 @@ fn plane(
     Ok(plane)
 }
 
-/// Refuses a body that cannot be revolved about the axis where the first coordinate is zero.
 fn revolves(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     if scene.plane != PlaneState::Axisymmetric {
         return Ok(());

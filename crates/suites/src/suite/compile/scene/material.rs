@@ -35,7 +35,6 @@ pub(super) fn material(
     Ok(material)
 }
 
-/// Evaluates a parameter of a material, which must be in its range.
 fn number_in_range(
     path: &SuitePath<'_>,
     text: &NumberText,
@@ -63,7 +62,6 @@ fn number_in_range(
     Err(path.unusable(text, &format!("{what} is {}{reason}", shown(value)), expected))
 }
 
-/// Refuses the material at `path` if its law is not implemented for the plane state.
 pub(super) fn refuse_plane(
     path: &SuitePath<'_>,
     material: &MaterialPlan,
@@ -77,7 +75,6 @@ pub(super) fn refuse_plane(
     path.then(name).refuse_key(&message, "use `linear_elastic`, `neo_hookean` or `hencky`")
 }
 
-/// Compiles the density at `path`: a number, or a formula of the coordinates.
 pub(super) fn density(
     path: &SuitePath<'_>,
     text: &NumberText,
@@ -115,7 +112,6 @@ fn not_positive(path: &SuitePath<'_>, text: &NumberText, place: &NoDensity) -> D
     path.unusable(text, &message, label)
 }
 
-/// Returns the reason why a density must be uniform; `None` if it may vary over the body.
 fn against_varying_density(
     material: &MaterialPlan,
     shape: &Shape,
@@ -140,7 +136,6 @@ fn against_varying_density(
 const COMPONENTS: [(&str, usize, usize); 6] =
     [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("yz", 1, 2), ("xz", 0, 2)];
 
-/// Compiles the initial displacement (m); empty if not stated.
 pub(super) fn displacement(
     path: &SuitePath<'_>,
     own: &OneBodySpec,

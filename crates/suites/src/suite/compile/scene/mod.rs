@@ -16,7 +16,6 @@ use crate::suite::scene::boundary::FreeFace;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Maximum number of bodies.
 const MOST: usize = 100;
 
 pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene, Diagnostic> {
@@ -35,7 +34,6 @@ pub(crate) fn scene(evaluator: &Evaluator<'_>, spec: &SceneSpec) -> Result<Scene
     Ok(scene)
 }
 
-/// Returns the keys of each body, with the path of the map that contains them.
 fn listed<'a>(
     path: &SuitePath<'a>,
     spec: &SceneSpec,
@@ -63,7 +61,6 @@ fn listed<'a>(
     Ok(vec![(path.clone(), own)])
 }
 
-/// Refuses keys of a single body next to a list of bodies.
 fn refuse_beside(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<(), Diagnostic> {
     let alone = [
         ("body", spec.body.is_some()),
@@ -96,8 +93,7 @@ fn contact(path: &SuitePath<'_>, spec: &SceneSpec) -> Result<Option<f64>, Diagno
     path.zero_or_positive(&contact.friction, "the coefficient of friction").map(Some)
 }
 
-/// Refuses a grid that does not contain the body or does not end at its fixed faces. The period of
-/// a body that may start deformed is checked later.
+/// Refuses a grid that does not contain the body or does not end at its fixed faces.
 fn on_grid(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let Some((from, to)) = &scene.grid else { return Ok(()) };
     let deforms = scene.material.properties().depends_on_deformation_alone().is_ok();
@@ -165,7 +161,6 @@ fn together(
     Ok(scene)
 }
 
-/// Frees the faces of a body that are not on the bounding box of all bodies, where walls are.
 fn inner_faces_are_free(body: &mut Scene, scene: &Scene) {
     for face in &mut body.faces {
         let axis = face.axis;
@@ -194,7 +189,6 @@ fn apart(path: &SuitePath<'_>, bodies: &[Scene]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Whether two bodies overlap; a ring is treated as a disk.
 fn overlap(one: &Scene, other: &Scene) -> bool {
     let boxes = (0..one.from.len())
         .all(|axis| one.from[axis] < other.to[axis] && other.from[axis] < one.to[axis]);
@@ -217,7 +211,6 @@ fn overlap(one: &Scene, other: &Scene) -> bool {
         }
 }
 
-/// Returns the distance of a position from a body (m).
 fn distance(body: &Scene, place: &[f64]) -> f64 {
     if let Some(outline) = &body.outline {
         return outline.distance(place);
@@ -226,7 +219,6 @@ fn distance(body: &Scene, place: &[f64]) -> f64 {
     ends.fold(0.0, |all, ((from, to), x)| libm::hypot(all, x.clamp(*from, *to) - x))
 }
 
-/// Returns the polygon of a plane body with straight sides; `None` for other bodies.
 fn polygon(body: &Scene) -> Option<Polygon> {
     let ([left, bottom], [right, top]) = (&body.from[..], &body.to[..]) else { return None };
     let corners = match &body.outline {

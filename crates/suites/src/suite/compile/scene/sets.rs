@@ -11,7 +11,6 @@ use crate::suite::yaml::Diagnostic;
 /// A set counts as empty if at most this share of its volume is in the body.
 const SLIVER: f64 = 1e-12;
 
-/// Compiles the particle sets. Their loads are compiled later.
 pub(crate) fn declared(
     path: &SuitePath<'_>,
     spec: &SceneSpec,
@@ -32,7 +31,6 @@ pub(crate) fn declared(
     spec.sets.as_slice().iter().map(declare).collect()
 }
 
-/// Refuses a set with the name of a face, which would be ambiguous.
 fn refuse_face_name(path: &SuitePath<'_>, name: &str) -> Result<(), Diagnostic> {
     if !FACES.contains(&name) {
         return Ok(());
@@ -60,7 +58,6 @@ fn refuse_outside(
     Ok(())
 }
 
-/// Refuses a set that contains no part of a round or polygonal body.
 fn refuse_beside(
     path: &SuitePath<'_>,
     set: &Region,
@@ -77,7 +74,6 @@ fn refuse_beside(
     Err(path.then("from").diagnostic(&message).with_label(&label))
 }
 
-/// Refuses a set without a load, which is probably a mistake.
 pub(crate) fn refuse_idle(path: &SuitePath<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let idle = |i: &usize| scene.loads_on(LoadTarget::Set(*i)).next().is_none();
     let Some(i) = (0..scene.sets.len()).find(idle) else { return Ok(()) };

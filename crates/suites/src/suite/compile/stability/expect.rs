@@ -21,7 +21,6 @@ pub(crate) fn named(
     spec.figures.as_slice().iter().map(find).collect()
 }
 
-/// Compiles entry `i` of `expect`, at `path`, to one expectation for each row of values.
 pub(crate) fn rows(
     path: &SuitePath<'_>,
     template: &SetupTemplate,
@@ -70,7 +69,6 @@ fn row(
     })
 }
 
-/// Refuses an entry without expectations, or with those of another kind of result.
 fn refuse_idle(
     path: &SuitePath<'_>,
     spec: &StabilityExpectSpec,
@@ -115,7 +113,6 @@ fn wanted(path: &SuitePath<'_>, spec: &FigureSpec) -> Result<FigureBounds, Diagn
     Ok(FigureBounds { is, above, below })
 }
 
-/// Describes entry `spec` of `expect`, with its expectations for `rows`.
 pub(crate) fn summary(
     spec: &StabilityExpectSpec,
     expected: &[StabilityExpectation],
@@ -168,7 +165,6 @@ fn bounds_text(spec: &FigureSpec, bounds: &[FigureBounds], rows: &[Vec<(&str, f6
 /// Maximum number of rows for which the values of a formula are written out.
 const MOST_VALUES: usize = 3;
 
-/// Returns a bound in words: a formula with its common value, or a few values.
 fn with_values(formula: &str, values: &[f64], rows: &[Vec<(&str, f64)>]) -> String {
     if formula.parse::<f64>().is_ok() || values.len() != rows.len() {
         return formula.to_owned();

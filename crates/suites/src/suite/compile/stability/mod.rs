@@ -123,7 +123,6 @@ fn sought(
     path.then("to").expected("a larger number", &message)
 }
 
-/// Compiles the methods, which must take time steps of the built-in MPM.
 fn time_stepping_methods(
     evaluator: &Evaluator<'_>,
     specs: &[MethodSpec],
@@ -169,7 +168,6 @@ fn time_stepping_methods(
     Ok(methods)
 }
 
-/// Compiles entry `i` of `expect`, for each row of parameter values.
 fn entry(
     evaluator: &Evaluator<'_>,
     template: &SetupTemplate,

@@ -166,7 +166,6 @@ fn perturbation(evaluator: &Evaluator<'_>, spec: &StabilitySpec) -> Result<f64, 
         .map_or(Ok(default), |text| path.positive(text, "the size of the perturbation"))
 }
 
-/// Refuses a frozen run of bodies that are loaded, moving, stressed or in contact.
 fn at_rest(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let loaded = scene.loads.iter().any(|load| load.disturbs_rest());
     let driven = scene.faces.iter().any(|face| face.hold.is_driven());
@@ -195,7 +194,6 @@ const STABLE_BELOW: f64 = 1e3;
 /// Default energy, relative to the initial energy, above which a run is unstable.
 const UNSTABLE_ABOVE: f64 = 1e8;
 
-/// Returns the divisors of measured quantities, and the energy bounds.
 fn scales(
     evaluator: &Evaluator<'_>,
     spec: &StabilitySpec,

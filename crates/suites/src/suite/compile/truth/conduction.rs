@@ -47,7 +47,6 @@ pub(crate) fn conduction(
     Ok(Some(found))
 }
 
-/// Refuses the method `heat` for moving bodies, and other methods for bodies at rest.
 fn refuse_methods_of_other_bodies(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     let StudyDraft { evaluator, spec, scene } = draft;
     let at_rest = scene.is_at_rest();
@@ -68,7 +67,6 @@ fn refuse_methods_of_other_bodies(draft: &StudyDraft<'_>) -> Result<(), Diagnost
     evaluator.top("methods").then(i).refuse(&message, help)
 }
 
-/// Refuses quantities and keys that need a motion, because the body is at rest.
 fn judged(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     let StudyDraft { evaluator, spec, .. } = draft;
     if spec.judge.of.is_of_motion() {
@@ -93,7 +91,6 @@ fn judged(draft: &StudyDraft<'_>) -> Result<(), Diagnostic> {
     })
 }
 
-/// Compiles the heat problem with the temperature at `path`; `None` without heat.
 pub(crate) fn problem(
     path: &SuitePath<'_>,
     temperature: Option<&NumberText>,
@@ -177,11 +174,8 @@ fn refuse_methods_without_heat(draft: &StudyDraft<'_>) -> Result<(), Diagnostic>
     Ok(())
 }
 
-/// Inputs of a heat problem in addition to the scene.
 pub(crate) struct ConductionInputs {
-    /// Deformation of the body.
     pub(crate) motion: Option<Motion>,
-    /// Whether the source is computed from the temperature.
     pub(crate) manufactured: bool,
     /// End of the run (s).
     pub(crate) until: f64,
@@ -189,7 +183,6 @@ pub(crate) struct ConductionInputs {
     pub(crate) tolerance: f64,
 }
 
-/// Refuses the temperature at `path` if it does not solve the heat problem.
 pub(crate) fn refuse_wrong_temperature(
     path: &SuitePath<'_>,
     problem: &Conduction,

@@ -11,11 +11,9 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Help for bodies without contact whose exact motions separate or slide.
 const CONTACT: &str = "bodies without `contact` share one velocity field and stick together: if \
                        they can separate or slide, add `contact: {friction: 0}` to `scene`";
 
-/// Refuses manufactured solutions, equilibria and FEM references, which support one body only.
 pub(crate) fn refuse(evaluator: &Evaluator<'_>, spec: &ConvergenceSpec) -> Result<(), Diagnostic> {
     let of_one = [
         (spec.manufactured.is_some(), "manufactured", "manufactured"),
@@ -92,7 +90,6 @@ fn pairs(problems: &[Problem]) -> Vec<(usize, usize, usize)> {
     pairs
 }
 
-/// Refuses bodies that share only a part of their faces.
 fn refuse_other_touch(
     at: &SuitePath<'_>,
     problems: &[Problem],

@@ -49,7 +49,6 @@ pub(crate) fn truth(draft: &StudyDraft<'_>, until: f64) -> Result<StatedTruth, D
     Ok(StatedTruth { exact, conduction, survey, places })
 }
 
-/// Compiles the problem that the stated formulas must solve, if any.
 fn exact(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnostic> {
     let StudyDraft { evaluator, spec, scene } = draft;
     if scene.each().iter().any(|body| body.mapped.is_some()) {
@@ -87,7 +86,6 @@ fn exact(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnost
     Ok(Some(Problem { bodies, ..problem }))
 }
 
-/// Refuses keys that need a solution in a suite without one, and a wrong solution.
 pub(crate) fn refuse_unfit(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     if study.plan.is_truthless() {
         refuse_need_of_truth(study)?;
@@ -95,7 +93,6 @@ pub(crate) fn refuse_unfit(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> 
     if study.evaluator.source().is_trusted() { Ok(()) } else { refuse_violated(study) }
 }
 
-/// Refuses a solution that violates its problem.
 fn refuse_violated(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, plan, survey, .. } = study;
     let path = evaluator.top(match (&spec.equilibrium, &spec.exact) {
@@ -119,7 +116,6 @@ fn refuse_violated(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     )
 }
 
-/// Compiles the problem of the scene with the formulas at `path`, which are checked later.
 fn solution(
     path: &SuitePath<'_>,
     spec: &ExactSpec,
@@ -167,7 +163,6 @@ fn equation(
     path.refuse(&message, help)
 }
 
-/// Compiles the problem with the body force that the stated motion requires.
 fn manufactured(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnostic> {
     let StudyDraft { evaluator, spec, scene } = draft;
     let Some(made) = &spec.manufactured else { return Ok(None) };
@@ -261,7 +256,6 @@ fn motion(
     Ok(Motion::new(components))
 }
 
-/// Returns a face with its condition, or with that of its load.
 fn face(scene: &Scene, number: usize) -> Face {
     let SceneFace { name, axis, high, hold } = &scene.faces[number];
     let loaded =
@@ -270,13 +264,11 @@ fn face(scene: &Scene, number: usize) -> Face {
     Face { name, axis: *axis, high: *high, period: scene.period(*axis), condition }
 }
 
-/// Returns the equation of motion for a material. Some equations restrict the motion: J2 needs
-/// monotonic loading, and a fluid must be at rest.
+/// Returns the equation of motion of a material, which may restrict the motion.
 pub(crate) fn equation_of(material: &MaterialPlan) -> Option<Equation> {
     Equation::of_material(material.name(), |key| material.parameter(key))
 }
 
-/// Returns the equation for manufactured forces, or the reason why the law has none.
 fn manufactured_law(material: &MaterialPlan) -> Result<Equation, &'static str> {
     material.properties().depends_on_deformation_alone()?;
     equation_of(material).ok_or("the law has no equation")
@@ -323,7 +315,6 @@ fn refuse_equilibrium_with(draft: &StudyDraft<'_>, state: &ExactSpec) -> Result<
     }
 }
 
-/// Refuses prescribed velocities, because they do not determine the final position.
 fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnostic> {
     let scene_path = evaluator.top("scene");
     if let Some(face) = scene.faces.iter().find(|face| face.hold.is_driven()) {
@@ -342,7 +333,6 @@ fn refuse_driven(evaluator: &Evaluator<'_>, scene: &Scene) -> Result<(), Diagnos
     Ok(())
 }
 
-/// Refuses keys that need an exact solution or a reference, in a suite that has neither.
 fn refuse_need_of_truth(study: &CompiledStudy<'_>) -> Result<(), Diagnostic> {
     let CompiledStudy { evaluator, spec, .. } = study;
     let asked = |spec: &ExpectSpec| {

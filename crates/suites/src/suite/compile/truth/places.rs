@@ -13,7 +13,6 @@ use crate::suite::model::Scene;
 use crate::suite::yaml::Diagnostic;
 use crate::verify::{JudgedBox, format_number};
 
-/// Help for a box in a suite that states no motion.
 const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
 pub(crate) struct JudgedPlaces {
@@ -22,7 +21,6 @@ pub(crate) struct JudgedPlaces {
     pub(crate) observe: Option<Vec<f64>>,
 }
 
-/// Compiles the box of `judge.within` and the observed point, if the suite has them.
 pub(crate) fn places(
     draft: &StudyDraft<'_>,
     exact: Option<&Problem>,
@@ -70,7 +68,6 @@ fn judged_box(
     Ok(Some(JudgedBox { from, to }))
 }
 
-/// Compiles the observed point, which must be in the body.
 fn observed(draft: &StudyDraft<'_>, spec: &ObserveSpec) -> Result<Vec<f64>, Diagnostic> {
     let (path, scene) = (draft.evaluator.top("observe.at"), &draft.scene);
     let place = path.point(&spec.at, scene.dimension())?;
@@ -82,7 +79,6 @@ fn observed(draft: &StudyDraft<'_>, spec: &ObserveSpec) -> Result<Vec<f64>, Diag
     Ok(place)
 }
 
-/// Refuses a position outside the body or its bounding box.
 fn refuse_outside(path: &SuitePath<'_>, scene: &Scene, place: &[f64]) -> Result<(), Diagnostic> {
     for (axis, x) in place.iter().enumerate() {
         let (low, high) = (scene.from[axis], scene.to[axis]);

@@ -8,7 +8,6 @@ use crate::suite::yaml::{Diagnostic, NumberText};
 /// Default tolerance (relative residual), above the rounding errors of second derivatives.
 pub(crate) const TOLERANCE: f64 = 1e-8;
 
-/// Maximum tolerance that a suite may state.
 const MOST: f64 = 1e-2;
 
 pub(crate) fn tolerance(
@@ -25,7 +24,6 @@ pub(crate) fn tolerance(
     path.expected("at most 1e-2", &message)
 }
 
-/// Compiles the tolerance of the solution at `path`, and that of a linearised one.
 pub(crate) fn tolerances(
     path: &SuitePath<'_>,
     spec: &ExactSpec,
@@ -70,7 +68,6 @@ pub(crate) fn violated(
 /// Maximum relative residual that rounding or a truncated series can explain.
 const ROUNDING: f64 = 1e-5;
 
-/// Returns advice for accepting a small violation of a solution with this `tolerance`.
 pub(crate) fn if_rounded(violation: &Violation, tolerance: f64) -> String {
     match violation.accepted_by(tolerance) {
         Some(accepted) if accepted <= ROUNDING => format!(

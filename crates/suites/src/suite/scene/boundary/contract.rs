@@ -8,7 +8,6 @@ use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 pub(crate) trait BoundaryKeys {
-    /// Checks the keys and returns the condition with all numbers computed.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn BoundaryCondition>, Diagnostic>;
 }
 
@@ -40,7 +39,6 @@ pub(crate) enum FaceMotion {
     Stays { holds_all_components: bool },
 }
 
-/// Properties of a boundary condition that do not depend on its numbers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FaceKind {
     pub(crate) name: &'static str,

@@ -39,7 +39,6 @@ pub(crate) struct BodySite<'a> {
 
 /// A load or effect of a scene, with all numbers computed.
 pub(crate) trait SceneLoad: Term + 'static {
-    /// Converts the load to an effect of the solver.
     fn input(&self, site: &BodySite<'_>) -> EffectInput;
 
     fn target(&self) -> LoadTarget {
@@ -51,7 +50,6 @@ pub(crate) trait SceneLoad: Term + 'static {
         LoadNumbers::default()
     }
 
-    /// Returns rows of name and value for reports.
     fn rows(&self) -> Vec<(String, String)>;
 
     /// Returns the boundary condition of the exact solution that the load imposes on its face.
@@ -69,7 +67,6 @@ pub(crate) trait SceneLoad: Term + 'static {
         Vec::new()
     }
 
-    /// Returns the heat conduction; `None` for all other loads.
     fn heat(&self) -> Option<&SceneHeat> {
         None
     }

@@ -30,7 +30,6 @@ impl LoadKeys for DampingSpec {
         Ok(Arc::new(DampingLoad(entry.path.formula(&self.0, &["t"])?)))
     }
 
-    /// Refuses a rate that is negative during the run.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         let rate = entry.path.formula(&self.0, &["t"])?;
         for k in 0..=TIMES {
@@ -51,7 +50,6 @@ impl LoadKeys for DampingSpec {
     }
 }
 
-/// Damping with the rate alpha(t) (1/s).
 #[derive(Debug)]
 struct DampingLoad(Formula);
 

@@ -12,7 +12,6 @@ use crate::suite::scene::face::face;
 use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
-/// Properties of a convergence study that may exclude a load.
 pub(crate) struct StudyFacts {
     pub(crate) manufactured: bool,
     /// End of the longest run (s).
@@ -27,10 +26,8 @@ pub(crate) trait LoadKeys {
     where
         Self: Sized;
 
-    /// Checks the keys and returns the load with all numbers computed.
     fn compile(&self, entry: &LoadEntry<'_>) -> Result<Arc<dyn SceneLoad>, Diagnostic>;
 
-    /// Refuses a convergence study in which the load is not supported.
     fn check(&self, _: &LoadEntry<'_>, _: &StudyFacts) -> Result<(), Diagnostic> {
         Ok(())
     }
@@ -49,17 +46,14 @@ pub(crate) trait LoadKeys {
         None
     }
 
-    /// Whether the load may act on a rim of a disk or an annulus instead of a face.
     fn acts_on_rims(&self) -> bool {
         false
     }
 
-    /// Whether the load requires a scene with a single body.
     fn is_of_one_body(&self) -> bool {
         self.face().is_some()
     }
 
-    /// Whether the load is valid for a body that does not move.
     fn acts_at_rest(&self) -> bool {
         false
     }
@@ -68,7 +62,6 @@ pub(crate) trait LoadKeys {
 /// Context for compiling a load: its path in the file, and the scene with the previous loads.
 pub(crate) struct LoadEntry<'a> {
     pub(crate) effect: EffectName,
-    /// Path of the load's value.
     pub(crate) path: SuitePath<'a>,
     pub(crate) scene: &'a Scene,
 }
@@ -78,7 +71,6 @@ impl LoadEntry<'_> {
         self.scene.dimension()
     }
 
-    /// Refuses a second load of the same kind; `title` is the name of the load in messages.
     pub(crate) fn refuse_second(&self, title: &str) -> Result<(), Diagnostic> {
         if self.scene.lists(self.effect) {
             return Err(self.path.diagnostic(&format!("{title} appears twice")));
@@ -86,7 +78,6 @@ impl LoadEntry<'_> {
         Ok(())
     }
 
-    /// Returns the face called `name`, which must be free.
     pub(crate) fn free_face(&self, name: &str) -> Result<LoadedFace, Diagnostic> {
         let scene = self.scene;
         let path = self.path.then("on");
@@ -105,7 +96,6 @@ impl LoadEntry<'_> {
         Ok(LoadedFace { number, name: scene.faces[number].name })
     }
 
-    /// Returns the rim called `name` of a body without faces. The rim must be free.
     pub(crate) fn free_rim(&self, name: &str) -> Result<Circle, Diagnostic> {
         let scene = self.scene;
         let path = self.path.then("on");
@@ -119,7 +109,6 @@ impl LoadEntry<'_> {
         Ok(circle.clone())
     }
 
-    /// Returns the set called `name`, which must not carry another load.
     pub(crate) fn free_set(&self, name: &str) -> Result<LoadedSet, Diagnostic> {
         let path = self.path.then("on");
         let number = set_number(&path, name, &self.scene.sets)?;
@@ -127,7 +116,6 @@ impl LoadEntry<'_> {
         Ok(LoadedSet { number, region: self.scene.sets[number].clone() })
     }
 
-    /// Refuses a `target` that already carries a load; `title` is its name in messages.
     fn refuse_loaded(
         &self,
         path: &SuitePath<'_>,

@@ -84,8 +84,7 @@ impl LoadKeys for HeatSpec {
     }
 }
 
-/// Compiles the heat source. In the formula, `T` is the temperature. A formula with `T` is refused
-/// if the suite declares a name `T`.
+/// Compiles the heat source, a formula that may contain the temperature `T`.
 fn source(
     entry: &LoadEntry<'_>,
     path: &SuitePath<'_>,
@@ -101,7 +100,6 @@ fn source(
     path.formula(text, &variables)
 }
 
-/// Heat conduction adds no force.
 impl Term for SceneHeat {}
 
 impl SceneLoad for SceneHeat {
@@ -163,7 +161,6 @@ fn initial(heat: &SceneHeat, site: &BodySite<'_>) -> TemperatureAt {
     })
 }
 
-/// A heat source given by a formula.
 struct StatedSource {
     formula: Formula,
     labels: Vec<Vec<f64>>,
@@ -182,7 +179,6 @@ impl HeatSourceAt for StatedSource {
     }
 }
 
-/// The heat source computed from the exact temperature.
 struct ManufacturedSource {
     problem: Conduction,
     forcing: Option<HeatForcing>,
@@ -200,7 +196,6 @@ impl HeatSourceAt for ManufacturedSource {
     }
 }
 
-/// Compiles the conditions on all faces, which are insulated by default.
 fn faces(
     entry: &LoadEntry<'_>,
     spec: &Ordered<ThermalSpec>,
@@ -226,7 +221,6 @@ fn faces(
     Ok(faces)
 }
 
-/// Refuses conditions on a face that does not stay on the nodes of a grid face.
 fn on_grid(path: &SuitePath<'_>, lets_heat_in: bool, face: &SceneFace) -> Result<(), Diagnostic> {
     let (name, verb) = (face.name, face.hold.kind().verb);
     if face.hold.is_periodic() {

@@ -32,7 +32,6 @@ impl LoadKeys for LocalDampingSpec {
         Ok(Arc::new(LocalDampingLoad(share)))
     }
 
-    /// Refuses a manufactured force, because local damping would also oppose that force.
     fn check(&self, entry: &LoadEntry<'_>, study: &StudyFacts) -> Result<(), Diagnostic> {
         if !study.manufactured {
             return Ok(());
@@ -47,7 +46,6 @@ impl LoadKeys for LocalDampingSpec {
     }
 }
 
-/// Local damping with the share zeta of the unbalanced force.
 #[derive(Debug)]
 struct LocalDampingLoad(f64);
 

@@ -89,7 +89,6 @@ loads! {
 }
 
 impl LoadSpec {
-    /// Returns the path of entry `number` in `loads`.
     pub(crate) fn path<'a>(&self, evaluator: &'a Evaluator<'a>, number: usize) -> SuitePath<'a> {
         evaluator.top("scene.loads").then(number).then(self.effect().name())
     }

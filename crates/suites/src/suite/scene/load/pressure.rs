@@ -120,8 +120,7 @@ impl SceneLoad for PressureLoad {
         (0..values.len() - 1).map(component).collect()
     }
 
-    /// Returns minus the pressure. In uniaxial strain the area of a face is constant, so the
-    /// tension per reference area is the same.
+    /// In uniaxial strain the area of a face is constant, so the tension is minus the pressure.
     fn tension(&self, x: f64, _: f64) -> Option<TimeFunction> {
         let value = self.value.clone();
         Some(Box::new(move |t| -value.eval(&[x, t])))

@@ -19,7 +19,6 @@ fn survives(text: &str) {
     }
 }
 
-/// Generates text of characters that have a meaning in YAML.
 fn yaml_like() -> impl Strategy<Value = String> {
     let token = prop_oneof![
         8 => prop::sample::select(vec![
@@ -32,7 +31,6 @@ fn yaml_like() -> impl Strategy<Value = String> {
     prop::collection::vec(token, 0..40).prop_map(|tokens| tokens.concat())
 }
 
-/// Generates the sample with a few ranges replaced.
 fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0usize..6, yaml_like());
     prop::collection::vec(change, 1..4).prop_map(|changes| {

@@ -16,9 +16,7 @@ pub(crate) struct Shape {
     pub(crate) from: Vec<f64>,
     /// Highest corner of the bounding box (m).
     pub(crate) to: Vec<f64>,
-    /// Outline of a body that is not a box.
     pub(crate) outline: Option<Arc<dyn Outline>>,
-    /// Bilinear map of a quadrilateral from a box.
     pub(crate) mapped: Option<Quadrilateral>,
     pub(crate) plane: PlaneState,
 }
@@ -69,7 +67,6 @@ pub(crate) fn shape(
     Ok(Shape { from, to, outline: Some(outline), mapped: None, plane })
 }
 
-/// Refuses conditions on the rims of a body, and loads on rims unless they may act on round rims.
 fn rims_are_free(
     path: &SuitePath<'_>,
     spec: &SceneSpec,
@@ -99,7 +96,6 @@ fn rims_are_free(
     }
 }
 
-/// Refuses a grid that does not contain the whole body.
 pub(crate) fn fits(
     path: &SuitePath<'_>,
     outline: &dyn Outline,
@@ -136,8 +132,7 @@ pub(crate) fn corners(
             let message = format!("the box ends at {to} and starts at {from}");
             return path.then("to").then(axis).expected("a number above that of `from`", &message);
         }
-        // The length is limited because second derivatives contain its square and volumes contain
-        // its cube; both must be finite.
+        // Second derivatives contain the square of the length, and volumes its cube.
         let length = to[axis] - from[axis];
         if !(SHORTEST..=LONGEST).contains(&length) {
             let message = format!("the box is {} m long", shown(length));

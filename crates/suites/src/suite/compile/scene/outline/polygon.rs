@@ -34,7 +34,6 @@ pub(super) fn polygon(
     Ok(Arc::new(polygon))
 }
 
-/// Compiles a list of corners (m), which must be distinct.
 fn corners(path: &SuitePath<'_>, texts: &[Vec<NumberText>]) -> Result<Vec<[f64; 2]>, Diagnostic> {
     let mut corners: Vec<[f64; 2]> = Vec::with_capacity(texts.len());
     for (i, texts) in texts.iter().enumerate() {
@@ -55,7 +54,6 @@ fn corners(path: &SuitePath<'_>, texts: &[Vec<NumberText>]) -> Result<Vec<[f64; 
     Ok(corners)
 }
 
-/// Compiles the quadrilateral in `spec` at `path`. Also returns its shape as an `Outline`.
 pub(super) fn quadrilateral(
     path: &SuitePath<'_>,
     spec: &QuadrilateralSpec,
@@ -78,7 +76,6 @@ pub(super) fn quadrilateral(
     Ok((Arc::new(outline.map_err(|(_, side)| to_the_right(side))?), panel))
 }
 
-/// Refuses conditions and loads on a face of the bounding box that contains no side.
 pub(super) fn faces_are_sides(
     path: &SuitePath<'_>,
     spec: &SceneSpec,

@@ -8,7 +8,6 @@ use crate::suite::yaml::Diagnostic;
 use std::sync::Arc;
 
 pub(crate) trait ThermalKeys {
-    /// Checks the keys and returns the condition with all numbers computed.
     fn compile(&self, entry: &FaceEntry<'_>) -> Result<Arc<dyn HeatCondition>, Diagnostic>;
 }
 
@@ -21,8 +20,7 @@ pub struct SceneHeat {
     pub capacity: f64,
     /// Heat source (W/kg), a formula of the coordinates, t and T.
     pub source: Option<Formula>,
-    /// Initial temperature (K), a formula of the coordinates and t. By default, the exact
-    /// temperature at t = 0 is used.
+    /// Initial temperature (K), a formula; by default the exact temperature at t = 0.
     pub initial: Option<Formula>,
     pub(crate) faces: Vec<ThermalFace>,
 }
