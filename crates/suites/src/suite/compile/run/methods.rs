@@ -3,10 +3,10 @@
 use crate::exact::Equation;
 use crate::fem::{BarLaw, Sampling};
 use crate::mpm::input::MpmMethod;
-use crate::mpm::{FrameName, MassName, MaterialPlan, SchemeName, VolumeName};
+use crate::mpm::{FrameName, MassName, MaterialPlan, TransferName, VolumeName};
 use crate::subject::{HIGHEST_ORDER, LONGEST_NAME, Precision, Start, is_solver_name};
 use crate::suite::evaluator::{Evaluator, SuitePath, shown};
-use crate::suite::grammar::{EquationName, MethodSpec};
+use crate::suite::grammar::{EquationName, MethodSpec, TransferSpec};
 use crate::suite::model::method::Method;
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany};
 use std::collections::BTreeMap;
@@ -29,18 +29,19 @@ pub(crate) fn methods(
     material: &MaterialPlan,
     [most, of_each_method]: [usize; 2],
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
+    // Materials without an FEM law are refused later.
+    let own_law = law_of_bar(material).unwrap_or_default();
     // Too many combinations are refused before they are computed.
     let mut all = 0_usize;
     for (entry, spec) in specs.iter().enumerate() {
-        all = all.saturating_add(count(spec).saturating_mul(of_each_method));
+        let count = lengths(spec, own_law).into_iter().fold(1, usize::saturating_mul);
+        all = all.saturating_add(count.saturating_mul(of_each_method));
         if all > most {
             let message = format!("these lists give {all} cases");
             let diagnostic = evaluator.top("methods").then(entry).diagnostic(&message);
             return Err(diagnostic.with_label(&format!("expected at most {most} in a suite")));
         }
     }
-    // Materials without an FEM law are refused later.
-    let own_law = law_of_bar(material).unwrap_or_default();
     let mut drafts = Vec::new();
     for (entry, spec) in specs.iter().enumerate() {
         drafts.extend(combinations(evaluator, entry, spec, own_law)?);
@@ -70,27 +71,11 @@ impl NamedMethod {
 /// Returns the first part of the name of `method`, and the settings that may follow, in order.
 fn settings(method: &Method) -> (&'static str, Vec<String>) {
     match *method {
-        Method::Mpm(MpmMethod {
-            basis,
-            transfer,
-            scheme,
-            start,
-            mass,
-            frame,
-            volume,
-            precision,
-        }) => {
-            let transfer = transfer.name();
-            let rest = [
-                scheme.name(),
-                start.name(),
-                mass.name(),
-                frame.name(),
-                volume.name(),
-                precision.name(),
-            ];
-            let mut settings = vec![basis.name().to_owned(), transfer];
-            settings.extend(rest.map(ToOwned::to_owned));
+        Method::Mpm(method) => {
+            let always = [method.scheme.name(), method.start.name(), method.mass.name()];
+            let others = [method.frame.name(), method.volume.name(), method.precision.name()];
+            let mut settings = vec![method.basis.name().to_owned(), method.transfer.name()];
+            settings.extend(always.into_iter().chain(others).map(ToOwned::to_owned));
             ("mpm", settings)
         }
         Method::QuasiStatic { basis, .. } => {
@@ -114,87 +99,86 @@ fn combinations(
     spec: &MethodSpec,
     own_law: EquationName,
 ) -> Result<Vec<NamedMethod>, Diagnostic> {
-    let lengths = lengths(spec);
+    let path = evaluator.top("methods").then(entry);
+    let (mut solver, mut order) = (None, 2.0);
     // The first `shown` settings have no default.
-    let said = |shown: usize| {
-        let said = |(k, length): (usize, &usize)| k < shown || *length > 1;
-        lengths.iter().enumerate().map(said).collect::<Vec<bool>>()
+    let shown = match spec {
+        MethodSpec::Mpm { .. } if spec.is_quasi_static() => {
+            refuse_keys_of_dynamics(&path.then("mpm"), spec)?;
+            2
+        }
+        MethodSpec::Mpm { transfer: None, .. } => {
+            let message = "a scheme with time steps needs a `transfer`";
+            return path.then("mpm").refuse_key(message, "add `transfer: flip` in `mpm`");
+        }
+        MethodSpec::Mpm { .. } => 3,
+        MethodSpec::Heat { .. } => 1,
+        MethodSpec::Fem { .. } => 2,
+        MethodSpec::External { name, formal_order, .. } => {
+            let path = path.then("external");
+            order = stated_order(&path, formal_order.as_ref())?;
+            solver = Some(solver_name(&path, name)?);
+            0
+        }
     };
-    let mut drafts = Vec::new();
-    let mut push = |method, said| drafts.push(NamedMethod { entry, method, solver: None, said });
-    match spec {
-        MethodSpec::Mpm { basis, .. } if spec.is_quasi_static() => {
-            refuse_keys_of_dynamics(evaluator, entry, spec)?;
-            for &basis in basis.as_slice() {
-                push(Method::QuasiStatic { basis, load_steps: 1 }, vec![true, true]);
-            }
+    let lengths = lengths(spec, own_law);
+    let is_said = |(k, length): (usize, &usize)| k < shown || *length > 1;
+    let said: Vec<bool> = lengths.iter().enumerate().map(is_said).collect();
+    let method = |number| {
+        let mut method = method(spec, own_law, &mut Combination { number, lengths: Vec::new() });
+        if let Method::External { formal_order, .. } = &mut method {
+            *formal_order = order;
         }
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
-            let Some(transfer) = transfer else {
-                let path = evaluator.top("methods").then(entry).then("mpm");
-                let diagnostic =
-                    path.diagnostic_at_key("a scheme with time steps needs a `transfer`");
-                return Err(diagnostic.with_help("add `transfer: flip` in `mpm`"));
-            };
-            let scheme: Vec<SchemeName> =
-                scheme.as_slice().iter().filter_map(|scheme| scheme.explicit()).collect();
-            for number in 0..count(spec) {
-                let mut rest = Combination(number);
-                let method = MpmMethod {
-                    precision: rest.one_of(precision.as_ref(), Precision::Double),
-                    volume: rest.one_of(volume.as_ref(), VolumeName::Particle),
-                    frame: rest.one_of(frame.as_ref(), FrameName::Updated),
-                    mass: rest.one_of(mass.as_ref(), MassName::Lumped),
-                    start: rest.one_of(start.as_ref(), Start::AtZero),
-                    scheme: rest.next(&scheme),
-                    transfer: rest.next(transfer.as_slice()).0,
-                    basis: rest.next(basis.as_slice()),
-                };
-                push(Method::Mpm(method), said(3));
-            }
-        }
-        MethodSpec::Heat { basis } => {
-            for &basis in basis.as_slice() {
-                push(Method::Heat { basis }, said(1));
-            }
-        }
-        MethodSpec::Fem { element, mass, law, start, sampling } => {
-            for number in 0..count(spec) {
-                let mut rest = Combination(number);
-                let method = Method::Fem {
-                    sampling: rest.one_of(sampling.as_ref(), Sampling::Inside),
-                    start: rest.one_of(start.as_ref(), Start::AtZero),
-                    law: rest.one_of(law.as_ref(), own_law),
-                    mass: rest.next(mass.as_slice()),
-                    element: rest.next(element.as_slice()),
-                };
-                push(method, said(2));
-            }
-        }
-        MethodSpec::External { name, formal_order, precision } => {
-            let path = evaluator.top("methods").then(entry).then("external");
-            let method = Method::External {
-                formal_order: stated_order(&path, formal_order.as_ref())?,
-                precision: precision.unwrap_or_default(),
-            };
-            let solver = Some(solver_name(&path, name)?);
-            drafts.push(NamedMethod { entry, method, solver, said: Vec::new() });
-        }
-    }
-    Ok(drafts)
+        NamedMethod { entry, method, solver: solver.clone(), said: said.clone() }
+    };
+    Ok((0..lengths.iter().product()).map(method).collect())
 }
 
-fn refuse_keys_of_dynamics(
-    evaluator: &Evaluator<'_>,
-    entry: usize,
-    spec: &MethodSpec,
-) -> Result<(), Diagnostic> {
+/// Returns the method with one value of each list. An external method gets a preliminary order.
+fn method(spec: &MethodSpec, own_law: EquationName, values: &mut Combination) -> Method {
+    match spec {
+        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => {
+            let precision = values.one_of(precision.as_ref(), Precision::Double);
+            let volume = values.one_of(volume.as_ref(), VolumeName::Particle);
+            let frame = values.one_of(frame.as_ref(), FrameName::Updated);
+            let mass = values.one_of(mass.as_ref(), MassName::Lumped);
+            let start = values.one_of(start.as_ref(), Start::AtZero);
+            let scheme = values.next(scheme).explicit();
+            let transfer =
+                values.one_of(transfer.as_ref(), TransferSpec(TransferName::Flip.into())).0;
+            let basis = values.next(basis);
+            let Some(scheme) = scheme else { return Method::QuasiStatic { basis, load_steps: 1 } };
+            Method::Mpm(MpmMethod {
+                basis,
+                transfer,
+                scheme,
+                start,
+                mass,
+                frame,
+                volume,
+                precision,
+            })
+        }
+        MethodSpec::Heat { basis } => Method::Heat { basis: values.next(basis) },
+        MethodSpec::Fem { element, mass, law, start, sampling } => Method::Fem {
+            sampling: values.one_of(sampling.as_ref(), Sampling::Inside),
+            start: values.one_of(start.as_ref(), Start::AtZero),
+            law: values.one_of(law.as_ref(), own_law),
+            mass: values.next(mass),
+            element: values.next(element),
+        },
+        MethodSpec::External { precision, .. } => {
+            Method::External { formal_order: 2.0, precision: precision.unwrap_or_default() }
+        }
+    }
+}
+
+fn refuse_keys_of_dynamics(path: &SuitePath<'_>, spec: &MethodSpec) -> Result<(), Diagnostic> {
     let MethodSpec::Mpm { basis: _, transfer, scheme, start, mass, frame, volume, precision } =
         spec
     else {
         return Ok(());
     };
-    let path = evaluator.top("methods").then(entry).then("mpm");
     let own = "list the other schemes in a separate entry of `methods`";
     if scheme.as_slice().len() > 1 {
         let message = "`quasi_static` cannot be listed with time-stepping schemes: only `basis` \
@@ -219,47 +203,36 @@ fn refuse_keys_of_dynamics(
 }
 
 /// Returns the number of values of each setting, in the order of [`settings`].
-fn lengths(spec: &MethodSpec) -> Vec<usize> {
-    match spec {
-        MethodSpec::Mpm { basis, transfer, scheme, start, mass, frame, volume, precision } => vec![
-            basis.as_slice().len(),
-            length(transfer.as_ref()),
-            scheme.as_slice().len(),
-            length(start.as_ref()),
-            length(mass.as_ref()),
-            length(frame.as_ref()),
-            length(volume.as_ref()),
-            length(precision.as_ref()),
-        ],
-        MethodSpec::Heat { basis } => vec![basis.as_slice().len()],
-        MethodSpec::External { .. } => Vec::new(),
-        MethodSpec::Fem { element, mass, law, start, sampling } => vec![
-            element.as_slice().len(),
-            mass.as_slice().len(),
-            length(law.as_ref()),
-            length(start.as_ref()),
-            length(sampling.as_ref()),
-        ],
-    }
+fn lengths(spec: &MethodSpec, own_law: EquationName) -> Vec<usize> {
+    let mut first = Combination { number: 0, lengths: Vec::new() };
+    method(spec, own_law, &mut first);
+    first.lengths.reverse();
+    first.lengths
 }
 
-fn count(spec: &MethodSpec) -> usize {
-    lengths(spec).into_iter().fold(1, usize::saturating_mul)
+/// A combination of list values. Those of the list that is read first vary fastest.
+struct Combination {
+    number: usize,
+    /// Lengths of the lists that have been read.
+    lengths: Vec<usize>,
 }
-
-/// The number of a combination. The values of the list that is read first vary fastest.
-struct Combination(usize);
 
 impl Combination {
-    fn next<T: Copy>(&mut self, list: &[T]) -> T {
-        let value = list[self.0 % list.len()];
-        self.0 /= list.len();
+    fn next<T: Copy>(&mut self, list: &OneOrMany<T>) -> T {
+        let list = list.as_slice();
+        let value = list[self.number % list.len()];
+        self.number /= list.len();
+        self.lengths.push(list.len());
         value
     }
 
     /// Returns the next value of an optional list, or `default` if the list is absent.
     fn one_of<T: Copy>(&mut self, list: Option<&OneOrMany<T>>, default: T) -> T {
-        list.map_or(default, |list| self.next(list.as_slice()))
+        let Some(list) = list else {
+            self.lengths.push(1);
+            return default;
+        };
+        self.next(list)
     }
 }
 
@@ -301,10 +274,6 @@ fn say_differences(drafts: &mut [NamedMethod]) -> bool {
         }
     }
     longer
-}
-
-fn length<T>(list: Option<&OneOrMany<T>>) -> usize {
-    list.map_or(1, |list| list.as_slice().len())
 }
 
 fn solver_name(path: &SuitePath<'_>, name: &str) -> Result<String, Diagnostic> {
