@@ -1,7 +1,7 @@
 //! The spectrum study: runs every wave of each case.
 
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::study::describe::{Rows, push, scene};
+use crate::study::describe::{Rows, described, push, scene};
 use crate::study::handover::{HandedRun, of_scene, problem, start, unloaded};
 use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::setup::body::Body;
@@ -185,7 +185,11 @@ impl CaseRunner for PlanRunner<'_, SpectrumPlan> {
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, context, case) = (self.plan, self.context, &self.plan.cases[index]);
         let lacks = context.solver.map_or(Vec::new(), |solver| lacking(plan, solver));
-        described(case, context.solver).after(case.gating.as_ref(), lacks, |described| {
+        let mut settings = context.solver.map_or(Vec::new(), SolverFactory::settings);
+        // The setting of walls is omitted, because a periodic domain has no walls.
+        settings.extend(case.method.settings().into_iter().filter(|(key, _)| key != "walls"));
+        let described = described(&case.name, case.method, settings, plan.expectation(index));
+        described.after(case.gating.as_ref(), lacks, |described| {
             let run = WaveRun { plan, case, context };
             let waves = plan.waves.par_iter().zip(run.cells_for_one_percent());
             let rows = waves.map(|(wave, cells)| run.row(wave, cells));
@@ -205,19 +209,6 @@ impl CaseRunner for PlanRunner<'_, SpectrumPlan> {
         let wave = plan.waves.get(failed.unwrap_or(plan.waves.len().saturating_sub(1)));
         let run = WaveRun { plan, case, context: self.context };
         show(run.shown(wave.ok_or("it has no runs")?)?)
-    }
-}
-
-/// Creates the part of an outcome that is known before the case runs.
-fn described(case: &SpectrumCase, solver: Option<&dyn SolverFactory>) -> CaseOutcome {
-    let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
-    // The setting of walls is omitted, because a periodic domain has no walls.
-    settings.extend(case.method.settings().into_iter().filter(|(key, _)| key != "walls"));
-    let expected = case.expected.as_ref();
-    CaseOutcome {
-        expected: expected.map(|(expected, _)| expected.summary()),
-        because: expected.map(|(_, because)| because.clone()).unwrap_or_default(),
-        ..CaseOutcome::new(&case.name, case.method.subject(), settings)
     }
 }
 

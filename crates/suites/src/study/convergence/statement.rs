@@ -1,14 +1,14 @@
 //! Describes a convergence study in rows, and creates the outcomes of cases that have not run.
 
 use crate::exact::heat::Conduction;
-use crate::study::describe::{Rows, push, scene, stated, step_profile};
+use crate::study::describe::{self, Rows, push, scene, stated, step_profile};
 use crate::study::exact_motion::{self, amplitude};
 use crate::suite::evaluator::shown;
 use crate::suite::model::refine_plan::LevelPlan;
 use crate::suite::model::{Against, Case, ConvergencePlan, SameMethod};
 use crate::suite::scene::lattice::LatticeOffsets;
 use crate::suite::scene::numbers::with_unit;
-use crate::verify::{Axis, CaseOutcome, Expectation, Gating, StepKind, tuple};
+use crate::verify::{Axis, CaseOutcome, Expectation, StepKind, tuple};
 
 pub(crate) fn rows(plan: &ConvergencePlan) -> Rows {
     let mut rows = Rows::new();
@@ -189,25 +189,12 @@ pub(crate) fn settings(plan: &ConvergencePlan, case: &Case) -> Rows {
     rows
 }
 
-/// Creates the part of an outcome that is known before the case runs.
 pub(crate) fn described(
     plan: &ConvergencePlan,
     case: &Case,
     expectation: Option<&Expectation>,
 ) -> CaseOutcome {
-    let expected = expectation
-        .map(|expectation| (expectation.summary(), expectation.because.clone()))
-        .or_else(|| match &case.gating {
-            Some(Gating::Required(required)) => {
-                Some((required.summary(), required.because.clone()))
-            }
-            _ => None,
-        });
-    let (expected, because) = expected.unzip();
-    CaseOutcome {
-        profile: step_profile(plan, case),
-        expected,
-        because: because.unwrap_or_default(),
-        ..CaseOutcome::new(&case.name, case.method.subject(), settings(plan, case))
-    }
+    let rows = settings(plan, case);
+    let described = describe::described(&case.name, case.method, rows, case.expected(expectation));
+    CaseOutcome { profile: step_profile(plan, case), ..described }
 }

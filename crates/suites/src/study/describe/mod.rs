@@ -6,10 +6,11 @@ use crate::study::setup::dispatch;
 use crate::subject::{PlaneState, Profile};
 use crate::suite::EffectName;
 use crate::suite::evaluator::shown;
+use crate::suite::model::method::Method;
 use crate::suite::model::{Case, ConvergencePlan, Scene, StudyPlan, Suite};
 use crate::suite::scene::load::LoadTarget;
 use crate::suite::scene::numbers::{sources, unit_after};
-use crate::verify::{rounded, tuple};
+use crate::verify::{CaseOutcome, rounded, tuple};
 
 pub(crate) fn head(suite: &Suite) -> Vec<(String, String)> {
     let mut rows = Vec::new();
@@ -58,6 +59,18 @@ pub(crate) fn push(rows: &mut Rows, key: &str, value: &str) {
     if !value.is_empty() {
         rows.push((key.to_owned(), value.to_owned()));
     }
+}
+
+/// Creates the part of an outcome that is known before the case runs.
+pub(crate) fn described(
+    case: &str,
+    method: Method,
+    settings: Rows,
+    expected: Option<(String, &str)>,
+) -> CaseOutcome {
+    let (expected, because) = expected.unzip();
+    let because = because.unwrap_or_default().to_owned();
+    CaseOutcome { expected, because, ..CaseOutcome::new(case, method.subject(), settings) }
 }
 
 /// Formats a position, such as `0.5` in one dimension or `(0, 0.5)`.

@@ -5,7 +5,7 @@ mod run;
 use self::run::GradientRun;
 use crate::external::{GradientError, ProblemNeeds, SolverFactory};
 use crate::study::convergence::statement;
-use crate::study::describe::{Rows, push};
+use crate::study::describe::{self, Rows, push};
 use crate::study::handover::needs;
 use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, Study};
 use crate::subject::GradientParameter;
@@ -70,7 +70,7 @@ impl CaseRunner for PlanRunner<'_, GradientPlan> {
 
     fn case(&self, index: usize, progress: Progress<'_>) -> CaseOutcome {
         let (plan, case) = (self.plan, &self.plan.cases[index]);
-        let described = described(plan, case, self.context.solver);
+        let described = described(plan, index, self.context.solver);
         let Some(solver) = self.context.solver else {
             let lacks = vec!["a solver with gradients (`--solver COMMAND`)".to_owned()];
             return CaseOutcome {
@@ -112,23 +112,13 @@ fn lacking(plan: &GradientPlan, case: &GradientCase, solver: &dyn SolverFactory)
     solver.lacks(&ProblemNeeds { gradients, small_strain: false, ..needs(&plan.problem) })
 }
 
-/// Creates the part of an outcome that is known before the case runs.
-fn described(
-    plan: &GradientPlan,
-    case: &GradientCase,
-    solver: Option<&dyn SolverFactory>,
-) -> CaseOutcome {
+fn described(plan: &GradientPlan, index: usize, solver: Option<&dyn SolverFactory>) -> CaseOutcome {
+    let case = &plan.cases[index];
     let one = &plan.parameters[case.parameter];
     let mut settings = solver.map_or(Vec::new(), SolverFactory::settings);
     settings.extend(case.solver.method.settings());
     push(&mut settings, "derivative", &format!("with respect to {}", one.parameter.name()));
-    let (expected, because) =
-        case.expected.as_ref().map(|(terms, because)| (terms.summary(), because.clone())).unzip();
-    CaseOutcome {
-        expected,
-        because: because.unwrap_or_default(),
-        ..CaseOutcome::new(&case.name, case.solver.method.subject(), settings)
-    }
+    describe::described(&case.name, case.solver.method, settings, plan.expectation(index))
 }
 
 fn judged(described: CaseOutcome, case: &GradientCase, study: GradientStudy) -> CaseOutcome {

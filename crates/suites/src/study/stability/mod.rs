@@ -4,7 +4,7 @@ mod handed;
 pub(crate) mod run;
 use self::run::CaseRun;
 use crate::external::{ProblemNeeds, SolverFactory};
-use crate::study::describe::{Rows, push, scene, stated};
+use crate::study::describe::{self, Rows, push, scene, stated};
 use crate::study::kind::{CaseRunner, PlanRunner, Progress, RunContext, ShowRun, Study};
 use crate::study::time_series::SeriesError;
 use crate::suite::evaluator::shown;
@@ -48,7 +48,7 @@ impl CaseRunner for PlanRunner<'_, StabilityPlan> {
         let lacks = context.solver.map_or(Vec::new(), |solver| {
             plan.needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
         });
-        described(&run).after(case.gating.as_ref(), lacks, |described| {
+        described(&run, index).after(case.gating.as_ref(), lacks, |described| {
             let rows = plan.values.par_iter().map(|value| run.row(*value));
             let rows: Vec<StabilityRow> = rows.inspect(|_| progress()).collect();
             let refused = rows.iter().find_map(|row| row.refused.as_ref());
@@ -78,8 +78,7 @@ impl CaseRunner for PlanRunner<'_, StabilityPlan> {
     }
 }
 
-/// Creates the part of an outcome that is known before the case runs.
-fn described(run: &CaseRun<'_>) -> CaseOutcome {
+fn described(run: &CaseRun<'_>, index: usize) -> CaseOutcome {
     let case = run.case;
     // If no face is fixed, settings of walls have no effect.
     let walls = run.setup(&[]).is_ok_and(|s| s.scene.faces.iter().any(|f| f.hold.is_held()));
@@ -87,11 +86,7 @@ fn described(run: &CaseRun<'_>) -> CaseOutcome {
     settings.retain(|(key, _)| walls || key != "walls");
     let mut all = run.context.solver.map_or(Vec::new(), SolverFactory::settings);
     all.extend(settings);
-    CaseOutcome {
-        expected: case.expectations.summary.clone(),
-        because: case.expectations.because.clone(),
-        ..CaseOutcome::new(&case.name, case.method.subject(), all)
-    }
+    describe::described(&case.name, case.method, all, run.plan.expectation(index))
 }
 
 fn outcome(run: &CaseRun<'_>, described: CaseOutcome, rows: Vec<StabilityRow>) -> CaseOutcome {

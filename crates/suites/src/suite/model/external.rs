@@ -150,9 +150,12 @@ impl ConvergencePlan {
 }
 
 impl Case {
-    /// Returns summary and reason of the expectation, or else of the requirement of `run --gate`.
-    pub(super) fn expected(&self) -> Option<(String, &str)> {
-        match (&self.expectation, &self.gating) {
+    /// Returns summary and reason of an `expectation`, or else of the requirement of `run --gate`.
+    pub(crate) fn expected<'a>(
+        &'a self,
+        expectation: Option<&'a Expectation>,
+    ) -> Option<(String, &'a str)> {
+        match (expectation, &self.gating) {
             (Some(expectation), _) => Some((expectation.summary(), &expectation.because)),
             (None, Some(Gating::Required(required))) => {
                 Some((required.summary(), &required.because))

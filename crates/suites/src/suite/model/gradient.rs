@@ -76,7 +76,7 @@ impl GradientPlan {
         self.parameters.iter().enumerate().map(case).collect()
     }
 
-    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
+    pub(crate) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (terms, because) = self.cases[case].expected.as_ref()?;
         Some((terms.summary(), because))
     }

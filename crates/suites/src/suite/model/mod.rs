@@ -155,7 +155,8 @@ impl ConvergencePlan {
     }
 
     pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
-        self.cases[case].expected()
+        let case = &self.cases[case];
+        case.expected(case.expectation.as_ref())
     }
 
     /// Returns the problem if its body force is manufactured.

@@ -78,7 +78,7 @@ impl SpectrumPlan {
         self.cases.iter().find(|known| known.name == case)
     }
 
-    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
+    pub(crate) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let (expected, because) = self.cases[case].expected.as_ref()?;
         Some((expected.summary(), because))
     }

@@ -101,7 +101,7 @@ pub struct StabilityCase {
 }
 
 impl StabilityPlan {
-    pub(super) fn expectation(&self, case: usize) -> Option<(String, &str)> {
+    pub(crate) fn expectation(&self, case: usize) -> Option<(String, &str)> {
         let RowExpectations { summary, because, .. } = &self.cases[case].expectations;
         Some((summary.clone()?, because))
     }
