@@ -1,7 +1,7 @@
 //! Findings about coarse levels, lack of damping, and errors as large as the solution.
 
 use super::regularity::sizes;
-use super::session::Known;
+use super::session::{Known, finding};
 use crate::study::convergence::judge_plan::largest_exact;
 use crate::study::exact_motion::Extremes;
 use crate::study::preflight::undamped;
@@ -64,14 +64,9 @@ pub(super) fn coarse(known: &Known<'_>) -> Option<KnownCause> {
     if order.is_none() {
         remedy += ", and add finer levels";
     }
-    Some(KnownCause {
-        kind: KnownCauseKind::CoarseLevels,
-        cause: "the first levels are too coarse".to_owned(),
-        evidence: evidence + &resolution.map_or(String::new(), |(_, text)| text),
-        remedy: Some(remedy),
-        order,
-        explains: true,
-    })
+    let evidence = evidence + &resolution.map_or(String::new(), |(_, text)| text);
+    let cause = "the first levels are too coarse";
+    Some(KnownCause { order, ..finding(KnownCauseKind::CoarseLevels, cause, evidence, remedy) })
 }
 
 fn rise(levels: &[&LevelOutcome], p: f64) -> Option<(f64, f64)> {
@@ -114,18 +109,14 @@ pub(super) fn undamped(known: &Known<'_>) -> Option<KnownCause> {
     });
     let is_external = matches!(case.method, Method::External { .. });
     let unless = if is_external { ", unless the solver itself does" } else { "" };
-    Some(KnownCause {
-        kind: KnownCauseKind::NoDamping,
-        cause: format!("nothing removes energy{unless}; the body oscillates about its equilibrium"),
-        evidence: format!(
-            "The largest displacement of the equilibrium is {size:.3e} m, and the error on the \
-             finest level is {:.3e}.{speed}",
-            finest.error
-        ),
-        remedy: Some(undamped::HELP.to_owned()),
-        order: None,
-        explains: true,
-    })
+    let cause =
+        format!("nothing removes energy{unless}; the body oscillates about its equilibrium");
+    let evidence = format!(
+        "The largest displacement of the equilibrium is {size:.3e} m, and the error on the finest \
+         level is {:.3e}.{speed}",
+        finest.error
+    );
+    Some(finding(KnownCauseKind::NoDamping, cause, evidence, undamped::HELP))
 }
 
 pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {

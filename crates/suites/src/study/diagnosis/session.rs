@@ -11,7 +11,10 @@ use crate::suite::model::method::Method;
 use crate::suite::model::refine_plan::{Extent, LevelPlan};
 use crate::suite::model::{Case, ConvergencePlan};
 use crate::suite::yaml::{Diagnostic, NumberText, OneOrMany, Source};
-use crate::verify::{Axis, Convergence, Judgement, Level, LevelOutcome, OrderHypothesis, judge};
+use crate::verify::{
+    Axis, Convergence, Judgement, KnownCause, KnownCauseKind, Level, LevelOutcome, OrderHypothesis,
+    judge,
+};
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
@@ -97,6 +100,17 @@ pub(super) struct Known<'a> {
     pub(super) plan: &'a ConvergencePlan,
     pub(super) levels: &'a [LevelOutcome],
     pub(super) finest: &'a Judgement,
+}
+
+/// Returns a cause that explains the observed order.
+pub(super) fn finding(
+    kind: KnownCauseKind,
+    cause: impl Into<String>,
+    evidence: String,
+    remedy: impl Into<String>,
+) -> KnownCause {
+    let (cause, remedy) = (cause.into(), Some(remedy.into()));
+    KnownCause { kind, cause, evidence, remedy, order: None, explains: true }
 }
 
 pub(super) fn only(plan: &ConvergencePlan, case: &Case, levels: &[LevelPlan]) -> ConvergencePlan {

@@ -1,6 +1,6 @@
 //! Findings about particles outside the grid and about moving walls.
 
-use super::session::{Known, Session, accepts_grid, only, refusal};
+use super::session::{Known, Session, accepts_grid, finding, only, refusal};
 use crate::exact::Problem;
 use crate::mpm::FrameName;
 use crate::study::exact_motion::{Extremes, raster};
@@ -48,24 +48,19 @@ fn moving_wall(known: &Known<'_>) -> Option<KnownCause> {
     let length = plan.scene.to[face.axis] - plan.scene.from[face.axis];
     let follows = follows_in_total_frame(known);
     let or_frame = if follows { ", or use `frame: total_lagrangian`" } else { "" };
-    Some(KnownCause {
-        kind: KnownCauseKind::OutsideGrid,
-        cause: format!(
-            "the {} wall moves along its normal, but walls are fixed at the end of the grid",
-            face.name
-        ),
-        evidence: format!(
-            "It moves by {path:.3e} m, {:.2} times the length of the body and {:.1} cells of the \
-             finest level.",
-            path / length,
-            path / finest
-        ),
-        remedy: Some(format!(
-            "let the wall move only along its surface, or by less than a cell{or_frame}"
-        )),
-        order: None,
-        explains: true,
-    })
+    let evidence = format!(
+        "It moves by {path:.3e} m, {:.2} times the length of the body and {:.1} cells of the \
+         finest level.",
+        path / length,
+        path / finest
+    );
+    let cause = format!(
+        "the {} wall moves along its normal, but walls are fixed at the end of the grid",
+        face.name
+    );
+    let remedy =
+        format!("let the wall move only along its surface, or by less than a cell{or_frame}");
+    Some(finding(KnownCauseKind::OutsideGrid, cause, evidence, remedy))
 }
 
 /// Returns the largest distance (m) by which a face moves along its normal until time `until` (s).
@@ -126,18 +121,14 @@ fn beyond_the_grid(known: &Known<'_>, level: LevelPlan) -> Option<KnownCause> {
     let (from, to): (Vec<f64>, Vec<f64>) = larger.into_iter().unzip();
     let is_accepted = accepts_grid(known.session.source, &from, &to);
     let grid = if is_accepted { "a larger `grid` in `scene`, or " } else { "" };
-    Some(KnownCause {
-        kind: KnownCauseKind::OutsideGrid,
-        cause: "the grid ends where the body moves to".to_owned(),
-        evidence: format!(
-            "The exact motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
-             extends from {start:.4} to {end:.4} m.",
-            level.cells
-        ),
-        remedy: Some(format!("{grid}a smaller motion")),
-        order: None,
-        explains: true,
-    })
+    let evidence = format!(
+        "The exact motion takes {name} from {low:.4} to {high:.4} m, and with {} cells the grid \
+         extends from {start:.4} to {end:.4} m.",
+        level.cells
+    );
+    let (cause, remedy) =
+        ("the grid ends where the body moves to", format!("{grid}a smaller motion"));
+    Some(finding(KnownCauseKind::OutsideGrid, cause, evidence, remedy))
 }
 
 pub(super) fn particle_on_wall(
@@ -155,22 +146,16 @@ pub(super) fn particle_on_wall(
         let is_on_wall = |x: &&f64| ((**x - start).min(end - **x)).abs() <= ROUNDING * level.h;
         let Some(x) = coordinates.clone().find(is_on_wall) else { continue };
         let name = ["x", "y", "z"][axis];
-        return Some(KnownCause {
-            kind: KnownCauseKind::OutsideGrid,
-            cause: "particles start on a wall, where rounding decides whether they are in the grid"
-                .to_owned(),
-            evidence: format!(
-                "With {} cells a particle starts at {name} = {x} m, and the grid extends from \
-                 {start} to {end} m.",
-                level.cells
-            ),
-            remedy: Some(
-                "place the particles inside the body: a smaller `shift` in `particles`, or none"
-                    .to_owned(),
-            ),
-            order: None,
-            explains: true,
-        });
+        let cause =
+            "particles start on a wall, where rounding decides whether they are in the grid";
+        let evidence = format!(
+            "With {} cells a particle starts at {name} = {x} m, and the grid extends from \
+             {start} to {end} m.",
+            level.cells
+        );
+        let remedy =
+            "place the particles inside the body: a smaller `shift` in `particles`, or none";
+        return Some(finding(KnownCauseKind::OutsideGrid, cause, evidence, remedy));
     }
     None
 }
