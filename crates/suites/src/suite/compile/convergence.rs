@@ -31,9 +31,9 @@ pub(crate) fn convergence_plan(
         .as_ref()
         .map(|text| evaluator.top("judge.scale").positive(text, "the scale of the error"));
     let RunPlan { until, refine, levels, instants, scatter } = run;
-    let StatedTruth { exact, conduction, survey, places } = truth;
+    let StatedTruth { exact, conduction, survey, within, observe } = truth;
     let mut plan = ConvergencePlan {
-        observe: places.observe,
+        observe,
         scene: draft.scene,
         exact,
         conduction,
@@ -46,7 +46,7 @@ pub(crate) fn convergence_plan(
         norm: spec.judge.norm,
         of: spec.judge.of,
         sum: None,
-        within: places.within,
+        within,
         scale: scale.transpose()?,
         scale_formula: spec
             .judge

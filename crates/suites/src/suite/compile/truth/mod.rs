@@ -14,8 +14,9 @@ use crate::suite::grammar::{EquationName, ExactSpec, ExpectSpec};
 use crate::suite::model::{Scene, SceneFace};
 use crate::suite::scene::load::{EffectName, LoadTarget};
 use crate::suite::yaml::{Diagnostic, NumberText};
+use crate::verify::JudgedBox;
 use conduction::ConductionInputs;
-use places::{JudgedPlaces, places, without_distant_faces};
+use places::{places, without_distant_faces};
 use tolerance::{TOLERANCE, no_solution, tolerances, violated};
 
 /// Maximum number of operations in a formula, which is evaluated about 30000 times.
@@ -28,7 +29,9 @@ pub(crate) struct StatedTruth {
     pub(crate) conduction: Option<Conduction>,
     /// Sampled positions and largest terms of the exact motion; `None` for several bodies.
     pub(crate) survey: Option<Survey>,
-    pub(crate) places: JudgedPlaces,
+    pub(crate) within: Option<JudgedBox>,
+    /// The observed point (m).
+    pub(crate) observe: Option<Vec<f64>>,
 }
 
 /// Compiles the solution of runs that end at `until` (s) at the latest. It is checked later.
@@ -38,15 +41,15 @@ pub(crate) fn truth(draft: &StudyDraft<'_>, until: f64) -> Result<StatedTruth, D
         Some(_) => None,
         None => exact(draft, until)?,
     };
-    let places = places(draft, exact.as_ref())?;
+    let (within, observe) = places(draft, exact.as_ref())?;
     let survey = exact.as_ref().filter(|exact| exact.bodies.is_empty()).map(Survey::new);
-    let exact = match (&places.within, exact, &survey) {
+    let exact = match (&within, exact, &survey) {
         (Some(within), Some(exact), Some(survey)) => {
             Some(without_distant_faces(draft.evaluator, within, exact, survey)?)
         }
         (_, exact, _) => exact,
     };
-    Ok(StatedTruth { exact, conduction, survey, places })
+    Ok(StatedTruth { exact, conduction, survey, within, observe })
 }
 
 fn exact(draft: &StudyDraft<'_>, until: f64) -> Result<Option<Problem>, Diagnostic> {

@@ -15,16 +15,10 @@ use crate::verify::{JudgedBox, format_number};
 
 const MOTION: &str = "state the solution under `exact`, or remove `within`";
 
-pub(crate) struct JudgedPlaces {
-    pub(crate) within: Option<JudgedBox>,
-    /// The observed point (m).
-    pub(crate) observe: Option<Vec<f64>>,
-}
-
 pub(crate) fn places(
     draft: &StudyDraft<'_>,
     exact: Option<&Problem>,
-) -> Result<JudgedPlaces, Diagnostic> {
+) -> Result<(Option<JudgedBox>, Option<Vec<f64>>), Diagnostic> {
     let observe = draft.spec.observe.as_ref().map(|spec| observed(draft, spec)).transpose()?;
     let within = judged_box(draft, exact)?;
     if let (Some(within), Some(place)) = (&within, &observe)
@@ -34,7 +28,7 @@ pub(crate) fn places(
         let diagnostic = path.diagnostic("the observed point is outside `judge.within`");
         return Err(diagnostic.with_label(&format!("expected a point in {}", within.words())));
     }
-    Ok(JudgedPlaces { within, observe })
+    Ok((within, observe))
 }
 
 fn judged_box(

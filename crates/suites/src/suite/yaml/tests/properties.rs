@@ -105,18 +105,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn no_text_panics(text in any::<String>()) {
-        survives(&text);
-    }
-
-    #[test]
-    fn no_yaml_like_text_panics(text in yaml_like()) {
-        survives(&text);
-    }
-
-    #[test]
-    fn no_changed_suite_panics(text in mutated()) {
-        survives(&text);
+    fn no_text_panics(texts in (any::<String>(), yaml_like(), mutated())) {
+        [texts.0, texts.1, texts.2].iter().for_each(|text| survives(text));
     }
 
     /// The parser of positions refuses only unsupported features and text that YAML 1.2 does not

@@ -7,7 +7,6 @@ use crate::mpm::Quadrilateral;
 use crate::subject::PlaneState;
 use crate::suite::evaluator::{SuitePath, shown};
 use crate::suite::grammar::{AnnulusSpec, BodySpec, BoxSpec, RoundSpec, SceneSpec};
-use crate::suite::scene::{LONGEST, SHORTEST};
 use crate::suite::yaml::{Diagnostic, NumberText};
 use std::sync::Arc;
 
@@ -134,12 +133,8 @@ pub(crate) fn corners(
         }
         // Second derivatives contain the square of the length, and volumes its cube.
         let length = to[axis] - from[axis];
-        if !(SHORTEST..=LONGEST).contains(&length) {
-            let message = format!("the box is {} m long", shown(length));
-            let diagnostic = path.then("to").then(axis).diagnostic(&message);
-            let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
-            return Err(diagnostic.with_label(&label));
-        }
+        let message = format!("the box is {} m long", shown(length));
+        polygon::in_range(&path.then("to").then(axis), length, "length", &message)?;
     }
     Ok((from, to))
 }
@@ -170,10 +165,6 @@ fn filled(
 
 fn radius(path: &SuitePath<'_>, text: &NumberText) -> Result<f64, Diagnostic> {
     let radius = path.positive(text, "the radius")?;
-    if (SHORTEST..=LONGEST).contains(&radius) {
-        return Ok(radius);
-    }
     let message = format!("the radius is {} m", shown(radius));
-    let label = format!("expected a length from {SHORTEST:e} to {LONGEST:e}");
-    Err(path.diagnostic(&message).with_label(&label))
+    polygon::in_range(path, radius, "length", &message).map(|()| radius)
 }

@@ -42,12 +42,9 @@ fn corners(path: &SuitePath<'_>, texts: &[Vec<NumberText>]) -> Result<Vec<[f64; 
         let corner = [place[0], place[1]];
         for (k, other) in corners.iter().enumerate() {
             let length = libm::hypot(corner[0] - other[0], corner[1] - other[1]);
-            if !(SHORTEST..=LONGEST).contains(&length) {
-                let (first, second, length) = (k + 1, i + 1, shown(length));
-                let message = format!("corners {first} and {second} are {length} m apart");
-                let label = format!("expected a distance from {SHORTEST:e} to {LONGEST:e}");
-                return Err(at.diagnostic(&message).with_label(&label));
-            }
+            let (first, second) = (k + 1, i + 1);
+            let message = format!("corners {first} and {second} are {} m apart", shown(length));
+            in_range(&at, length, "distance", &message)?;
         }
         corners.push(corner);
     }
@@ -108,4 +105,17 @@ pub(super) fn faces_are_sides(
         }
     }
     Ok(())
+}
+
+/// Refuses a length (m) whose powers underflow or overflow.
+pub(super) fn in_range(
+    path: &SuitePath<'_>,
+    length: f64,
+    what: &str,
+    message: &str,
+) -> Result<(), Diagnostic> {
+    if (SHORTEST..=LONGEST).contains(&length) {
+        return Ok(());
+    }
+    path.expected(&format!("a {what} from {SHORTEST:e} to {LONGEST:e}"), message)
 }
