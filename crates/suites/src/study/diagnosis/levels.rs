@@ -130,20 +130,14 @@ pub(super) fn another_problem(known: &Known<'_>) -> Option<KnownCause> {
     let size = largest_exact(plan, case, plan.exact.as_ref()?);
     let are_errors = errors().all(f64::is_finite);
     let is_whole = are_errors && least >= WHOLE * size && most <= CONSTANT * least && size > 0.0;
-    is_whole.then(|| KnownCause {
-        kind: KnownCauseKind::AnotherProblem,
-        cause: "the solver solves another problem: its errors are as large as the solution on all levels"
-            .to_owned(),
-        evidence: format!(
-            "The errors lie between {least:.3e} and {most:.3e} on all levels, and the largest exact value \
-             is {size:.3e}. Discretisation errors would fall with the cell size."
-        ),
-        remedy: Some(
-            "`mpm-verify doctor` with the same `--solver`, which looks for such faults: signs and factors \
-             of loads, mass, volume and stiffness, and boundary conditions"
-                .to_owned(),
-        ),
-        order: None,
-        explains: true,
-    })
+    is_whole.then_some(())?;
+    let cause = "the solver solves another problem: its errors are as large as the solution on all \
+                 levels";
+    let evidence = format!(
+        "The errors lie between {least:.3e} and {most:.3e} on all levels, and the largest exact \
+         value is {size:.3e}. Discretisation errors would fall with the cell size."
+    );
+    let remedy = "`mpm-verify doctor` with the same `--solver`, which looks for such faults: signs \
+                  and factors of loads, mass, volume and stiffness, and boundary conditions";
+    Some(finding(KnownCauseKind::AnotherProblem, cause, evidence, remedy))
 }

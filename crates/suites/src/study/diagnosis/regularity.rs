@@ -3,7 +3,7 @@
 //! The derivatives are computed from the formulas. If two points approach each other, the
 //! difference of their values remains at a jump, but vanishes on a steep slope.
 
-use super::session::Known;
+use super::session::{Known, finding};
 use crate::exact::{Derivatives, Problem};
 use crate::suite::grammar::NormName;
 use crate::suite::model::{Against, ConvergencePlan};
@@ -93,21 +93,18 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
     let manufactured = plan.manufactured().is_some() && jump < 2;
     let lacking = " The manufactured body force lacks the concentrated force at the kink, so the \
                    solver solves another problem.";
-    Some(KnownCause {
-        kind: KnownCauseKind::NotSmooth,
-        cause,
-        evidence: if manufactured { evidence + lacking } else { evidence },
-        remedy: Some(if manufactured {
-            "a manufactured displacement without a kink".to_owned()
-        } else {
-            format!(
-                "expect an order of about {limit:.2} or less, or use an initial state and loads that \
-                 give a smooth solution"
-            )
-        }),
-        order: None,
-        explains: observed.is_some_and(|order| order.value >= limit - BELOW),
-    })
+    let remedy = if manufactured {
+        "a manufactured displacement without a kink".to_owned()
+    } else {
+        format!(
+            "expect an order of about {limit:.2} or less, or use an initial state and loads that \
+             give a smooth solution"
+        )
+    };
+    let evidence = if manufactured { evidence + lacking } else { evidence };
+    let explains = observed.is_some_and(|order| order.value >= limit - BELOW);
+    let found = finding(KnownCauseKind::NotSmooth, cause, evidence, remedy);
+    Some(KnownCause { explains, ..found })
 }
 
 /// Times at which the solution is examined, as fractions of the run.

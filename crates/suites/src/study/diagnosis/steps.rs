@@ -1,6 +1,6 @@
 //! Checks for time steps that are longer than the stable step on some or all levels.
 
-use super::session::{Known, accepts_step, only};
+use super::session::{Known, accepts_step, finding, only};
 use crate::study::exact_motion::Extremes;
 use crate::suite::grammar::StepSpec;
 use crate::suite::model::ConvergencePlan;
@@ -68,14 +68,9 @@ pub(super) fn check(known: &Known<'_>) -> Option<KnownCause> {
         name(last),
         last.after.error
     );
-    Some(KnownCause {
-        kind: KnownCauseKind::UnstableStep,
-        cause: format!("the step is longer than the stable step, {place}"),
-        evidence,
-        remedy: Some(remedy(known)),
-        order,
-        explains: true,
-    })
+    let cause = format!("the step is longer than the stable step, {place}");
+    let remedy = remedy(known);
+    Some(KnownCause { order, ..finding(KnownCauseKind::UnstableStep, cause, evidence, remedy) })
 }
 
 impl Mended<'_> {
