@@ -24,8 +24,8 @@ pub(crate) fn expectations(
 ) -> Result<Vec<Option<CaseExpectation>>, Diagnostic> {
     let (evaluator, spec, plan) = (study.evaluator, &study.spec.expect, study.plan);
     let names: Vec<String> = plan.cases.iter().map(|case| case.name.clone()).collect();
-    let selectors = spec.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, selectors, &names)?;
+    let selectors: Vec<_> = spec.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
     let both = |(i, spec): (usize, &ExpectSpec)| {
         let path = evaluator.top("expect").then(i);
         Ok((expectation(&path, spec, plan)?, in_full(&path, spec, plan)?))
@@ -45,7 +45,7 @@ pub(crate) fn expectations(
 /// Returns for each case the index of its only entry of `expect`; `None` without entries.
 pub(crate) fn assign(
     evaluator: &Evaluator<'_>,
-    selectors: Vec<Option<&OneOrMany<String>>>,
+    selectors: &[Option<&OneOrMany<String>>],
     names: &[String],
 ) -> Result<Vec<Option<usize>>, Diagnostic> {
     if selectors.is_empty() {

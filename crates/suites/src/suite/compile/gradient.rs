@@ -66,6 +66,9 @@ fn refuse_unfit_problem(draft: &GradientDraft<'_>) -> Result<(), Diagnostic> {
     let is_displacement =
         truth.is_some_and(|truth| truth.displacement.is_some() && truth.temperature.is_none());
     let has_several_ends = spec.run.until.as_ref().is_some_and(|until| until.as_slice().len() > 1);
+    let is_displaced = !scene.initial_displacement.is_empty();
+    let is_stressed = !scene.initial_stress.is_none();
+    let has_instants = spec.run.instants.is_some();
     let (study, body) = ("a gradient study", "the body of a gradient study");
     let (exact, step) =
         ("the exact solution of a gradient study", "the time step of a gradient study");
@@ -73,27 +76,12 @@ fn refuse_unfit_problem(draft: &GradientDraft<'_>) -> Result<(), Diagnostic> {
         (!scene.bodies.is_empty(), "scene.bodies", study, "supports a single body only"),
         (scene.outline.is_some(), "scene.body", body, "must be a box"),
         (scene.plane != PlaneState::Strain, "scene.plane", study, "must be in plane strain"),
-        (
-            !scene.initial_displacement.is_empty(),
-            "scene.initial_displacement",
-            body,
-            "must start undeformed",
-        ),
+        (is_displaced, "scene.initial_displacement", body, "must start undeformed"),
         (scene.density.uniform().is_none(), "scene.material", body, "must have a uniform density"),
-        (
-            !scene.initial_stress.is_none(),
-            "scene.initial_stress",
-            body,
-            "must start without stress",
-        ),
+        (is_stressed, "scene.initial_stress", body, "must start without stress"),
         (has_several_ends, "run.until", study, "must have a single end time"),
         (spec.run.load_steps.is_some(), "run.load_steps", study, "does not support load steps"),
-        (
-            spec.run.instants.is_some(),
-            "run.instants",
-            study,
-            "uses the state at the end of the run only",
-        ),
+        (has_instants, "run.instants", study, "uses the state at the end of the run only"),
         (!is_displacement, key, exact, "must be a displacement"),
         (problem.refine.axis != Axis::Space, "refine", study, "must refine `cells`"),
         (problem.refine.rule.is_some(), "run.dt", step, "must not depend on the method"),
@@ -343,8 +331,8 @@ fn cases(
     let of_solver = |solver: &Case| plan.cases_of(&solver.name, solver);
     let cases: Vec<GradientCase> = plan.problem.cases.iter().flat_map(of_solver).collect();
     let names: Vec<String> = cases.iter().map(|case| case.name.clone()).collect();
-    let selectors = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, selectors, &names)?;
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
     let stated = spec.expect.iter().enumerate().map(|(i, spec)| terms(evaluator, i, spec));
     let stated = stated.collect::<Result<Vec<(GradientTerms, String)>, _>>()?;
     let expected = owners.into_iter().map(|owner| Some(stated[owner?].clone()));

@@ -57,8 +57,8 @@ fn cases(
         let message = format!("the case `{}` appears twice", twice.1);
         return Err(evaluator.top("methods").diagnostic(&message));
     }
-    let selectors = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, selectors, &names)?;
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
     let case = |((basis, name), owner): ((BasisName, String), Option<usize>)| {
         let (mut expected, mut because) = (None, String::new());
         if let Some(owner) = owner {

@@ -171,8 +171,8 @@ fn cases(
     let curves = named.iter().map(|named| curve(&named.path(evaluator), named.method, plan));
     let curves = curves.collect::<Result<Vec<_>, Diagnostic>>()?;
     let names: Vec<String> = named.iter().map(NamedMethod::name).collect();
-    let selectors = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, selectors, &names)?;
+    let selectors: Vec<_> = spec.expect.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
     let expected = spec.expect.iter().enumerate().map(|(i, spec)| expectation(evaluator, i, spec));
     let expected = expected.collect::<Result<Vec<_>, Diagnostic>>()?;
     let case = |((named, curve), owner): ((NamedMethod, WaveMethod), Option<usize>)| {

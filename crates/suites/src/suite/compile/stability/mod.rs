@@ -44,8 +44,8 @@ pub(crate) fn plan(
     let rows: Vec<Vec<(&str, f64)>> = values.iter().map(|value| vec![(&*swept, *value)]).collect();
     let (of_cases, has_any) = split(evaluator, spec)?;
     let names: Vec<String> = methods.iter().map(NamedMethod::name).collect();
-    let selectors = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
-    let owners = assign(evaluator, selectors, &names)?;
+    let selectors: Vec<_> = of_cases.iter().map(|spec| spec.case.as_ref()).collect();
+    let owners = assign(evaluator, &selectors, &names)?;
     let entries = (0..spec.expect.len()).map(|i| entry(evaluator, &template, i, &rows));
     let entries = entries.collect::<Result<Vec<RowExpectations>, Diagnostic>>()?;
     let case = |(named, owner): (NamedMethod, Option<usize>)| {
