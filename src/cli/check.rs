@@ -48,7 +48,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
         let (source, mut suite) = found?;
         let mut lacks = Vec::new();
         if let Some(solver) = &solver {
-            match study::under(&suite, solver, None) {
+            match study::under(&suite, solver, false) {
                 Some(under_solver) if under_solver.case_names().is_empty() => {
                     lacks
                         .push("a case: each solution applies to a built-in method only".to_owned());

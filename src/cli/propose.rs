@@ -54,7 +54,7 @@ fn of_suite(
         || CommandError::about(name, "it examines the internals of the built-in methods");
     let suite = match solver {
         None => suite,
-        Some(solver) => &under(suite, solver, None).ok_or_else(looks_inside)?,
+        Some(solver) => &under(suite, solver, false).ok_or_else(looks_inside)?,
     };
     let exploring = suite.without_expectations().ok_or_else(|| {
         CommandError::about(name, "expectations are proposed for convergence studies only")

@@ -3,7 +3,7 @@
 use super::arguments::{SolverArgs, SolverCommand, SolverLimitArgs, SolversArgs};
 use super::output::{self, CommandError};
 use mpm_verify::external::{ProgramLimits, SolverFactory, SolverProgram};
-use mpm_verify::study::under;
+use mpm_verify::study::under_on;
 use mpm_verify::suite::{GateTerms, Suite};
 use mpm_verify::verify::SuiteOutcome;
 use std::collections::BTreeSet;
@@ -74,7 +74,7 @@ fn suite_of_solver(
     solver: &dyn SolverFactory,
     terms: Option<&GateTerms>,
 ) -> Option<Suite> {
-    let judged = under(suite, solver, terms);
+    let judged = under_on(suite, solver, terms);
     if judged.is_none() {
         let why = "skipped, because it examines the internals of the built-in methods";
         output::complain(&format!("note: {}: {why}", suite.name));

@@ -49,7 +49,7 @@ fn required(name: &str, solver: &dyn SolverFactory) -> Option<Vec<String>> {
     let suite = Suite::load(&embedded::source(name)?.ok()?.trusted()).ok()?;
     let needs = needs_of_suite(&suite)?;
     let can_run =
-        solver.lacks(&needs).is_empty() && !under(&suite, solver, None)?.case_names().is_empty();
+        solver.lacks(&needs).is_empty() && !under(&suite, solver, false)?.case_names().is_empty();
     can_run.then(|| Capabilities::default().lacking(&needs))
 }
 

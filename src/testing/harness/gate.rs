@@ -5,7 +5,7 @@ use crate::external::SolverFactory;
 use crate::report;
 use crate::study::{Runner, lacking, under};
 use crate::suite::yaml::Source;
-use crate::suite::{GateTerms, Suite, violations};
+use crate::suite::{Suite, violations};
 use crate::testing::conformance::examined;
 use crate::verify::{CaseOutcome, SuiteOutcome};
 use insta::{Comparator, Settings, Snapshot, assert_snapshot};
@@ -112,8 +112,8 @@ impl Gate {
 
 /// Returns `suite` with `solver` in place of its methods.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
-    let suite = under(suite, solver, Some(&GateTerms::default()))
-        .ok_or("the suite examines internals of the built-in methods")?;
+    let suite =
+        under(suite, solver, true).ok_or("the suite examines internals of the built-in methods")?;
     match lacking(&suite, solver) {
         lacks if lacks.is_empty() => Ok(suite),
         lacks => Err(format!("the solver lacks {}", lacks.join(", "))),

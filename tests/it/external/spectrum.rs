@@ -4,8 +4,8 @@ use mpm_verify::embedded;
 use mpm_verify::external::{LevelProblem, SolverFactory};
 use mpm_verify::study::{Runner, under};
 use mpm_verify::subject::{Failure, Precision, RunCounters, Samples, Subject, SubjectError};
+use mpm_verify::suite::Suite;
 use mpm_verify::suite::yaml::Source;
-use mpm_verify::suite::{GateTerms, Suite};
 use mpm_verify::verify::CaseOutcome;
 use std::f64::consts::TAU;
 
@@ -76,8 +76,7 @@ fn suite() -> Suite {
 }
 
 fn outcome(solver: &Waves, gate: bool) -> CaseOutcome {
-    let suite = under(&suite(), solver, gate.then(GateTerms::default).as_ref())
-        .expect("a study of external solvers");
+    let suite = under(&suite(), solver, gate).expect("a study of external solvers");
     assert_eq!(suite.case_names(), [solver.name]);
     Runner::new(&suite).judging(solver).case(0, &|| ())
 }

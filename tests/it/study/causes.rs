@@ -108,7 +108,7 @@ impl SolverFactory for External {
 fn external_diagnosis(text: &str, budget: f64) -> Diagnosis {
     let (source, suite) = load(text);
     let solver = External(suite.clone());
-    let suite = under(&suite, &solver, None).expect("a convergence study");
+    let suite = under(&suite, &solver, false).expect("a convergence study");
     diagnose(&suite, &source, 0, budget, Some(&solver)).expect("a run").expect("an order")
 }
 

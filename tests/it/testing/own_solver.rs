@@ -38,7 +38,7 @@ fn errors(outcome: &CaseOutcome) -> Vec<f64> {
 )]
 fn example_solver_has_the_errors_of_the_built_in_solver(#[case] text: String) {
     let ours = suite(&text);
-    let theirs = under(&ours, &OwnSolver, None).expect("a convergence study");
+    let theirs = under(&ours, &OwnSolver, false).expect("a convergence study");
     let ours = errors(&Runner::new(&ours).case(0, &|| ()));
     let outcome = Runner::new(&theirs).judging(&OwnSolver).case(0, &|| ());
     let theirs = errors(&outcome);

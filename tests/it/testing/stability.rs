@@ -4,7 +4,6 @@ use super::own_solver::solver::Bar;
 use super::own_solver::{OwnSolver, suite};
 use mpm_verify::prelude::*;
 use mpm_verify::study::lacking;
-use mpm_verify::suite::GateTerms;
 use mpm_verify::verify::StabilityRow;
 use rstest::rstest;
 
@@ -106,8 +105,7 @@ impl SolverFactory for Silent {
 }
 
 fn judged(text: &str, solver: &dyn SolverFactory) -> CaseOutcome {
-    let theirs =
-        under(&suite(text), solver, Some(&GateTerms::default())).expect("a study of a solver");
+    let theirs = under(&suite(text), solver, true).expect("a study of a solver");
     Runner::new(&theirs).judging(solver).case(0, &|| ())
 }
 

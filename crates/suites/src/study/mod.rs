@@ -34,6 +34,7 @@ pub use setup::dispatch::subject;
 pub use self::{
     convergence::time_steps::{PlannedLevel, TimeStep, planned_levels, time_steps},
     exact_motion::Linearisation,
+    handover::under_on,
     kind::{Progress, StepWarning, needs_of_suite, statement},
     preflight::{Estimate, unit_seconds},
     time_series::{SeriesError, SeriesFile},

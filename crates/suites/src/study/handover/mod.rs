@@ -7,7 +7,7 @@ mod particles;
 
 pub use initial::level_problem;
 pub(crate) use initial::{HandedRun, problem};
-pub use needs::{lacking, needs, under};
+pub use needs::{lacking, needs, under, under_on};
 pub(crate) use needs::{of_scene, subject_under};
 pub use particles::exact_state;
 pub(crate) use particles::{is_deformed, start, unloaded};

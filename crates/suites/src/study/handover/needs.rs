@@ -68,10 +68,16 @@ pub fn lacking(suite: &Suite, solver: &dyn SolverFactory) -> Vec<String> {
     study(suite).needs().map_or(Vec::new(), |needs| solver.lacks(&needs))
 }
 
+/// Replaces the methods of the suite by `solver`. If `gate` is true, the cases get the requirements
+/// of `run --gate` (see [`Suite::of_external`]).
+pub fn under(suite: &Suite, solver: &dyn SolverFactory, gate: bool) -> Option<Suite> {
+    under_on(suite, solver, gate.then(GateTerms::default).as_ref())
+}
+
 /// Replaces the methods of the suite by `solver`. If `terms` are given, the cases get the
 /// requirements of `run --gate`, as modified by these terms of the solver's author. If no body
 /// deforms, the law may be replaced by one that the solver supports.
-pub fn under(
+pub fn under_on(
     suite: &Suite,
     solver: &dyn SolverFactory,
     terms: Option<&GateTerms>,
