@@ -2,6 +2,7 @@
 
 use crate::external::LevelProblem;
 use crate::subject::{Samples, Subject};
+use nalgebra::Vector3;
 
 /// The states of a run, starting with the initial state.
 pub(super) struct Course {
@@ -41,16 +42,11 @@ impl Course {
     pub(super) fn start(&mut self, displacement: &AffineField, velocity: &AffineField) {
         let d = self.problem.dimension;
         let Some(samples) = self.states.first_mut() else { return };
-        let labels: Vec<[f64; 3]> = samples
-            .label
-            .chunks_exact(d)
-            .map(|label| std::array::from_fn(|i| label.get(i).copied().unwrap_or_default()))
-            .collect();
         let at_labels = |field: &AffineField| {
-            labels.iter().flat_map(|label| field.at(*label).into_iter().take(d)).collect()
+            let labels = samples.label.chunks_exact(d).map(vector);
+            labels.flat_map(|label| field.at(label).data.0[0].into_iter().take(d)).collect()
         };
-        samples.displacement = at_labels(displacement);
-        samples.velocity = at_labels(velocity);
+        (samples.displacement, samples.velocity) = (at_labels(displacement), at_labels(velocity));
     }
 
     pub(super) fn last(&self) -> usize {
@@ -80,27 +76,25 @@ impl Course {
     }
 
     /// Returns the mean over the body of a vector column in state `k`.
-    pub(super) fn mean(&self, field: Field, k: usize) -> [f64; 3] {
-        let (samples, d) = (&self.states[k], self.problem.dimension);
-        let (mut sum, mut all) = ([0.0; 3], 0.0);
-        for (p, weight) in samples.weight.iter().enumerate() {
+    pub(super) fn mean(&self, field: Field, k: usize) -> Vector3<f64> {
+        let (mut sum, mut all) = (Vector3::zeros(), 0.0);
+        for ((_, vector), weight) in self.points(field, k).zip(&self.states[k].weight) {
+            sum += vector * *weight;
             all += weight;
-            for i in 0..d {
-                sum[i] += weight * field(samples)[p * d + i];
-            }
         }
-        sum.map(|sum| sum / all)
+        sum / all
     }
 
     /// Returns the largest difference between `wanted` and the vector of any point in state `k`.
-    pub(super) fn farthest(&self, field: Field, k: usize, wanted: [f64; 3]) -> f64 {
-        self.points(field, k).map(|(_, vector)| size(minus(vector, wanted))).fold(0.0, f64::max)
+    pub(super) fn farthest(&self, field: Field, k: usize, wanted: impl Into<Vector3<f64>>) -> f64 {
+        let wanted = wanted.into();
+        self.points(field, k).map(|(_, vector)| (vector - wanted).norm()).fold(0.0, f64::max)
     }
 
     /// Returns the largest change of a displacement in the first step (m).
     pub(super) fn first_motion(&self) -> f64 {
         let pairs = self.points(displacement, 0).zip(self.points(displacement, 1));
-        pairs.map(|((_, a), (_, b))| size(minus(b, a))).fold(0.0, f64::max)
+        pairs.map(|((_, a), (_, b))| (b - a).norm()).fold(0.0, f64::max)
     }
 
     /// Returns the label of every point and its vector in state `k`; missing components are zero.
@@ -108,13 +102,19 @@ impl Course {
         &self,
         field: Field,
         k: usize,
-    ) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+    ) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> {
         let (samples, d) = (&self.states[k], self.problem.dimension);
-        let vector = move |column: &[f64], p: usize| {
-            std::array::from_fn(|i| if i < d { column[p * d + i] } else { 0.0 })
-        };
-        (0..samples.len()).map(move |p| (vector(&samples.label, p), vector(field(samples), p)))
+        samples
+            .label
+            .chunks_exact(d)
+            .zip(field(samples).chunks_exact(d))
+            .map(|(x, v)| (vector(x), vector(v)))
     }
+}
+
+/// Returns a vector with these components; missing components are zero.
+fn vector(components: &[f64]) -> Vector3<f64> {
+    Vector3::from_fn(|i, _| components.get(i).copied().unwrap_or_default())
 }
 
 /// Fits a least-squares line `y = a + b x`. Returns a, b, and the largest distance from the line.
@@ -142,8 +142,8 @@ pub(super) fn shown(x: f64) -> String {
     }
 }
 
-pub(super) fn shown_vector(x: [f64; 3], dimension: usize) -> String {
-    shown_list(&x[..dimension])
+pub(super) fn shown_vector(x: Vector3<f64>, dimension: usize) -> String {
+    shown_list(&x.as_slice()[..dimension])
 }
 
 pub(super) fn shown_list(numbers: &[f64]) -> String {
@@ -159,35 +159,19 @@ pub(super) fn transposed(tensor: &[f64], d: usize) -> Vec<f64> {
     (0..d * d).map(|k| tensor[(k % d) * d + k / d]).collect()
 }
 
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(super) fn times(factor: f64, a: [f64; 3]) -> [f64; 3] {
-    a.map(|x| factor * x)
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-pub(super) fn size(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// The vector field `value + gradient (X - centre)` of the reference position X.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct AffineField {
-    pub(super) value: [f64; 3],
+    pub(super) value: Vector3<f64>,
     /// Row i contains the derivatives of component i.
     pub(super) gradient: [[f64; 3]; 3],
     /// Position (m) at which the field has `value`.
-    pub(super) centre: [f64; 3],
+    pub(super) centre: Vector3<f64>,
 }
 
 impl AffineField {
-    pub(super) fn uniform(value: [f64; 3]) -> Self {
-        Self { value, ..Self::default() }
+    pub(super) fn uniform(value: impl Into<Vector3<f64>>) -> Self {
+        Self { value: value.into(), ..Self::default() }
     }
 
     /// Creates a uniform field whose only component is that along `axis`.
@@ -195,9 +179,9 @@ impl AffineField {
         Self::uniform(std::array::from_fn(|i| if i == axis { value } else { 0.0 }))
     }
 
-    pub(super) fn at(&self, place: [f64; 3]) -> [f64; 3] {
-        let from = minus(place, self.centre);
-        std::array::from_fn(|i| {
+    pub(super) fn at(&self, place: Vector3<f64>) -> Vector3<f64> {
+        let from = place - self.centre;
+        Vector3::from_fn(|i, _| {
             (0..3).fold(self.value[i], |sum, j| sum + self.gradient[i][j] * from[j])
         })
     }
@@ -222,9 +206,9 @@ impl AffineField {
     /// Converts the field to other units: multiplies values by `value` and lengths by `length`.
     pub(super) fn scaled(&self, value: f64, length: f64) -> Self {
         Self {
-            value: self.value.map(|x| x * value),
+            value: self.value * value,
             gradient: self.gradient.map(|row| row.map(|x| x * value / length)),
-            centre: self.centre.map(|x| x * length),
+            centre: self.centre * length,
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::study::{level_problem, needs, subject};
 use crate::subject::SubjectError;
 use crate::suite::Suite;
 use crate::suite::yaml::Source;
+use nalgebra::Vector3;
 
 pub(super) type Kind = (usize, &'static str);
 
@@ -182,9 +183,15 @@ impl BoxScene {
         Self { young: SOFT * self.young, ..self.clone() }
     }
 
-    pub(super) fn centre(&self) -> [f64; 3] {
+    pub(super) fn centre(&self) -> Vector3<f64> {
         let (low, high) = &self.body;
-        std::array::from_fn(|i| if i < self.dimension { 0.5 * (low[i] + high[i]) } else { 0.0 })
+        Vector3::from_fn(|i, _| if i < self.dimension { 0.5 * (low[i] + high[i]) } else { 0.0 })
+    }
+
+    /// Returns the uniform field whose components are those of `value` in the space of the body.
+    pub(super) fn uniform(&self, value: [f64; 3]) -> AffineField {
+        let component = |i| if i < self.dimension { value[i] } else { 0.0 };
+        AffineField { value: Vector3::from_fn(|i, _| component(i)), ..AffineField::default() }
     }
 
     /// Returns the field that is zero at the centre of the body and has this gradient.
@@ -207,7 +214,7 @@ impl BoxScene {
     }
 
     /// Whether a reference position is less than `reach` cells from the centre along each axis.
-    pub(super) fn is_central(&self, label: &[f64; 3], reach: f64) -> bool {
+    pub(super) fn is_central(&self, label: &Vector3<f64>, reach: f64) -> bool {
         let centre = self.centre();
         let near = reach * self.h * (1.0 + 1e-9);
         (0..self.dimension).all(|i| (label[i] - centre[i]).abs() <= near)

@@ -4,7 +4,7 @@
 use super::force::ramp;
 use crate::external::ProblemNeeds;
 use crate::testing::doctor::course::{
-    AffineField, Course, Field, displacement, largest_difference, minus, shown, size, velocity,
+    Course, Field, displacement, largest_difference, shown, velocity,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
@@ -24,9 +24,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         let mut scene = BoxScene::of_cells(kind, [0.25; 3], 3.0, 6.0);
-        let mut velocity = [0.25; 3];
-        velocity[kind.0..].fill(0.0);
-        scene.velocity = AffineField::uniform(velocity);
+        scene.velocity = scene.uniform([0.25; 3]);
         BoxScene { steps: STEPS, dt: 0.05, ..scene }
     })?;
     let problem = scene.problem()?;
@@ -122,7 +120,7 @@ fn grouped_under_acceleration(
         let mut scene = BoxScene::of_cells(kind, [0.2625, 0.3875, 0.1375], 3.0, 3.0);
         scene.velocity = scene.linear(|i, j| if i == j { 0.1 } else { 0.0 });
         // Particles change cells at this velocity.
-        scene.velocity.value[..kind.0].fill(1.0);
+        scene.velocity.value = scene.uniform([1.0; 3]).value;
         scene.gravity = gravity.then(|| vec![0.37; kind.0]);
         BoxScene { young: 3.0, steps: STEPS, dt: 0.02, ..scene }
     };
@@ -168,7 +166,7 @@ fn grouped(
     if off.max(speed) <= patient.rounding() && columns <= 1e3 * patient.rounding() {
         return None;
     }
-    let distance = |course: &Course| size(course.mean(displacement, course.last()));
+    let distance = |course: &Course| course.mean(displacement, course.last()).norm();
     let steps = STEPS as f64 * distance(at_once) / distance(stepwise);
     let [off, speed, columns, steps] = [off, speed, columns, steps].map(shown);
     let seen = format!(
@@ -192,7 +190,7 @@ fn grouped(
 fn halved_step(whole: &Course, half: &Course) -> Option<SolverFinding> {
     let distance = |course: &Course| {
         let mean = |k| course.mean(displacement, k);
-        size(minus(mean(course.last()), mean(1)))
+        (mean(course.last()) - mean(1)).norm()
     };
     let ratio = distance(half) / distance(whole);
     // For half the step length, the ratio is 1/2 at constant speed and 1/4 at constant

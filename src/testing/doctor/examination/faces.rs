@@ -2,11 +2,12 @@
 
 use super::stress::largest_entry;
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::{AffineField, displacement, shown, times};
+use crate::testing::doctor::course::{AffineField, displacement, shown};
 use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::motion::{CHANGED, uniform};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, ELASTIC, H};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",
@@ -31,9 +32,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
         let from = [0.75, 0.25, 0.5].map(|x| x + 0.375 * H);
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 6.0);
-        let mut velocity = [VELOCITY[0]; 3];
-        velocity[kind.0..].fill(0.0);
-        scene.velocity = AffineField::uniform(velocity);
+        scene.velocity = scene.uniform([VELOCITY[0]; 3]);
         BoxScene { steps: 32, dt: 0.0625, ..scene }
     })?;
     let found = uniform(patient, &scene.soft())?;
@@ -92,11 +91,10 @@ fn rounding_remark(seen: String) -> SolverFinding {
 /// Returns the largest error (m) of displacements in a rigid motion by a third of a cell in eight
 /// steps. It shows the rounding of the positions, which is large if they have an offset.
 pub(super) fn position_rounding(patient: &Patient<'_>, scene: &BoxScene) -> Result<f64, Hindrance> {
-    let mut velocity = [0.0; 3];
-    velocity[0] = scene.h / (24.0 * scene.dt);
+    let velocity = scene.h / (24.0 * scene.dt) * Vector3::x();
     let rigid = BoxScene { steps: 8, velocity: AffineField::uniform(velocity), ..scene.soft() };
     let course = patient.run(&rigid)?;
-    let error = |k: usize| course.farthest(displacement, k, times(course.times[k], velocity));
+    let error = |k: usize| course.farthest(displacement, k, course.times[k] * velocity);
     Ok((1..=course.last()).map(error).fold(0.0, f64::max))
 }
 

@@ -2,12 +2,13 @@
 
 use crate::subject::Precision;
 use crate::testing::doctor::course::{
-    Course, Field, displacement, line, minus, shown, shown_vector, size, times, velocity,
+    Course, Field, displacement, line, shown, shown_vector, velocity,
 };
 use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",
@@ -28,12 +29,12 @@ const NEAR: f64 = 0.02;
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &scene)?;
     let course = patient.run(&scene)?;
-    let mut g = [0.0; 3];
+    let mut g = Vector3::zeros();
     g[scene.dimension - 1] = -GRAVITY;
     let (last, d) = (course.last(), scene.dimension);
     let end = course.times[last];
     let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
-    let wanted = [times(end, g), times(0.5 * end * end, g)];
+    let wanted = [end * g, 0.5 * end * end * g];
     let [v, u] = [v, u].map(|mean| shown_vector(mean, d));
     let [exact_v, exact_u] = wanted.map(|wanted| shown_vector(wanted, d));
     let measured = format!(
@@ -65,10 +66,10 @@ pub(super) fn divides_steps(patient: &Patient<'_>) -> bool {
 }
 
 /// Returns a finding if the acceleration differs from g, or velocities have few digits.
-fn of_force(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+fn of_force(patient: &Patient<'_>, course: &Course, g: Vector3<f64>) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let end = course.times[last];
-    let off = |k: usize| course.farthest(velocity, k, times(course.times[k], g));
+    let off = |k: usize| course.farthest(velocity, k, course.times[k] * g);
     let most = (1..=last).map(off).fold(0.0, f64::max) / (GRAVITY * end);
     if most <= patient.rounding() {
         return None;
@@ -94,11 +95,11 @@ fn of_force(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<Solve
     let along: Vec<f64> = (1..=last).map(|k| course.mean(velocity, k)[axis]).collect();
     let (_, slope, _) = line(&course.times[1..], &along);
     let factor = slope / g[axis];
-    let across = size(minus(v, std::array::from_fn(|i| if i == axis { v[i] } else { 0.0 })));
+    let across = v.remove_row(axis).norm();
     if across > NEAR * GRAVITY * end {
         return Some(SolverFinding::defect(
             "gravity-along-another-axis",
-            format!("the body falls in the direction {}", shown_vector(times(1.0 / size(v), v), d)),
+            format!("the body falls in the direction {}", shown_vector(1.0 / v.norm() * v, d)),
             "gravity acts along a different axis than in the problem",
             "the order of axes: `body_force_value` has its components in the order x, y, z",
         ));
@@ -253,7 +254,7 @@ const RULES: [FallRule; 8] = [
 ];
 
 /// Returns a finding if the acceleration is g, but velocities or positions belong to other times.
-fn of_times(patient: &Patient<'_>, course: &Course, g: [f64; 3]) -> Option<SolverFinding> {
+fn of_times(patient: &Patient<'_>, course: &Course, g: Vector3<f64>) -> Option<SolverFinding> {
     let (last, dt, axis) = (course.last(), course.problem.dt, course.problem.dimension - 1);
     let (end, g) = (course.times[last], g[axis]);
     let late = (course.mean(velocity, last)[axis] / g - end) / dt;

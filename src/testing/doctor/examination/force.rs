@@ -3,12 +3,11 @@
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
 use crate::external::{BodyForceField, LevelProblem};
-use crate::testing::doctor::course::{
-    AffineField, Course, line, minus, shown, size, times, velocity,
-};
+use crate::testing::doctor::course::{AffineField, Course, line, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
+use nalgebra::Vector3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {
@@ -269,7 +268,7 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     for (label, speed) in course.points(velocity, 1) {
         x.push(label[0]);
         v.push(speed[0]);
-        across = across.max(size(minus(speed, times(speed[0], [1.0, 0.0, 0.0]))));
+        across = across.max((speed - speed[0] * Vector3::x()).norm());
     }
     let share = line(&x, &v).1 / slope;
     // The accepted range is wide, because basis functions smooth a linear field near the edge of

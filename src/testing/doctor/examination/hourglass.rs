@@ -11,6 +11,7 @@ use crate::testing::doctor::course::{Course, displacement};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{ANY, Rules};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "hourglass",
@@ -66,7 +67,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
 /// Returns the amplitude of the mode in the final displacements, relative to `v t`; `None` if the
 /// mode is zero at all points.
 fn share(scene: &BoxScene, course: &Course) -> Option<f64> {
-    let mode = |label: [f64; 3]| {
+    let mode = |label: Vector3<f64>| {
         let phase = |i: usize| std::f64::consts::PI / H * (label[i] - scene.body.0[i]);
         libm::cos(phase(0)) * libm::cos(phase(1))
     };

@@ -9,7 +9,7 @@
 use super::stress::{impulses, inside, require_whole_body};
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, minus, shown, shown_list, transposed, velocity,
+    AffineField, Course, displacement, shown, shown_list, transposed, velocity,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
@@ -291,7 +291,7 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
 fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let points = course.points(displacement, k).filter(|(label, _)| scene.is_central(label, 1.0));
-    let points: Vec<_> = points.map(|(label, u)| (minus(label, centre), u)).collect();
+    let points: Vec<_> = points.map(|(label, u)| (label - centre, u)).collect();
     let mut f = vec![0.0; d * d];
     for i in 0..d {
         for j in 0..d {

@@ -8,6 +8,7 @@ use crate::testing::doctor::course::{Course, displacement};
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{ANY, Pattern, Row, Rules};
 use crate::testing::doctor::scene::{BoxScene, FACES, Kind};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "load-steps",
@@ -113,7 +114,7 @@ fn row(scenes: &[BoxScene], courses: &[Course]) -> Row<7> {
 /// difference from this multiple, relative to the largest exact displacement.
 fn share(course: &Course, scene: &BoxScene, k: usize) -> (f64, f64) {
     let length = CELLS * scene.h;
-    let exact = |label: [f64; 3]| {
+    let exact = |label: Vector3<f64>| {
         let x = label[0] - scene.body.0[0];
         STRAIN * (0.5 * x * x / length - x)
     };

@@ -1,13 +1,12 @@
 //! Examination of a body at rest without stress and loads, which must not move.
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{
-    Course, displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
-};
+use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::single;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",
@@ -55,7 +54,7 @@ fn cause(course: &Course) -> SolverFinding {
         course.farthest(field, last, mean) <= AS_ONE * course.farthest(field, last, [0.0; 3])
     };
     let [mean_u, mean_v] = [u, v].map(|mean| shown_vector(mean, d));
-    if course.points(displacement, last).all(|(label, u)| size(minus(u, label)) <= 1e-3 * H) {
+    if course.points(displacement, last).all(|(label, u)| (u - label).norm() <= 1e-3 * H) {
         return SolverFinding::defect(
             "positions-for-displacements",
             format!("the mean of the column `displacement` is {mean_u} for a body at rest"),
@@ -67,10 +66,11 @@ fn cause(course: &Course) -> SolverFinding {
         return apart(course);
     }
     let t = &course.times[1..];
-    let speeds: Vec<f64> = (1..=last).map(|k| dot(course.mean(velocity, k), v) / size(v)).collect();
+    let speeds: Vec<f64> =
+        (1..=last).map(|k| course.mean(velocity, k).dot(&v) / v.norm()).collect();
     let (_, slope, off) = line(t, &speeds);
-    if size(v) > 0.0 && off <= AS_ONE * size(v) && slope * course.times[last] >= 0.5 * size(v) {
-        let (end, g) = (shown(course.times[last]), shown_vector(times(slope / size(v), v), d));
+    if v.norm() > 0.0 && off <= AS_ONE * v.norm() && slope * course.times[last] >= 0.5 * v.norm() {
+        let (end, g) = (shown(course.times[last]), shown_vector(slope / v.norm() * v, d));
         return SolverFinding::defect(
             "gravity-left-on",
             format!(
@@ -82,7 +82,7 @@ fn cause(course: &Course) -> SolverFinding {
              is \"none\", so the acceleration must be zero",
         );
     }
-    if size(v) * course.times[last] >= 0.5 * size(u) {
+    if v.norm() * course.times[last] >= 0.5 * u.norm() {
         return SolverFinding::defect(
             "velocity-of-its-own",
             format!("the whole body has the velocity {mean_v} m/s, expected zero"),
@@ -103,10 +103,9 @@ fn cause(course: &Course) -> SolverFinding {
 fn apart(course: &Course) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let labels = course.points(displacement, last).map(|(label, _)| label);
-    let sum = labels.fold([0.0; 3], |sum, x| std::array::from_fn(|i| sum[i] + x[i]));
-    let centre = times(1.0 / course.states[last].len() as f64, sum);
+    let centre = labels.sum::<Vector3<f64>>() * (1.0 / course.states[last].len() as f64);
     let outward: f64 =
-        course.points(velocity, last).map(|(label, v)| dot(v, minus(label, centre))).sum();
+        course.points(velocity, last).map(|(label, v)| v.dot(&(label - centre))).sum();
     let speed = shown(course.farthest(velocity, last, [0.0; 3]));
     let (side, mean) = (
         if outward > 0.0 { "outwards" } else { "inwards" },

@@ -10,12 +10,13 @@ use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, require_
 use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
 use crate::testing::doctor::course::{
-    AffineField, Course, displacement, dot, largest_difference, minus, shown, shown_list,
-    shown_vector, size, times, transposed,
+    AffineField, Course, displacement, largest_difference, shown, shown_list, shown_vector,
+    transposed,
 };
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
+use nalgebra::Vector3;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",
@@ -190,9 +191,9 @@ struct Forces {
     /// Delay of the force (steps); NaN without a force.
     late: f64,
     /// Expected force, divided by its magnitude.
-    unit: [f64; 3],
+    unit: Vector3<f64>,
     /// Force in the first step, relative to the expected force.
-    first: [f64; 3],
+    first: Vector3<f64>,
 }
 
 impl Forces {
@@ -207,13 +208,13 @@ impl Forces {
             (0..d).for_each(|row| replaced[row * d] = f64::from(u8::from(row == k)));
             det_of_rows(d, &replaced)
         };
-        let mut expected = [0.0; 3];
+        let mut expected = Vector3::<f64>::zeros();
         for j in 0..d {
             expected[j] = (0..d).map(|k| sigma[j * d + k] * cofactor(k)).sum();
         }
-        let whole = size(expected);
-        let unit = times(1.0 / whole, expected);
-        let (mut measured, mut first) = ([0.0; 3], [0.0; 3]);
+        let whole = expected.norm();
+        let unit = 1.0 / whole * expected;
+        let (mut measured, mut first) = (Vector3::zeros(), Vector3::zeros());
         let mut along = vec![0.0; course.states.len()];
         for j in 0..d {
             let impulse = impulses(course, scene, 0, j);
@@ -227,10 +228,10 @@ impl Forces {
         let start = t - (along[1] - 0.5 * rate * t * t) / constant;
         Self {
             ratio: constant / whole,
-            error: size(minus(measured, expected)) / whole,
+            error: (measured - expected).norm() / whole,
             late: start / t,
             unit,
-            first: times(1.0 / whole, first),
+            first: 1.0 / whole * first,
         }
     }
 
@@ -246,16 +247,16 @@ impl Forces {
     /// `sigma_jx - sigma_jy`. A run that starts half a step back has half this force in the first
     /// step.
     fn wrong_components(&self, scene: &BoxScene) -> Option<String> {
-        let across = minus(self.first, times(dot(self.first, self.unit), self.unit));
-        if size(across) <= ACROSS {
+        let across = self.first - self.first.dot(&self.unit) * self.unit;
+        if across.norm() <= ACROSS {
             return None;
         }
         let name = [1.0, 2.0].into_iter().find_map(|factor| {
-            let change = minus(times(factor, self.first), self.unit);
-            let [x, y, z] = change;
+            let change = factor * self.first - self.unit;
+            let [x, y, z] = change.into();
             let all =
                 [("xx", [y, z]), ("yy", [x, z]), ("xy", [x + y, z]), ("of the z axis", [x, y])];
-            let is_zero = |a: &f64| a.abs() <= 0.1 * size(change);
+            let is_zero = |a: &f64| a.abs() <= 0.1 * change.norm();
             all.into_iter().find(|(_, others)| others.iter().all(is_zero)).map(|(name, _)| name)
         });
         let name = name

@@ -5,7 +5,7 @@ use crate::external::SMALL_STRAIN;
 use crate::testing::doctor::course::{Course, line, velocity};
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
+use crate::testing::doctor::scene::{BoxScene, FINITE, Kind};
 
 /// Gradient (1/m) of an initial strain that varies along the first axis. Strains are at most 0.006.
 const STRAIN_GRADIENT: f64 = 0.008;
@@ -75,12 +75,9 @@ pub(super) fn examine(
 /// Returns the accelerations of the middle in the first step and in later steps, relative to
 /// `M c/rho`.
 fn accelerations(course: &Course, scene: &BoxScene) -> [f64; 2] {
-    let (centre, (lambda, mu)) = (scene.centre(), scene.lame());
-    let is_near = |x: &[f64; 3]| {
-        (0..scene.dimension).all(|i| (x[i] - centre[i]).abs() <= 2.0 * H * (1.0 + 1e-9))
-    };
+    let (lambda, mu) = scene.lame();
     let speed = |k: usize| {
-        let near = course.points(velocity, k).filter(|(label, _)| is_near(label));
+        let near = course.points(velocity, k).filter(|(label, _)| scene.is_central(label, 2.0));
         let (sum, count) = near.fold((0.0, 0.0), |(s, n), (_, v)| (s + v[0], n + 1.0));
         sum / count
     };

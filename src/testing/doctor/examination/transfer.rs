@@ -14,7 +14,7 @@
 //! PIC. If the matrix is transposed, the loss of a rotation is twice that of PIC.
 
 use super::fall::divides_steps;
-use crate::testing::doctor::course::{Course, dot, shown, velocity};
+use crate::testing::doctor::course::{Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
@@ -175,12 +175,12 @@ fn losses_of(course: &Course, scene: &BoxScene) -> Losses {
     let field = &scene.velocity;
     let (mut inertia, mut volume) = (0.0, 0.0);
     for ((_, v), weight) in course.points(velocity, 0).zip(&course.states[0].weight) {
-        inertia += weight * dot(v, v) / (RATE * RATE);
+        inertia += weight * v.dot(&v) / (RATE * RATE);
         volume += weight;
     }
     let moment = |k: usize| -> f64 {
         let all = course.points(velocity, k).zip(&course.states[0].weight);
-        all.map(|((label, v), weight)| weight * dot(field.at(label), v) / RATE).sum()
+        all.map(|((label, v), weight)| weight * field.at(label).dot(&v) / RATE).sum()
     };
     // Number of axes along which the motion has a gradient.
     let axes = field.gradient.iter().flatten().filter(|slope| **slope != 0.0).count() as f64;

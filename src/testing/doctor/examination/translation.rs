@@ -1,6 +1,5 @@
 //! Examination of a rigid body that crosses several cells at constant speed.
 
-use crate::testing::doctor::course::AffineField;
 use crate::testing::doctor::motion::uniform;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
@@ -23,9 +22,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         // ahead.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 7.0);
-        let mut velocity = VELOCITY;
-        velocity[kind.0..].fill(0.0);
-        scene.velocity = AffineField::uniform(velocity);
+        scene.velocity = scene.uniform(VELOCITY);
         BoxScene { steps: 80, dt: 0.025, ..scene }
     })?;
     uniform(patient, &scene)

@@ -7,7 +7,7 @@
 //! each step multiplies the amplitude of a mode with the angular frequency w by
 //! `sqrt(1 + w^2 dt^2)`.
 
-use crate::testing::doctor::course::{Course, dot, shown, velocity};
+use crate::testing::doctor::course::{Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
@@ -77,5 +77,5 @@ fn scene(kind: Kind) -> BoxScene {
 /// Returns the kinetic energy divided by density in state `k` (m5/s2 in 3-D).
 fn kinetic_energy(course: &Course, k: usize) -> f64 {
     let weights = course.states[0].weight.iter();
-    weights.zip(course.points(velocity, k)).map(|(weight, (_, v))| 0.5 * weight * dot(v, v)).sum()
+    weights.zip(course.points(velocity, k)).map(|(weight, (_, v))| 0.5 * weight * v.dot(&v)).sum()
 }

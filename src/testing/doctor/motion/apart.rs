@@ -1,11 +1,10 @@
 //! Determines the cause if the parts of a stress-free body move differently.
 
 use super::as_one::UniformMotion;
-use crate::testing::doctor::course::{
-    displacement, dot, minus, shown, shown_vector, size, times, velocity,
-};
+use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
 use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
 use crate::testing::doctor::patient::Hindrance;
+use nalgebra::Vector3;
 use std::f64::consts::SQRT_2;
 
 /// Basis functions at points up to this distance (cells) from the edge of the body use nodes
@@ -85,7 +84,7 @@ fn uneven_drag(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hind
 /// Returns the smallest and largest share of the speed that points have lost in state `k`.
 fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
     let v = motion.velocity;
-    range(motion.course.points(velocity, k).map(|(_, seen)| 1.0 - dot(seen, v) / dot(v, v)))
+    range(motion.course.points(velocity, k).map(|(_, seen)| 1.0 - seen.dot(&v) / v.dot(&v)))
 }
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
@@ -95,8 +94,8 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 /// Returns the smallest and largest displacement of points in the first step, relative to v dt.
 fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
     let v = motion.velocity;
-    let scale = dot(v, v) * motion.course.times[1];
-    range(motion.course.points(displacement, 1).map(|(_, u)| dot(u, v) / scale))
+    let scale = v.dot(&v) * motion.course.times[1];
+    range(motion.course.points(displacement, 1).map(|(_, u)| u.dot(&v) / scale))
 }
 
 /// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of
@@ -163,19 +162,20 @@ fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     if !(motion.off().1 <= rounding) {
         return None;
     }
-    let is_on_face = |x: [f64; 3]| {
+    let is_on_face = |x: Vector3<f64>| {
         let cells = origin.iter().enumerate().map(|(i, low)| (x[i] - low) / motion.scene.h);
         cells.into_iter().any(|s| (s - libm::round(s)).abs() <= 1e-3)
     };
-    let place = |(x, u): ([f64; 3], [f64; 3])| std::array::from_fn(|i| x[i] + u[i]);
     let (mut most, mut step) = (0.0_f64, 0);
     for k in 1..=course.last() {
-        let way = times(course.times[k] - course.times[k - 1], v);
+        let way = (course.times[k] - course.times[k - 1]) * v;
         let pairs = course.points(displacement, k - 1).zip(course.points(displacement, k));
         for (before, after) in pairs {
-            let off = size(minus(minus(after.1, before.1), way)) / size(way);
+            let off = (after.1 - before.1 - way).norm() / way.norm();
             if off > rounding * course.last() as f64 {
-                if !(off <= SLIGHT && (is_on_face(place(before)) || is_on_face(place(after)))) {
+                if !(off <= SLIGHT
+                    && (is_on_face(before.0 + before.1) || is_on_face(after.0 + after.1)))
+                {
                     return None;
                 }
                 (most, step) = (most.max(off), if step == 0 { k } else { step });
@@ -201,22 +201,23 @@ fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let course = &motion.course;
     let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
-    let cell = |x: [f64; 3]| -> Vec<i64> {
+    let cell = |x: Vector3<f64>| -> Vec<i64> {
         origin.iter().enumerate().map(|(i, low)| libm::floor((x[i] - low) / h) as i64).collect()
     };
-    let labels: Vec<[f64; 3]> = course.points(displacement, 0).map(|(label, _)| label).collect();
+    let labels: Vec<Vector3<f64>> =
+        course.points(displacement, 0).map(|(label, _)| label).collect();
     let crosses = |k: &usize| {
-        let way = times(course.times[*k], motion.velocity);
-        labels.iter().any(|x| cell(*x) != cell(std::array::from_fn(|i| x[i] + way[i])))
+        let way = course.times[*k] * motion.velocity;
+        labels.iter().any(|x| cell(*x) != cell(x + way))
     };
     let first = (1..=course.last()).find(crosses)?;
-    let error = |k| motion.way_off(k) / (size(motion.velocity) * course.times[course.last()]);
+    let error = |k| motion.way_off(k) / (motion.velocity.norm() * course.times[course.last()]);
     let (before, at) = (first.checked_sub(1).map(error)?, error(course.last()));
     // If two steps before the cell change are correct, only the cell change causes the error.
     if first < 3 || !(before <= 1e-4 * at && at > 10.0 * motion.patient.rounding()) {
         return None;
     }
-    let v_before = course.farthest(velocity, first - 1, motion.velocity) / size(motion.velocity);
+    let v_before = course.farthest(velocity, first - 1, motion.velocity) / motion.velocity.norm();
     if v_before > motion.patient.rounding() {
         return None;
     }
@@ -236,18 +237,18 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
 /// Returns a finding if only points at the edge of the body have an error at first.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
-    let whole = size(v) * course.times[course.last()];
+    let whole = v.norm() * course.times[course.last()];
     let first = (1..=course.last()).find(|k| motion.way_off(*k) > 1e-6 * whole)?;
-    let wanted = times(course.times[first], v);
+    let wanted = course.times[first] * v;
     let (low, high) = &motion.scene.body;
     let d = course.problem.dimension;
-    let depth = |x: [f64; 3]| {
+    let depth = |x: Vector3<f64>| {
         let all = (0..d).map(|i| (x[i] - low[i]).min(high[i] - x[i]));
         all.fold(f64::INFINITY, f64::min) / motion.scene.h
     };
     let (mut rim, mut inside, mut any_inside) = (0.0_f64, 0.0_f64, false);
     for (label, u) in course.points(displacement, first) {
-        let off = size(minus(u, wanted)) / (size(v) * course.times[1]);
+        let off = (u - wanted).norm() / (v.norm() * course.times[1]);
         if depth(label) > RIM {
             (inside, any_inside) = (inside.max(off), true);
         } else {

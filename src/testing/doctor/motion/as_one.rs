@@ -1,11 +1,10 @@
 //! A motion that should be uniform, and causes of its errors if the body keeps its shape.
 
-use crate::testing::doctor::course::{
-    Course, displacement, dot, line, minus, shown, shown_vector, size, times, velocity,
-};
+use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::BoxScene;
+use nalgebra::Vector3;
 
 /// Maximum relative difference between a measured value and the value that a suspected cause
 /// predicts.
@@ -20,14 +19,14 @@ pub(super) struct UniformMotion<'a> {
     pub(super) scene: &'a BoxScene,
     pub(super) course: Course,
     /// Expected velocity (m/s).
-    pub(super) velocity: [f64; 3],
+    pub(super) velocity: Vector3<f64>,
 }
 
 impl UniformMotion<'_> {
     /// Returns the largest errors of displacements and velocities, relative to distance and speed.
     pub(super) fn off(&self) -> (f64, f64) {
         let most = |all: &dyn Fn(usize) -> f64| {
-            (0..=self.course.last()).map(all).fold(0.0, f64::max) / size(self.velocity)
+            (0..=self.course.last()).map(all).fold(0.0, f64::max) / self.velocity.norm()
         };
         let end = self.course.times[self.course.last()];
         (most(&|k| self.way_off(k)) / end, most(&|k| self.speed_off(k)))
@@ -35,7 +34,7 @@ impl UniformMotion<'_> {
 
     /// Returns the largest error of a displacement (m) in state `k`.
     pub(super) fn way_off(&self, k: usize) -> f64 {
-        let wanted = times(self.course.times[k], self.velocity);
+        let wanted = self.course.times[k] * self.velocity;
         self.course.farthest(displacement, k, wanted)
     }
 
@@ -49,10 +48,10 @@ impl UniformMotion<'_> {
         (1..=course.last()).all(|k| {
             let (u, v) = (course.mean(displacement, k), course.mean(velocity, k));
             let spread = [course.farthest(displacement, k, u), course.farthest(velocity, k, v)];
-            let way = times(course.times[k], self.velocity);
-            let errors = [size(minus(u, way)), size(minus(v, self.velocity))];
+            let way = course.times[k] * self.velocity;
+            let errors = [(u - way).norm(), (v - self.velocity).norm()];
             // Small differences between points may be rounding errors.
-            let speed = 1e-6 * size(self.velocity);
+            let speed = 1e-6 * self.velocity.norm();
             let small = [speed * course.times[course.last()], speed];
             (0..2).all(|i| spread[i] <= AS_ONE * errors[i] + small[i])
         })
@@ -64,8 +63,8 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
     let last = course.last();
     let end = course.times[last];
     let (v, u) = (course.mean(velocity, last), course.mean(displacement, last));
-    let turned = turned(motion, "velocity", v)
-        .or_else(|| turned(motion, "displacement", times(1.0 / end, u)));
+    let turned =
+        turned(motion, "velocity", v).or_else(|| turned(motion, "displacement", u * (1.0 / end)));
     if turned.is_some() {
         return Ok(turned);
     }
@@ -74,13 +73,13 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
 }
 
 /// Returns a finding if a vector has permuted components or wrong signs.
-fn turned(motion: &UniformMotion<'_>, column: &str, seen: [f64; 3]) -> Option<SolverFinding> {
+fn turned(motion: &UniformMotion<'_>, column: &str, seen: Vector3<f64>) -> Option<SolverFinding> {
     let d = motion.course.problem.dimension;
     let wanted = motion.velocity;
-    let is_same = |a: f64, b: f64| (a - b).abs() <= NEAR * size(wanted);
+    let is_same = |a: f64, b: f64| (a - b).abs() <= NEAR * wanted.norm();
     let is_one = |i: usize| (0..d).any(|j| is_same(seen[i].abs(), wanted[j].abs()));
-    let off = size(minus(seen, wanted)) > 0.1 * size(wanted);
-    if !(off && (0..d).all(is_one) && is_same(size(seen), size(wanted))) {
+    let off = (seen - wanted).norm() > 0.1 * wanted.norm();
+    if !(off && (0..d).all(is_one) && is_same(seen.norm(), wanted.norm())) {
         return None;
     }
     let (seen, wanted) = (shown_vector(seen, d), shown_vector(wanted, d));
@@ -161,7 +160,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
 fn speed_shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     let v = motion.velocity;
     let mean = |k| motion.course.mean(velocity, k);
-    (1..=motion.course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect()
+    (1..=motion.course.last()).map(|k| mean(k).dot(&v) / v.dot(&v)).collect()
 }
 
 /// Returns a finding if displacements are wrong although the velocities are correct.
@@ -169,7 +168,7 @@ fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
     let mean = |k| course.mean(displacement, k);
-    let ways: Vec<f64> = (1..=course.last()).map(|k| dot(mean(k), v) / dot(v, v)).collect();
+    let ways: Vec<f64> = (1..=course.last()).map(|k| mean(k).dot(&v) / v.dot(&v)).collect();
     let (ahead, slope, off) = line(t, &ways);
     // Smaller errors are rounding errors, which another finding reports.
     let is_systematic = (slope - 1.0).abs() > 1e-6 || ahead.abs() > 1e-4 * dt;
@@ -257,7 +256,7 @@ pub(super) fn unknown(motion: &UniformMotion<'_>) -> SolverFinding {
     let (last, d) = (course.last(), course.problem.dimension);
     let seen = [course.mean(velocity, last), course.mean(displacement, last)];
     let [v, u] = seen.map(|mean| shown_vector(mean, d));
-    let wanted = [wanted, times(course.times[last], wanted)];
+    let wanted = [wanted, course.times[last] * wanted];
     let [exact_v, exact_u] = wanted.map(|wanted| shown_vector(wanted, d));
     SolverFinding::defect(
         "motion-not-kept",

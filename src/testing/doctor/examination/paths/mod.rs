@@ -20,7 +20,7 @@ pub(super) use soils::SOILS;
 
 use super::laws::deformation_gradient;
 use super::stress::{inside, require_whole_body};
-use crate::testing::doctor::course::{Course, displacement, minus, shown, shown_list, size, times};
+use crate::testing::doctor::course::{Course, displacement, shown, shown_list};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
@@ -312,9 +312,9 @@ fn unevenness(course: &Course, scene: &BoxScene) -> f64 {
     for k in 1..=course.last() {
         let points = course.points(displacement, k);
         for (x, u) in points.filter(|(label, _)| scene.is_central(label, reach)) {
-            let off = size(minus(u, times(course.times[k] / end, field.at(x))));
+            let off = (u - course.times[k] / end * field.at(x)).norm();
             most = f64::max(most, off);
-            whole = whole.max(size(field.at(x)));
+            whole = whole.max(field.at(x).norm());
         }
     }
     most / whole
@@ -339,7 +339,8 @@ pub(super) fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, H
 /// not exact.
 fn expected(scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     const METHOD: &str = "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian";
-    let at = |cells: f64| scene.centre()[..scene.dimension].iter().map(|x| x + cells * H).collect();
+    let at =
+        |cells: f64| scene.centre().iter().take(scene.dimension).map(|x| x + cells * H).collect();
     let (body, grid) = ((at(-2.0), at(2.0)), (at(-3.0), at(3.0)));
     let scene = BoxScene { body, grid, ..scene.clone() };
     in_middle(&scene.built_in(METHOD)?, &scene)

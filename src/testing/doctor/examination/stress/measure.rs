@@ -5,6 +5,7 @@
 use crate::testing::doctor::course::{Course, shown, shown_list, transposed, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::scene::{BoxScene, H, Kind};
+use nalgebra::Vector3;
 
 /// Rate of stretch along the first axis (1/s). The rate is negative, because artificial viscosity
 /// acts in compression only. Strains stay below 1e-3.
@@ -119,8 +120,8 @@ pub(crate) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
 pub(crate) fn impulses(course: &Course, scene: &BoxScene, i: usize, j: usize) -> Vec<f64> {
     let (d, middle) = (scene.dimension, scene.centre());
     let weight = &course.states[0].weight;
-    let start: Vec<[f64; 3]> = course.points(velocity, 0).map(|(_, v)| v).collect();
-    let in_tube = |label: [f64; 3]| {
+    let start: Vec<Vector3<f64>> = course.points(velocity, 0).map(|(_, v)| v).collect();
+    let in_tube = |label: Vector3<f64>| {
         (0..d).all(|a| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h * (1.0 + 1e-9))
     };
     let labels = course.points(velocity, 0).map(|(label, _)| label);

@@ -20,7 +20,7 @@ pub(super) use measure::{
     moduli_by_momentum, spreading,
 };
 
-use crate::testing::doctor::course::{Course, minus, shown, size, velocity};
+use crate::testing::doctor::course::{Course, shown, velocity};
 use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
 use crate::testing::doctor::rules::{Row, Rules};
@@ -201,7 +201,7 @@ fn lost_momentum(
     let last = course.last();
     let (start, end) = (course.mean(velocity, 0), course.mean(velocity, last));
     let gain = scene.wave_speed() * STRETCH.abs() * course.times[last];
-    let share = size(minus(end, start)) / gain;
+    let share = (end - start).norm() / gain;
     let most = sampling_error(course, scene).max(patient.tolerance(1e-6, 0.02));
     let change = shown(share);
     let finding = SolverFinding::defect(
@@ -257,7 +257,7 @@ fn is_complete(course: &Course, scene: &BoxScene) -> bool {
         let excess = moment(i, i) - length * length / 12.0;
         excess >= low - least * spacing && excess <= high + least * spacing
     };
-    size(minus(centroid, scene.centre())) <= least
+    (centroid - scene.centre()).norm() <= least
         && (0..d).all(is_variance)
         && (0..d).all(|i| (0..i).all(|j| moment(i, j).abs() <= least * spacing))
 }

@@ -6,6 +6,7 @@ use crate::testing::doctor::examination::stress::{
 };
 use crate::testing::doctor::patient::{Hindrance, Patient};
 use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
+use nalgebra::Vector3;
 
 /// Length of the bar (cells).
 const CELLS: f64 = 16.0;
@@ -245,7 +246,7 @@ impl BarEnd {
     }
 
     /// Returns the distance of a position from the wall (m).
-    fn depth(self, scene: &BoxScene, label: [f64; 3]) -> f64 {
+    fn depth(self, scene: &BoxScene, label: Vector3<f64>) -> f64 {
         let ends = (scene.body.0[self.axis], scene.body.1[self.axis]);
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
@@ -296,7 +297,7 @@ impl BarEnd {
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
         let is_near = |label: &[f64]| {
-            let label = std::array::from_fn(|i| label.get(i).copied().unwrap_or_default());
+            let label = Vector3::from_fn(|i, _| label.get(i).copied().unwrap_or_default());
             self.depth(scene, label) <= 2.0 * H
         };
         let mean = mean_tensor(course, &course.states[course.last()].stress, is_near)?;
