@@ -7,6 +7,7 @@
 //! patient       capabilities of a solver, its runs, and the type of an examination
 //! coverage      declared capabilities that no examination covers
 //! course        recorded runs, quantities computed from them, and vector fields
+//! prelude       the names that most examinations use
 //! rules         findings by tables of expected values
 //! motion/       causes of errors in uniform motion
 //! examination/  one file for each examination
@@ -18,6 +19,7 @@ mod examination;
 mod finding;
 mod motion;
 mod patient;
+mod prelude;
 mod rules;
 mod scene;
 

@@ -4,9 +4,7 @@
 //! gives its modulus.
 
 use super::stress::{STEPS, TRAVEL, moduli_by_momentum, spreading};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "bodies",

@@ -3,12 +3,7 @@
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
-use crate::testing::doctor::course::{
-    Course, Field, displacement, largest_difference, shown, velocity,
-};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
+use crate::testing::doctor::prelude::*;
 
 const STEPS: u64 = 6;
 

@@ -4,10 +4,7 @@
 //! the share s, the acceleration under gravity g is `g (1 - s)` downwards and `g (1 + s)` upwards.
 
 use super::stress::constant_and_rate;
-use crate::testing::doctor::course::{AffineField, Course, line, velocity};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Rules};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "damping",

@@ -2,12 +2,9 @@
 
 use super::stress::largest_entry;
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::{AffineField, displacement, shown};
-use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
+use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD};
 use crate::testing::doctor::motion::{CHANGED, uniform};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, ELASTIC, H};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "faces",

@@ -1,14 +1,8 @@
 //! Examination of a body in free fall.
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{
-    Course, Field, displacement, line, shown, shown_vector, velocity,
-};
-use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "fall",

@@ -3,11 +3,7 @@
 use super::fall::factor_cause;
 use super::translation::VELOCITY;
 use crate::external::{BodyForceField, LevelProblem};
-use crate::testing::doctor::course::{AffineField, Course, line, shown, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -3,10 +3,7 @@
 //! While all of a contact slides, the tangential impulse is mu times the normal impulse, for any
 //! motion of the bodies. Both impulses follow from the mean velocities of a body.
 
-use crate::testing::doctor::course::{AffineField, Course, line, velocity};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "friction",

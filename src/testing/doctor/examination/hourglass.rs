@@ -7,11 +7,7 @@
 //! velocity that has a small share of the mode, so their displacement is small too, also if the
 //! rest of the mode stays in the velocities (the null space of the transfer).
 
-use crate::testing::doctor::course::{Course, displacement};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "hourglass",

@@ -8,12 +8,8 @@
 
 use super::stress::{impulses, inside, require_whole_body};
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{
-    AffineField, Course, displacement, shown, shown_list, transposed, velocity,
-};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind, SOFT};
+use crate::testing::doctor::prelude::*;
+use crate::testing::doctor::scene::SOFT;
 use nalgebra::Matrix3;
 
 pub(super) const EXAMINATION: Examination = Examination {

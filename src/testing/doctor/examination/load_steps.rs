@@ -4,11 +4,7 @@
 //! L and the longitudinal modulus M, its displacement under the fraction s of the weight is
 //! `s rho g (X^2/2 - L X)/M`, up to a relative error of the order of the strain `rho g L/M`.
 
-use crate::testing::doctor::course::{Course, displacement};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Pattern, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, FACES, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "load-steps",

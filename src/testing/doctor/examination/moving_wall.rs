@@ -6,10 +6,7 @@
 
 use super::stress::{constant_and_rate, judge_ends};
 use super::walls::bar;
-use crate::testing::doctor::course::{Course, displacement, line, velocity};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "moving-wall",

@@ -2,11 +2,8 @@
 //! an elastic body whose ends press against each other.
 
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::{AffineField, displacement, shown, velocity};
-use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::{CHANGED, uniform};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "periodic",

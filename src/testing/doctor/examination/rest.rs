@@ -1,12 +1,8 @@
 //! Examination of a body at rest without stress and loads, which must not move.
 
 use crate::subject::Precision;
-use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
-use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::single;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "rest",

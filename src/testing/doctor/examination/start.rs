@@ -9,14 +9,7 @@ use super::start_gradient;
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, require_whole_body};
 use crate::external::SMALL_STRAIN;
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{
-    AffineField, Course, displacement, largest_difference, shown, shown_list, shown_vector,
-    transposed,
-};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, FINITE, H, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "start",

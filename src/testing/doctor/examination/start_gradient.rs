@@ -2,10 +2,7 @@
 //! `start`.
 
 use crate::external::SMALL_STRAIN;
-use crate::testing::doctor::course::{Course, line, velocity};
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, FINITE, Kind};
+use crate::testing::doctor::prelude::*;
 
 /// Gradient (1/m) of an initial strain that varies along the first axis. Strains are at most 0.006.
 const STRAIN_GRADIENT: f64 = 0.008;

@@ -6,10 +6,7 @@
 //! Y0)^2/w^2` with the mean 1 along the width w of the face.
 
 use super::stress::{constant_and_rate, judge_ends};
-use crate::testing::doctor::course::{Course, velocity};
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{ANY, Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "traction",

@@ -14,10 +14,7 @@
 //! PIC. If the matrix is transposed, the loss of a rotation is twice that of PIC.
 
 use super::fall::divides_steps;
-use crate::testing::doctor::course::{Course, shown, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "transfer",

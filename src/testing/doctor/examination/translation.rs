@@ -1,8 +1,7 @@
 //! Examination of a rigid body that crosses several cells at constant speed.
 
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{ANY_LAW, BoxScene, H};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "translation",

@@ -2,10 +2,7 @@
 
 use super::faces::position_rounding;
 use super::stress::spreading;
-use crate::testing::doctor::course::{Course, displacement, shown};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient, complete};
-use crate::testing::doctor::scene::ELASTIC;
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "units",

@@ -7,10 +7,7 @@
 //! each step multiplies the amplitude of a mode with the angular frequency w by
 //! `sqrt(1 + w^2 dt^2)`.
 
-use crate::testing::doctor::course::{Course, shown, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, H, Kind};
+use crate::testing::doctor::prelude::*;
 
 pub(super) const EXAMINATION: Examination = Examination {
     name: "vibration",

@@ -1,10 +1,8 @@
 //! Determines the cause if the parts of a stress-free body move differently.
 
 use super::as_one::UniformMotion;
-use crate::testing::doctor::course::{displacement, shown, shown_vector, velocity};
-use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD, SolverFinding};
-use crate::testing::doctor::patient::Hindrance;
-use nalgebra::Vector3;
+use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD};
+use crate::testing::doctor::prelude::*;
 use std::f64::consts::SQRT_2;
 
 /// Basis functions at points up to this distance (cells) from the edge of the body use nodes

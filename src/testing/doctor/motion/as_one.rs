@@ -1,10 +1,6 @@
 //! A motion that should be uniform, and causes of its errors if the body keeps its shape.
 
-use crate::testing::doctor::course::{Course, displacement, line, shown, shown_vector, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Hindrance, Patient};
-use crate::testing::doctor::scene::BoxScene;
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 /// Maximum relative difference between a measured value and the value that a suspected cause
 /// predicts.

@@ -8,12 +8,9 @@
 mod apart;
 mod as_one;
 
+use crate::testing::doctor::prelude::*;
 pub(super) use apart::CHANGED;
 
-use super::course::shown;
-use super::finding::SolverFinding;
-use super::patient::{Examined, Hindrance, Patient, complete};
-use super::scene::BoxScene;
 use crate::subject::Precision;
 use as_one::UniformMotion;
 

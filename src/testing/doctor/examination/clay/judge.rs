@@ -2,8 +2,7 @@
 
 use super::measure::PathEnd;
 use crate::exact::law::CamClayLaw;
-use crate::testing::doctor::course::shown;
-use crate::testing::doctor::finding::SolverFinding;
+use crate::testing::doctor::prelude::*;
 use crate::testing::doctor::scene::{
     COMPRESSION_SLOPE, CRITICAL_STATE_SLOPE, OVERCONSOLIDATION, SWELLING_SLOPE,
 };

@@ -1,12 +1,9 @@
 //! Runs along a path, and the measured state at the end.
 
 use crate::mpm::det_of_rows;
-use crate::testing::doctor::course::{Course, shown};
 use crate::testing::doctor::examination::{laws::deformation_gradient, paths};
-use crate::testing::doctor::patient::Hindrance;
-use crate::testing::doctor::scene::{
-    BoxScene, CRITICAL_STATE_SLOPE, Kind, OVERCONSOLIDATION, SWELLING_SLOPE,
-};
+use crate::testing::doctor::prelude::*;
+use crate::testing::doctor::scene::{CRITICAL_STATE_SLOPE, OVERCONSOLIDATION, SWELLING_SLOPE};
 
 /// Number of steps. Explicit integration without substeps, drift correction or detection of the
 /// yield point is of first order: its error of ln p on a swelling line is at most half the elastic

@@ -21,9 +21,7 @@
 mod judge;
 mod measure;
 
-use crate::testing::doctor::course::shown;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::Kind;
+use crate::testing::doctor::prelude::*;
 use judge::finding;
 use measure::{PATHS, PathEnd, STEPS, path};
 

@@ -5,8 +5,7 @@ use super::{
     examine,
 };
 use crate::external::SMALL_STRAIN;
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::scene::BoxScene;
+use crate::testing::doctor::prelude::*;
 
 pub(in super::super) const PLASTICITY: Examination = Examination {
     name: "plasticity",

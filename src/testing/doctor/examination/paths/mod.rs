@@ -15,15 +15,12 @@
 mod laws;
 mod soils;
 
+use crate::testing::doctor::prelude::*;
 pub(super) use laws::{FLUIDS, PLANE_STRESS, PLASTICITY};
 pub(super) use soils::SOILS;
 
 use super::laws::deformation_gradient;
 use super::stress::{inside, require_whole_body};
-use crate::testing::doctor::course::{Course, displacement, shown, shown_list};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, H, Kind};
 
 /// Examinations that must have no defects before a path is examined.
 const AFTER: &[&str] = &["translation", "force", "transfer", "stress", "laws"];

@@ -3,8 +3,8 @@
 use super::{
     AFTER, COMPRESSION, LawCause, Laws, Leg, SHEAR, StrainGradient, StrainPath, YOUNG, examine,
 };
-use crate::testing::doctor::patient::Examination;
-use crate::testing::doctor::scene::{BoxScene, FRICTION, FRICTION_ANGLE};
+use crate::testing::doctor::prelude::*;
+use crate::testing::doctor::scene::{FRICTION, FRICTION_ANGLE};
 
 pub(in super::super) const SOILS: Examination = Examination {
     name: "soils",

@@ -2,10 +2,7 @@
 //!
 //! Also checks the columns `stress` and `deformation_gradient`, if the solver reports them.
 
-use crate::testing::doctor::course::{Course, shown, shown_list, transposed, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::scene::{BoxScene, H, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 /// Rate of stretch along the first axis (1/s). The rate is negative, because artificial viscosity
 /// acts in compression only. Strains stay below 1e-3.

@@ -15,16 +15,12 @@
 mod measure;
 mod moduli;
 
+use crate::testing::doctor::prelude::*;
 pub(super) use measure::{
     STEPS, TRAVEL, constant_and_rate, impulses, inside, largest_entry, mean_tensor,
     moduli_by_momentum, spreading,
 };
 
-use crate::testing::doctor::course::{Course, shown, velocity};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::rules::{Row, Rules};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, Kind};
 use measure::{MeasuredModuli, STRETCH};
 
 pub(super) const EXAMINATION: Examination = Examination {

@@ -1,9 +1,7 @@
 //! Recognises defects from the measured moduli.
 
 use super::measure::{MeasuredModuli, NEAR as NEAR_FACTOR, factor as column_factor, strain_factor};
-use crate::testing::doctor::course::{Course, shown};
-use crate::testing::doctor::finding::SolverFinding;
-use crate::testing::doctor::scene::BoxScene;
+use crate::testing::doctor::prelude::*;
 
 /// Maximum difference between moduli, relative to the largest modulus.
 const NEAR: f64 = 0.03;

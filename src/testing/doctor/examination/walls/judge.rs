@@ -1,9 +1,7 @@
 //! Determines the defect of walls from measured forces and motions.
 
 use super::measure::{SUNK, TRAVEL, Wall};
-use crate::testing::doctor::course::shown;
-use crate::testing::doctor::finding::{FindingWeight, SolverFinding};
-use crate::testing::doctor::scene::FACES;
+use crate::testing::doctor::prelude::*;
 
 /// Accepted range of the force on a body thrown against the wall, relative to the expected force.
 /// The force oscillates about its mean for a long time. With FLIP and cubic functions, the mean

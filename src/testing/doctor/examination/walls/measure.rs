@@ -1,12 +1,9 @@
 //! Measures wall forces from the momentum of each half of a bar, and motions near walls.
 
-use crate::testing::doctor::course::{AffineField, Course, displacement, line, shown, velocity};
 use crate::testing::doctor::examination::stress::{
     constant_and_rate, mean_tensor, require_whole_body,
 };
-use crate::testing::doctor::patient::{Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, FACES, H, Kind};
-use nalgebra::Vector3;
+use crate::testing::doctor::prelude::*;
 
 /// Length of the bar (cells).
 const CELLS: f64 = 16.0;

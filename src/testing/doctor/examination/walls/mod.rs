@@ -17,11 +17,8 @@ mod judge;
 mod measure;
 
 use super::translation::VELOCITY;
-use crate::testing::doctor::course::AffineField;
-use crate::testing::doctor::finding::SolverFinding;
 use crate::testing::doctor::motion::uniform;
-use crate::testing::doctor::patient::{Examination, Examined, Hindrance, Patient};
-use crate::testing::doctor::scene::{BoxScene, ELASTIC, FACES, H, Kind};
+use crate::testing::doctor::prelude::*;
 use judge::finding;
 pub(super) use measure::bar;
 use measure::{Wall, walls_across};
