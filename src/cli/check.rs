@@ -110,8 +110,7 @@ struct CheckFindings {
     applicable: Option<ApplicableSuites>,
 }
 
-/// Counts the suites that an external solver can run, and the capabilities that it lacks for the
-/// rest.
+/// Suites that an external solver can run, and the capabilities that it lacks for the rest.
 #[derive(Default)]
 struct ApplicableSuites {
     names: Vec<String>,
@@ -142,8 +141,7 @@ impl ApplicableSuites {
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
-    /// Creates empty findings for `count` suites. Notes are printed in full if every target is a
-    /// single suite.
+    /// Creates empty findings. Notes are printed in full if every target is a single suite.
     fn new(args: &CheckArgs, count: usize) -> Self {
         let applicable = args.solver.solver.is_some() && count > 1;
         let is_named = count <= args.targets.targets.len();
@@ -156,8 +154,7 @@ impl CheckFindings {
         }
     }
 
-    /// Whether the output ends with a summary of the suites that a solver can run. Warnings and
-    /// notes are then omitted.
+    /// Whether the output ends with a summary for a solver, without warnings and notes.
     fn has_summary(&self) -> bool {
         self.applicable.is_some()
     }

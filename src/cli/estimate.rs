@@ -121,8 +121,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     if lines.is_empty() {
         return Err(Diagnostic::about(file, "the series has no level").with_help(FORMAT_HELP));
     }
-    // The value with the most digits determines the resolution, because a program may omit trailing
-    // zeros.
+    // The value with the most digits decides, because a program may omit trailing zeros.
     let units = lines.iter().map(|line| line.point.resolution);
     let unit = units.fold(f64::INFINITY, f64::min);
     for line in &mut lines {
@@ -131,9 +130,8 @@ fn parse(file: &str, text: &str) -> Result<Vec<InputLine>, Diagnostic> {
     Ok(lines)
 }
 
-/// Returns the byte ranges of the fields of a line that begins at byte `start`. A comma or
-/// semicolon with spaces around it is one separator, and two successive separators enclose an empty
-/// field.
+/// Returns the byte ranges of the fields of a line that begins at byte `start`. Spaces around a
+/// comma or semicolon do not count, and two successive separators enclose an empty field.
 fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     let is_mark = |c: char| matches!(c, ',' | ';');
     let range = |part: &str| {
@@ -151,8 +149,7 @@ fn fields(line: &str, start: usize) -> Vec<Range<usize>> {
     line.split_whitespace().map(range).collect()
 }
 
-/// Returns the unit of the last printed digit, or zero for a number with at least 16 digits, which
-/// has full double precision.
+/// Returns the unit of the last printed digit, or zero for full double precision (16 digits).
 fn resolution(number: &str) -> f64 {
     let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
     let digits = mantissa.chars().filter(char::is_ascii_digit).collect::<String>();
@@ -182,8 +179,7 @@ fn as_text(series: &[SeriesPoint], result: &Result<LimitEstimate, EstimateRefusa
     rows.collect::<Vec<_>>().join("\n") + "\n"
 }
 
-/// Formats the limit and its interval, rounded to two digits of the half-width, such as
-/// `1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]`.
+/// Rounds to two digits of the half-width: `1.2346 +- 1.2e-3, 95 %: [1.2334, 1.2358]`.
 fn limit_shown(limit: &Interval) -> String {
     let half_width = limit.half_width();
     let size = limit.value.abs().max(half_width);

@@ -170,8 +170,7 @@ fn line(key: &str, value: &str) -> String {
     report::wrapped_row(17, key, value)
 }
 
-/// Describes the cost of a step of the case, and what a step would save without the effect
-/// `without`.
+/// Describes the cost of a step, and what a step would save without the effect `without`.
 fn taken(suite: &Suite, case: &str, without: Option<Dispensable>) -> String {
     let Some(all) = study::profile(suite, case, None) else { return String::new() };
     let mut page: String =

@@ -1,5 +1,4 @@
-//! Generates texts from definitions of the program: JSON Schemas, shell completions and manual
-//! pages.
+//! Generates JSON Schemas, shell completions and manual pages.
 
 use super::output::{self, CommandError, Status};
 use clap::{Args, Command, ValueEnum};

@@ -1,5 +1,4 @@
-//! `mpm-verify list` prints groups, suites or cases; `mpm-verify steps` prints the time step of
-//! every level.
+//! `mpm-verify list` (groups, suites, cases) and `mpm-verify steps` (time steps of levels).
 
 use super::arguments::{FormatArgs, Targets};
 use super::output::{self, Status};

@@ -1,6 +1,5 @@
-//! Standard output and standard error. All commands print through this module, which records the
-//! first failed write. The streams remove the colours of verdicts and errors unless they are
-//! terminals.
+//! Standard output and standard error. The first failed write is recorded. Verdicts and errors are
+//! coloured on terminals.
 
 use anstyle::{AnsiColor, Style};
 use mpm_verify::suite::yaml::Diagnostic;
@@ -45,8 +44,7 @@ pub(super) fn diagnose(diagnostic: &Diagnostic) {
     complain(&diagnostic.styled());
 }
 
-/// Records the result of a write. A reader that closes the pipe (`mpm-verify | head`) does not
-/// count as a failure.
+/// Records the result of a write. A reader that closes the pipe (`| head`) is no failure.
 pub(super) fn keep(outcome: io::Result<()>) {
     if let Err(error) = outcome
         && error.kind() != ErrorKind::BrokenPipe

@@ -74,8 +74,7 @@ fn of_suite(
     if let Some(refused) = outcome.cases.iter().find(|case| case.study.is_none()) {
         return Err(CommandError::about(format_args!("{name}::{}", refused.case), &refused.reason));
     }
-    // The warnings of `check` are also printed, because a wrong amplitude, grid or time step cannot
-    // be corrected by an expectation.
+    // An expectation cannot correct the wrong amplitude, grid or time step that `check` reports.
     let found = preflight(&exploring, source);
     let remarks = found.iter().map(|found| {
         let help = found.help().map(|help| format!("; {help}"));

@@ -15,11 +15,9 @@ const FOLDER: &str = "verification";
 
 const STDIN: &str = "-";
 
-/// Loads the suites that `targets` name, or returns a diagnostic for each one that cannot be
-/// loaded.
+/// Loads the suites that `targets` name, or returns their diagnostics.
 ///
-/// Without targets, loads all suites in `verification/`, or the built-in suites if there is no such
-/// folder.
+/// Without targets, loads all suites in `verification/`, or else the built-in suites.
 pub(super) fn suites(targets: &[PathBuf]) -> Vec<Result<Suite, Diagnostic>> {
     with_sources(targets).into_iter().map(|found| found.map(|(_, suite)| suite)).collect()
 }
@@ -97,8 +95,7 @@ fn is_pattern(target: &Path) -> bool {
     target.to_string_lossy().contains('*') && !target.exists()
 }
 
-/// Returns the file or folder that `target` names, whether or not it exists; `None` for a plain
-/// name.
+/// Returns the file or folder that `target` names, even if missing; `None` for a plain name.
 fn place(target: &Path) -> Option<PathBuf> {
     let name = target.to_string_lossy();
     if name == STDIN || is_pattern(target) {
@@ -164,8 +161,7 @@ fn fitting(glob: &str) -> Sources {
     vec![Err(diagnostic.with_help("`*` stands for any text: `mms-*`, `heat/*`"))]
 }
 
-/// Suggests a replacement for the path of a missing file: a similar file name in the same folder,
-/// or a suite with the name of the file.
+/// Suggests a similar file name in the same folder, or a suite with the name of the file.
 fn meant_by_path(target: &Path) -> String {
     let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let folder = target.parent().unwrap_or(Path::new(""));

@@ -62,9 +62,8 @@ fn pending(path: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Compares each report with its snapshot in `folder`, or next to the suite. A report that differs
-/// is written next to the snapshot, unless it violates an expectation. `print` prints differences.
-/// Returns whether all agree.
+/// Compares each report with its snapshot in `folder`, or next to the suite, and returns whether
+/// all agree. A different report without failing cases is written next to the snapshot.
 ///
 /// # Errors
 /// If a suite is in no folder, or if a file cannot be read or written.

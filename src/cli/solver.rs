@@ -82,9 +82,8 @@ fn suite_of_solver(
     judged
 }
 
-/// Replaces the methods of the suites by the solver. If `terms` returns requirements for a suite,
-/// the run checks the solver against them. Also returns the names of the skipped suites, which test
-/// internals of the built-in methods.
+/// Replaces the methods of the suites by the solver, which must meet `terms`, if any. Also returns
+/// the names of the skipped suites, which test internals of the built-in methods.
 pub(super) fn suites_of_solver(
     suites: Vec<Suite>,
     solver: &SolverProgram,

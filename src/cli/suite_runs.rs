@@ -23,9 +23,8 @@ impl SuiteRuns {
         suites.into_iter().map(|suite| Self { parts: vec![part(suite)] }).collect()
     }
 
-    /// Combines the runs of each suite. Entry k of `of_each` has the suites that run with solver k.
-    /// If `with_methods` is true, the suites in `suites` first run with their own methods. Suites
-    /// without any run are skipped.
+    /// Combines the runs of each suite: with its own methods if `with_methods`, and with solver k
+    /// if it is in entry k of `of_each`. Suites without any run are skipped.
     pub(super) fn of_solvers(
         suites: &[Suite],
         of_each: Vec<Vec<Suite>>,
@@ -97,8 +96,7 @@ pub(super) fn repeated<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<&
     names.into_iter().find(|name| !known.insert(*name))
 }
 
-/// Checks that case names are unique within each suite. The case of an external solver has the name
-/// of the solver.
+/// Checks that case names, such as the name of a solver, are unique within each suite.
 ///
 /// # Errors
 /// If a case of a suite has the name of a solver.

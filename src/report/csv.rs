@@ -21,9 +21,8 @@ const OF_CASE: [&str; 9] = [
 
 type CsvRow = HashMap<String, String>;
 
-/// Converts reports to CSV, with one row for each level of a convergence study, each value of a
-/// stability study and each position of an internal-force study. A case without any of these has
-/// one row.
+/// Converts reports to CSV, with one row for each level, each value of a stability study and each
+/// position of an internal-force study, or one row for a case without any of these.
 ///
 /// Column names are the keys of the JSON document ([`json`](crate::report::json())), with a dot
 /// between outer and inner key (`errors.rms`, `observed_order.low`). Columns of stability and

@@ -20,10 +20,9 @@ pub struct RunTimes {
 
 /// Converts reports to JUnit XML, with a test suite for each suite and a test case for each case.
 ///
-/// A case that is not applicable or that `run --gate` exempts is skipped with its reason. If its
-/// suite is in `required`, the case fails instead, as with `run --gate`. The text of a failure is
-/// the report of the case. `times` has the durations of `outcomes`, the only part of the document
-/// that equal results do not determine.
+/// A case that is not applicable or that `run --gate` exempts is skipped with its reason, or fails
+/// if its suite is in `required`, as with `run --gate`. The text of a failure is the report of the
+/// case. Equal results give equal documents except for `times`, the durations of `outcomes`.
 ///
 /// # Panics
 /// Never, because writing to memory does not fail.

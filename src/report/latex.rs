@@ -7,8 +7,7 @@ use std::fmt::Write;
 /// Maximum number of cases per table, limited by the width of a page.
 const MOST_CASES: usize = 3;
 
-/// Writes the errors and orders of convergence studies as tables in the style of the package
-/// `booktabs`.
+/// Writes the errors and orders of convergence studies as tables in the style of `booktabs`.
 ///
 /// Each table has a row for each level and two columns for each case. Cases with different levels
 /// or different judged errors are in different tables. Suites without a convergence study have no
@@ -99,8 +98,7 @@ fn interval(order: Interval) -> String {
     format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high)
 }
 
-/// Converts a cell of a text table to LaTeX: `1.235e-05` becomes a power of ten, and `-` (no value)
-/// becomes a dash.
+/// Converts a cell to LaTeX: `1.235e-05` to a power of ten, and `-` (no value) to a dash.
 fn number(text: &str) -> String {
     let (before, rest) = text.strip_prefix('(').map_or(("", text), |rest| ("(", rest));
     let (inner, after) = rest.strip_suffix(')').map_or((rest, ""), |inner| (inner, ")"));

@@ -21,8 +21,7 @@ pub(crate) const LEGEND: &str = "Each entry is the range of observed orders of a
                                  `unstable` and `limit` (a critical value): results of stability \
                                  studies. The report of a suite states the reasons.";
 
-/// Returns the result that represents cases: a failure or a known limit if one occurs. `None`
-/// without cases.
+/// Returns the result that represents cases: a failure or a known limit if one occurs.
 pub(crate) fn main_result<'a>(
     cases: impl Iterator<Item = &'a CaseOutcome> + Clone,
 ) -> Option<CaseResult> {
@@ -38,8 +37,7 @@ pub(crate) fn results(outcome: &SuiteOutcome) -> [Option<CaseResult>; COLUMNS.le
     })
 }
 
-/// Returns two counts for each of [`COLUMNS`]: cases with the expected order, and all cases whose
-/// order is judged.
+/// Counts for each of [`COLUMNS`] the cases with the expected order, and all with an order.
 pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
@@ -65,8 +63,7 @@ pub(crate) fn by_group<'a, T>(
     groups
 }
 
-/// Returns the findings of a suite, one text for each of [`COLUMNS`]: a dash for a column without
-/// cases.
+/// Returns the findings of a suite for each of [`COLUMNS`]: a dash without cases.
 pub(crate) fn findings(outcome: &SuiteOutcome) -> [String; COLUMNS.len()] {
     std::array::from_fn(|column| {
         let cases = outcome.cases.iter().filter(|case| column_of(case) == column);
@@ -95,8 +92,7 @@ fn column_of(case: &CaseOutcome) -> usize {
     }
 }
 
-/// Combines several cases into one text: the range of their orders, followed by their other
-/// verdicts.
+/// Combines several cases into the range of their orders, and their other verdicts.
 pub(crate) fn finding(cases: &[&CaseOutcome]) -> String {
     let orders = cases.iter().filter_map(|case| order(case));
     let [least, most] = orders.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], order| {

@@ -25,8 +25,7 @@ pub(crate) trait StudyReport: Sync {
         Vec::new()
     }
 
-    /// Returns the JSON members of one case. Their values are null if the case belongs to another
-    /// kind of study.
+    /// Returns the JSON members of one case, with null for cases of another kind of study.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
     /// Draws the figures of a suite; none by default.
@@ -82,8 +81,7 @@ impl StudyReport for ConvergenceReport {
     }
 }
 
-/// Returns remarks about time steps above the stable step, about failed runs, and about the causes
-/// of error floors.
+/// Returns remarks about too long time steps, failed runs, and causes of error floors.
 fn remarks(study: &Convergence) -> Vec<String> {
     let too_long = study.levels.iter().filter(|level| level.is_too_long());
     let too_long: Vec<String> = too_long.map(|level| level.name(study.axis)).collect();

@@ -22,8 +22,7 @@ pub(super) fn prepare_out(folder: &Path) -> Result<(), CommandError> {
     fs::create_dir_all(folder).map_err(|error| unwritable("--out", folder, &error))
 }
 
-/// Writes `NAME.txt`, `NAME-table.tex` and the drawings of each suite, and `report.json` and
-/// `report.csv` for all suites.
+/// Writes the files of each suite, and `report.json` and `report.csv` for all suites.
 pub(super) fn write_out(
     folder: &Path,
     args: &ReportArgs,
@@ -70,8 +69,7 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the HTML page. `outcomes` has the order of `sources`, without refused and
-/// skipped suites.
+/// Writes the HTML page. `outcomes` has the order of `sources`.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],

@@ -1,5 +1,4 @@
-//! `run --gate` and `--solver-config`: determines the requirements on a solver, and checks whether
-//! the solver meets them.
+//! `run --gate` and `--solver-config`: the requirements on a solver, and whether it meets them.
 
 use super::args::JudgedSolverArgs;
 use crate::cli::{output, select, solver};
@@ -21,8 +20,7 @@ pub(super) struct JudgedSolver {
 pub(super) struct SolverGate {
     /// Suites that the command line names individually.
     named: BTreeSet<String>,
-    /// Whether the gate may pass although individually named suites are not applicable to the
-    /// solver.
+    /// Whether the gate may pass although named suites are not applicable to the solver.
     allows_not_applicable: bool,
     /// Names of suites that external solvers cannot run.
     left_out: Vec<String>,

@@ -118,8 +118,7 @@ fn report(
     let (runs, mut judging) = choose(suites)?;
     printing::check(args, &runs)?;
     let suites: Vec<Suite> = runs.iter().map(|runs| runs.suite().clone()).collect();
-    // Sources of suites without a selected case are removed. The remaining sources keep the order
-    // of `suites`.
+    // Keeps the sources of suites with a selected case, in the order of `suites`.
     let is_chosen = |(name, _): &(String, Source)| suites.iter().any(|suite| suite.name == *name);
     let sources = names.into_iter().zip(sources).filter(is_chosen);
     let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
@@ -355,8 +354,7 @@ fn one<T>(
         None => runner,
     };
     let text = |warning: &StepWarning| format!("warning: {}", warning.text);
-    // A suite may use too long time steps deliberately, so these warnings are printed only for
-    // cases that fail.
+    // A suite may use too long steps deliberately, so only failing cases get these warnings.
     let (later, now): (Vec<_>, Vec<_>) =
         runner.warnings().into_iter().partition(|one| one.is_too_long && !suite.explores());
     for warning in &now {

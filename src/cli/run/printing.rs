@@ -186,8 +186,7 @@ fn failures(outcomes: &[SuiteOutcome]) -> String {
 /// Checks the labels of the command line against the cases of the run.
 ///
 /// # Errors
-/// If a label matches no case, two cases would have the same label, or several suites would have
-/// the same title.
+/// If a label matches no case, or two cases or several suites would have the same text.
 pub(super) fn check(args: &ReportArgs, runs: &[SuiteRuns]) -> Result<(), CommandError> {
     if let Some(title) = args.title.as_ref().filter(|_| runs.len() > 1) {
         return Err(CommandError::option("--title", title, "expected one suite"));

@@ -73,8 +73,7 @@ impl RunProgress {
         self.bar.finish_and_clear();
     }
 
-    /// Makes Ctrl-C print `note` before the program ends. If the handler cannot be set, Ctrl-C only
-    /// ends the program.
+    /// Makes Ctrl-C print `note` before the program ends, if a handler can be set.
     pub(super) fn note_at_interrupt(&self, note: String) {
         let bar = self.bar.clone();
         let _ = ctrlc::set_handler(move || {

@@ -89,9 +89,8 @@ impl<T> Drop for Job<'_, T> {
 }
 
 /// Runs `count` jobs on `threads` threads. A job for which `waits` is true starts only after all
-/// earlier jobs have ended. `take` is called on the calling thread, first with all messages and the
-/// result of job 0, then with those of job 1, and so on. Messages of the first unfinished job
-/// arrive immediately.
+/// earlier jobs have ended. `take` is called on the calling thread with the messages and then the
+/// result of each job, in their order; messages of the first unfinished job arrive immediately.
 pub(super) fn in_order<T: Send>(
     count: usize,
     threads: usize,

@@ -89,8 +89,7 @@ pub(crate) fn json_columns(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
     columns
 }
 
-/// Work and spacing at which a method reaches a target error, and this work divided by the minimum
-/// work of all methods.
+/// Reach of a target error, and its work divided by the minimum work of all methods.
 type Reached = (Reach, Option<f64>);
 
 fn reached<'a>() -> [TableColumn<'a, Reached>; 3] {

@@ -7,8 +7,7 @@ use serde_json::{Value, json};
 /// One level, with the order relative to the previous level.
 pub(crate) type GradientLevelRow = (GradientLevel, Option<f64>);
 
-/// One perturbation, the remainder of the Taylor series with the order relative to the previous
-/// perturbation, and the central difference.
+/// A perturbation, the Taylor remainder with its order, and the central difference.
 pub(crate) struct TaylorRow {
     perturbed: Perturbed,
     remainder: f64,

@@ -36,8 +36,7 @@ fn ppc<'a>() -> LevelColumn<'a> {
     LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
 }
 
-/// Returns the column that identifies a level: the number of cells, the time step or the number of
-/// particles per cell, whichever is refined.
+/// Returns the column of what is refined: cells, time step or particles per cell.
 pub(crate) fn name<'a>(axis: Axis) -> LevelColumn<'a> {
     match axis {
         Axis::Space => cells(),
@@ -264,8 +263,7 @@ impl LevelRow<'_> {
         errors.at_end.linf
     }
 
-    /// Formats a value with one digit: a dash if the level has no value, `failed` if the level
-    /// failed.
+    /// Formats a value with one digit; a dash without a value, `failed` if the level failed.
     fn unless_failed(&self, figure: Option<f64>) -> Cell {
         let cell = Cell::number(figure, |value| format!("{value:.0e}"));
         cell.or_failed(figure.and(self.level.run.failure.as_ref()))
@@ -279,8 +277,7 @@ impl LevelRow<'_> {
     }
 }
 
-/// Returns the finest level that counts for the verdict, or the finest level if none counts. `None`
-/// if the case has no judged error.
+/// Returns the finest level that counts, or else the finest one; `None` without a judged error.
 pub(crate) fn finest_counted(case: &CaseOutcome) -> Option<&LevelOutcome> {
     let study = case.convergence().filter(|study| study.compared)?;
     let counted = rows(study).filter(LevelRow::counts).last();

@@ -1,7 +1,6 @@
 //! Columns of tables. Each column is declared once, with its heading, JSON key, meaning and value.
 //!
-//! Text, JSON and `docs/columns.md` use the same lists. To add a column, add an entry to
-//! a list.
+//! Text, JSON and `docs/columns.md` use the same lists.
 
 use crate::verify::Interval;
 use serde_json::{Map, Value, json};
@@ -101,8 +100,7 @@ fn two_digit_exponent(text: &str) -> String {
 pub(crate) struct TableColumn<'a, R: ?Sized> {
     /// Heading in text.
     pub(crate) heading: Cow<'a, str>,
-    /// Key in the JSON object of a row; empty for a column in text only. `errors.rms` is the key
-    /// `rms` of the object `errors`.
+    /// Key in JSON, empty for text only. `errors.rms` is the key `rms` of the object `errors`.
     pub(crate) key: &'static str,
     /// Meaning of the column, with its unit.
     pub(crate) about: &'static str,

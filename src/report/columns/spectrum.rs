@@ -87,8 +87,7 @@ pub(crate) fn waves<'a>() -> Vec<WaveColumn<'a>> {
     ]
 }
 
-/// Returns the columns of closed-form values for each Courant number. These values are not compared
-/// with runs.
+/// Returns the columns of closed-form values for each Courant number, which no run checks.
 pub(crate) fn curves<'a>() -> Vec<WaveColumn<'a>> {
     vec![
         courant(),

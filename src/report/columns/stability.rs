@@ -72,8 +72,7 @@ pub(crate) fn limits<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColu
     columns
 }
 
-/// Returns one column for each fraction of the predicted limit at which a run checks the
-/// prediction.
+/// Returns one column for each fraction of the predicted limit at which a run checks it.
 fn confirmed<'a>(study: &'a StabilityStudy, sought: &str) -> Vec<RowColumn<'a>> {
     let critical = study.rows.iter().filter_map(|row| row.critical.as_ref());
     let longest = critical.max_by_key(|critical| critical.confirmed.len());

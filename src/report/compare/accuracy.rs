@@ -39,8 +39,7 @@ fn same(a: &LevelDocument, b: &LevelDocument) -> bool {
 pub(super) fn is_rounding(old: &CaseDocument, new: &CaseDocument) -> bool {
     let tiny = |case: &CaseDocument| {
         let small = |level: &LevelDocument| relative(case.judge.as_ref(), level) < ROUNDING;
-        // Rounding errors may have an order by chance. The verdict of `run --gate` is then
-        // `AT_ROUNDING`.
+        // Rounding errors may have an order by chance, and `run --gate` then this verdict.
         let has_no_order = case.observed_order.is_none() || case.verdict == AT_ROUNDING;
         has_no_order && case.levels.iter().all(small)
     };
@@ -61,9 +60,8 @@ fn relative(judge: Option<&JudgeDocument>, level: &LevelDocument) -> f64 {
     }
 }
 
-/// Selects the error change to report. Levels that newly fail or no longer fail are preferred.
-/// Otherwise the finest level is used, or, if its error has not changed, the level with the largest
-/// change. Returns `None` without a change.
+/// Returns the error change on a level that newly or no longer fails, or else on the finest level
+/// with a change, or else the largest one.
 pub(super) fn error(
     pairs: &[LevelPair<'_>],
     axis: Option<&str>,

@@ -102,15 +102,13 @@ pub(super) struct CheapestMove {
     /// Name of the suite, and of the problem if the suite has several.
     pub(super) place: String,
     pub(super) target: f64,
-    /// Minimum work in the old run and the method with this work; `None` if no method reaches the
-    /// target.
+    /// Minimum work in the old run and its method; `None` if no method reaches the target.
     pub(super) old: Option<(f64, String)>,
     pub(super) new: Option<(f64, String)>,
 }
 
 impl CheapestMove {
-    /// Returns the ratio of the new to the old work: infinite if the target is no longer reached,
-    /// and zero if only the new run reaches it.
+    /// Returns the ratio of new to old work: infinite for a lost target, and zero for a new one.
     pub(super) fn ratio(&self) -> f64 {
         match (&self.old, &self.new) {
             (Some((old, _)), Some((new, _))) => new / old,

@@ -5,8 +5,7 @@
 //! cell. Cases and levels without a counterpart are listed but not judged. Work is the number of
 //! particle-node transfers, which is the same on all machines.
 //!
-//! For a case that only bounds the drift of conserved sums there is no error to compare, so only
-//! the verdict is compared.
+//! A case that only bounds the drift of conserved sums has no error, so its verdict is compared.
 
 mod accuracy;
 mod changes;
@@ -23,8 +22,7 @@ pub use changes::{Rank, ReportComparison};
 pub use document::{ReportDocument, Unreadable};
 pub use output::text;
 
-/// Default tolerance: values whose relative change is at most this number count as unchanged, as in
-/// the [drift gate](super::text::drift).
+/// Default tolerance: changes that count as none, as in the [drift gate](super::text::drift).
 pub const TOLERANCE: f64 = super::text::drift::RELATIVE;
 
 /// Compares `old` with `new`. Changes by at most the relative `tolerance` are ignored.

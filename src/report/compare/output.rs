@@ -108,8 +108,7 @@ fn notes(moved: &Moved) -> Vec<String> {
     notes
 }
 
-/// Formats a change as `old -> new`. A value is printed alone if it did not change or is in only
-/// one run.
+/// Formats a change as `old -> new`, or one value if it did not change or is in one run only.
 fn change(moved: &Moved, [old, new]: [Option<String>; 2]) -> String {
     match (moved.rank, old, new) {
         (Rank::New, _, only) | (Rank::Gone, only, _) => only.unwrap_or_else(dash),

@@ -39,8 +39,7 @@ pub(super) fn compare(
     ReportComparison { problems, moved, cheapest, unchanged, tolerance }
 }
 
-/// Returns the change of a case whose problem has changed. Only whether the case meets its
-/// expectations can be compared.
+/// Returns the change of a case whose problem has changed, where only `passed` is comparable.
 fn of_another_problem(name: String, old: &CaseDocument, new: &CaseDocument) -> Moved {
     let is_broken = old.passed && !new.passed;
     let (rank, notes) = if is_broken {
@@ -140,8 +139,7 @@ fn otherwise(
     notes
 }
 
-/// Returns the kind of change if the verdict has changed, or if the case newly meets or no longer
-/// meets its expectations; otherwise `None`.
+/// Returns the kind of change if the verdict or `passed` has changed.
 fn verdict_rank(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -174,8 +172,7 @@ fn severity(verdict: &str) -> u8 {
     }
 }
 
-/// Whether the observed order is lower than before. Smaller errors on the compared levels are then
-/// no improvement, because finer grids lose it.
+/// Whether the order is lower than before. Smaller errors are then no improvement.
 fn order_falls(found: &Moved) -> bool {
     const CHANGE: f64 = 0.05;
     matches!(found.order, [Some(old), Some(new)] if old - new > CHANGE)
@@ -224,8 +221,7 @@ fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove>
     new.suites.iter().filter_map(moved).collect()
 }
 
-/// Returns the rows that differ between two problem descriptions; none if one of the descriptions
-/// was not stored.
+/// Returns the rows that differ between two descriptions; none if one was not stored.
 fn differing(old: &[(String, String)], new: &[(String, String)]) -> Vec<[String; 3]> {
     if old.is_empty() || new.is_empty() {
         return Vec::new();
@@ -261,8 +257,7 @@ fn shortened(old: &str, new: &str) -> Option<[String; 2]> {
 /// Returns the target errors whose minimum work has changed, sorted by decreasing ratio. Targets
 /// that are no longer reached come first. Suites with a changed problem are excluded.
 ///
-/// The key `cost` of a document lists the work of each method for each target of its problem.
-/// Documents without this key are not compared.
+/// Documents without the key `cost`, the work of each method for each target, have none.
 fn cheapest_moves(
     old: &ReportDocument,
     new: &ReportDocument,

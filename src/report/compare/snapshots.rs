@@ -1,5 +1,4 @@
-//! Reads the results of a run from its snapshots: the suites in the overview, and the verdicts and
-//! problems in their reports.
+//! Reads the results of a run from its snapshots: the overview and the reports of its suites.
 
 use super::document::JsonNumber;
 use super::document::{CaseDocument, LevelDocument, OrderDocument, ReportDocument, SuiteDocument};
@@ -10,8 +9,7 @@ pub(super) const FINEST: &str = "finest";
 
 impl ReportDocument {
     /// Reads the names of the suites from the overview, and their results from their reports.
-    /// `report` returns the report of a suite, given its group and name, or `None` if there is no
-    /// report.
+    /// `report` returns the report of a group and name, or `None`.
     pub fn of_snapshots(overview: &str, report: impl Fn(&str, &str) -> Option<String>) -> Self {
         let (mut suites, mut group) = (Vec::new(), "");
         let rows = overview.lines().skip_while(|line| !line.starts_with("  suite ")).skip(1);
@@ -101,8 +99,7 @@ fn case<'a>(name: &str, value: impl Fn(&str) -> Option<&'a str>) -> CaseDocument
     }
 }
 
-/// Returns the facts in the section `problem` of a report. Reports of former versions have no such
-/// section.
+/// Returns the facts in the section `problem`, which reports of former versions do not have.
 fn statement(report: &str) -> Vec<(String, String)> {
     let mut facts: Vec<(String, String)> = Vec::new();
     let rows = report.lines().skip_while(|line| *line != "  problem").skip(1);

@@ -162,8 +162,7 @@ fn a_new_failure_outweighs_a_better_finest_level() {
     assert!(text(&found).contains("2.500e-3 -> failed"), "{}", text(&found));
 }
 
-/// A rigid translation is exact up to rounding. A change of rounding errors is not a change of
-/// accuracy.
+/// A rigid translation is exact; a change of its rounding errors is not a change of accuracy.
 #[rstest]
 #[case::rounding(1e-13, 3e-13, None)]
 #[case::rounding_is_lost(1e-13, 1e-9, Some(Rank::LessAccurate))]
@@ -218,8 +217,7 @@ fn limits_of_a_sweep(#[case] old: Value, #[case] new: Value, #[case] expected: O
     assert_eq!(rank(&after(&study(&old), |case| *case = new.clone())), expected);
 }
 
-/// The most important change comes first, in any order of the suites. Within one kind, the largest
-/// change comes first.
+/// The most important change comes first, and within one kind the largest change.
 #[test]
 fn changes_are_sorted_by_importance() {
     let names = ["gone", "cheap", "costly", "costlier", "worse", "worst", "verdict", "unmet"];

@@ -6,12 +6,11 @@ use crate::report::names::together;
 use crate::verify::{Ranked, Ranking, Sample, SuiteOutcome, pareto_front};
 use std::ops::Range;
 
-/// Maximum number of lines with a separate colour and name, because a reader cannot distinguish
-/// more.
+/// Maximum number of lines with a separate colour and name that a reader can distinguish.
 const MOST_NAMED: usize = 7;
 
-/// Creates a diagram for each ranking of a suite. `work` is the label of the horizontal axis;
-/// `unit` is part of the file name.
+/// Creates a diagram for each ranking of a suite: `work` is an axis label, `unit` part of file
+/// names.
 pub fn cost_figures(
     outcome: &SuiteOutcome,
     rankings: &[Ranking],
@@ -69,8 +68,7 @@ fn diagram(ranking: &Ranking, title: String, work: &str, methods: &[&str]) -> Lo
     }
 }
 
-/// Returns the points of the levels. Only levels in the converging part are marked as members of
-/// the asymptotic window.
+/// Returns the points; only levels in the converging part belong to the asymptotic window.
 fn points(row: &Ranked) -> Vec<PlotPoint> {
     let levels = row.method.samples.iter().enumerate();
     levels.map(|(level, one)| point(&row.part.levels, level, one)).collect()

@@ -7,8 +7,7 @@ use super::plot::svg::{Pt, SvgElement};
 use super::series;
 use super::series::{PlotSeries, SeriesLine};
 
-/// A log-log plot of errors with its legend below the frame. A dotted line has the slope of each
-/// reference order.
+/// A log-log plot of errors with a legend below, and a dotted line for each reference order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LogLogPlot {
     /// Title above the frame.
@@ -21,8 +20,7 @@ pub struct LogLogPlot {
     pub series: Vec<PlotSeries>,
     /// Other methods, drawn as thin grey lines without names.
     pub others: Vec<PlotSeries>,
-    /// Pareto front (work, error) in ascending order of work, drawn as a broad band behind the
-    /// lines.
+    /// Pareto front (work, error) in ascending order of work, drawn as a band behind the lines.
     pub front: Vec<(f64, f64)>,
     /// Orders of the reference lines. Orders that are not positive are ignored.
     pub reference_orders: Vec<f64>,
@@ -40,8 +38,7 @@ impl LogLogPlot {
         self.to_svg_among(std::slice::from_ref(self))
     }
 
-    /// Creates the figure as SVG. The axes are long enough for all data of `figures`, which must
-    /// include this figure.
+    /// Creates the figure as SVG. Its axes fit the data of `figures`, which include this figure.
     pub(crate) fn to_svg_among(&self, figures: &[Self]) -> String {
         let plot = self.plot(figures);
         let lines = self.lines();

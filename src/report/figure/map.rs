@@ -1,8 +1,7 @@
 //! The map: a table of numbers on coloured fields, with one row for each case.
 //!
-//! Each field contains its number as text; the colours are only a guide. Colours run from dark to
-//! light in steps of equal lightness and remain distinguishable in grey print. A gap separates rows
-//! whose names begin with different words.
+//! Each field has its number as text; colours are only a guide, which remains distinguishable in
+//! grey print. A gap separates rows whose names begin with different words.
 
 use super::plot::canvas::{Heading, canvas, text_width};
 use super::plot::style::{INK, NEUTRAL, PAPER, TEXT};
@@ -151,13 +150,11 @@ impl ColourRange {
     }
 }
 
-/// Text colours on dark and light fields. The palette does not contain these colours because they
-/// are the same in both themes.
+/// Text colours on dark and light fields, which are the same in both themes.
 const OVER_DARK: &str = "#fff";
 const OVER_LIGHT: &str = "#000";
 
-/// Red, green and blue of the shades, from dark to light (cividis, after Nunez, Anderton & Renslow
-/// 2018).
+/// Shades from dark to light (cividis, after Nunez, Anderton & Renslow 2018).
 const COLOURS: [[f64; 3]; 6] = [
     [0.0, 32.0, 81.0],
     [60.0, 77.0, 110.0],

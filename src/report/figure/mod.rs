@@ -2,11 +2,9 @@
 //!
 //! There are two kinds: the [`LogLogPlot`] (error against cell size, time step or work) and the
 //! [`Map`] (a table of numbers on coloured fields). Both are pure functions of their input and can
-//! be compared byte by byte: coordinates have two decimals, and transcendental functions come from
-//! `libm`.
+//! be compared byte by byte: coordinates have two decimals, and functions come from `libm`.
 //!
-//! Figures accept any input. A value that cannot be placed on its axis is drawn as failed or is
-//! counted in a note below the figure.
+//! A value that cannot be placed on its axis is drawn as failed or is counted in a note below.
 //!
 //! ```
 //! use mpm_verify::report::figure::{LogLogPlot, Mark, PlotPoint, PlotSeries};

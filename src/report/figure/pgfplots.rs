@@ -68,8 +68,7 @@ fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:e}") } else { "nan".to_owned() }
 }
 
-/// Returns the tick options of a short logarithmic axis, which needs labels between powers of ten.
-/// The text is empty for longer axes.
+/// Returns tick options with labels between powers of ten; empty except for short axes.
 fn log_ticks(axis: &str, values: impl Iterator<Item = f64> + Clone) -> String {
     let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(0.0, f64::max));
     if !(low > 0.0 && libm::log10(high / low) < SHORT) {
@@ -117,9 +116,8 @@ fn mark(shape: MarkerShape, is_filled: bool) -> String {
 }
 
 impl LogLogPlot {
-    /// Creates the figure as a LaTeX document. A solid line with filled markers connects the levels
-    /// of the asymptotic window; a thin dashed line with hollow markers connects all levels. Each
-    /// reference order is a dotted grey line.
+    /// Creates the figure as a LaTeX document. A solid line connects the levels of the asymptotic
+    /// window, a thin dashed line all levels. Reference orders are dotted grey lines.
     pub fn to_pgfplots(&self) -> String {
         let mut document = PgfDocument::new();
         let titles = titles(&self.title, &self.x_label, &self.y_label);

@@ -11,8 +11,7 @@ use super::plot::svg::{Pt, SvgElement};
 pub struct PlotPoint {
     /// Cell size, time step or work.
     pub x: f64,
-    /// The error. An error that is not finite is drawn as failed; a zero error is mentioned below
-    /// the figure.
+    /// The error; drawn as failed if not finite, and mentioned below the figure if zero.
     pub error: f64,
     /// Use of the level by the judge.
     pub mark: Mark,
@@ -25,8 +24,7 @@ impl PlotPoint {
         positive(self.x) && positive(self.error) && self.mark != Mark::Failed
     }
 
-    /// Whether two points are drawn as one: they differ by at most 2 %, or by 10 % on a level that
-    /// counts for neither method.
+    /// Whether two points differ by at most 2 %, or by 10 % if the level counts for neither.
     fn coincides(&self, other: &Self) -> bool {
         let both = |marks: &[Mark]| [self, other].iter().all(|point| marks.contains(&point.mark));
         let tolerance = if both(&[Mark::Crossing, Mark::Failed]) { 0.1 } else { 0.02 };
@@ -201,8 +199,7 @@ pub(super) fn names(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     lines.iter().filter(|line| line.is_named()).map(SeriesLine::entry).collect()
 }
 
-/// Returns the legend entries of the marks that occur. A series without a name adds only the mark
-/// of its failed levels.
+/// Returns the legend entries of the marks that occur, for unnamed series only failures.
 pub(super) fn marks(lines: &[SeriesLine]) -> Vec<LegendEntry> {
     let occurs = |mark| {
         let drawn = lines.iter().filter(|line| line.is_named() || mark == Mark::Failed);
@@ -239,8 +236,7 @@ pub(super) struct FailedLevel {
     rank: usize,
 }
 
-/// Height of the arrow above failed levels (px); `FAILED_ROW` is the height of each marker below
-/// it.
+/// Height of the arrow above failed levels, and of each marker below it (px).
 const ARROW: f64 = 13.0;
 const FAILED_ROW: f64 = 13.0;
 

@@ -29,8 +29,7 @@ pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     drawn.iter().enumerate().map(figure).collect()
 }
 
-/// Returns the index of a case in its suite. The index determines the colour of the case in all
-/// figures.
+/// Returns the index of a case in its suite, which gives its colour in all figures.
 fn look(outcome: &SuiteOutcome, case: &str) -> usize {
     outcome.cases.iter().position(|known| known.case == case).unwrap_or(0)
 }
@@ -41,8 +40,7 @@ fn series(outcome: &SuiteOutcome, name: &str, study: &Convergence) -> PlotSeries
     PlotSeries { name: name.to_owned(), look: look(outcome, name), points }
 }
 
-/// Returns the legend text of a curve: its cases, and their orders, or their verdicts without an
-/// order.
+/// Returns the legend text of a curve: its cases, and their orders or verdicts.
 fn label(cases: &[NamedStudy<'_>]) -> String {
     let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
     let order = |(_, study): &NamedStudy<'_>| match study.judgement.order {

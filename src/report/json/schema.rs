@@ -48,8 +48,7 @@ fn case() -> Value {
     let levels = row(&level::json_columns());
     let forces = row(&force::columns());
     let axes: Vec<&str> = Axis::ALL.iter().map(|axis| axis.name()).collect();
-    // Only convergence studies have the verdicts in this list. Other studies, and cases that do not
-    // apply, have other verdicts.
+    // Verdicts of convergence studies. Other studies and inapplicable cases have others.
     let codes: Vec<_> = UnmetCode::ALL.iter().map(|code| code.name()).collect();
     let results: Vec<_> = CaseResult::ALL.iter().map(|result| result.name()).collect();
     let verdicts = json!({"anyOf": [{"enum": Verdict::ALL.map(Verdict::name)}, text()]});
@@ -179,8 +178,7 @@ fn ranking() -> Value {
     ])
 }
 
-/// Returns the schema of a table row with the keys of its columns. The column `errors.rms` becomes
-/// the key `rms` of the object `errors`.
+/// Returns the schema of a table row; `errors.rms` is the key `rms` of the object `errors`.
 fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     let mut properties = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {

@@ -9,8 +9,7 @@ use crate::report::suite::verdicts::counts;
 use crate::report::{plotted, svg};
 use crate::verify::{CaseOutcome, CaseResult, SuiteOutcome, grouped};
 
-/// Creates the figure of a failing suite, or else of the plotted suite, and the list of known
-/// limits.
+/// Creates the figure of a failing or else of the plotted suite, and the known limits.
 pub(super) fn findings(sources: &[SuiteSource<'_>]) -> Vec<Html> {
     let outcomes = || sources.iter().map(|source| source.outcome);
     let failing = outcomes().filter(|outcome| !outcome.passed());

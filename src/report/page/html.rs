@@ -66,8 +66,7 @@ fn attributes(attributes: &[(&str, &str)]) -> String {
     attributes.iter().map(attribute).collect()
 }
 
-/// Escapes special characters. Characters that HTML does not allow become the replacement
-/// character.
+/// Escapes special characters, and replaces those that HTML does not allow.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

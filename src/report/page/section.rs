@@ -36,8 +36,7 @@ fn links(source: &SuiteSource<'_>) -> Html {
     Html::tag("p", &[("class", "links")], parts)
 }
 
-/// Creates a table with one row for each case. Neighbouring rows with equal expectations share one
-/// cell.
+/// Creates a table of the cases; neighbours with equal expectations share one cell.
 fn cases(outcome: &SuiteOutcome) -> Html {
     let judged = outcome.cases.iter().filter_map(CaseOutcome::convergence).find(|s| s.compared);
     let measured = outcome.cases.iter().any(|case| case.convergence().is_some());
@@ -81,8 +80,7 @@ fn rows(outcome: &SuiteOutcome, group: &[CaseOutcome], measured: bool) -> Vec<Ht
     group.iter().enumerate().map(row).collect()
 }
 
-/// Creates a folded block of preformatted text. A reader clicks on the text `words` to unfold the
-/// block.
+/// Creates a folded block of preformatted text with the summary `words`.
 fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
     let summary = Html::tag("summary", &[], words);
     let text = scrolled(label, Html::tag("pre", &[], text));

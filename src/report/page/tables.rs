@@ -1,7 +1,6 @@
 //! Tables of the page: the matrix of problems and methods, and the verdicts of all cases.
 //!
-//! For the sorting script, cells with numbers contain the plain value. Cells without a value are
-//! sorted last in both directions.
+//! Number cells contain the plain value for the sorting script, which puts empty ones last.
 
 use super::html::Html;
 use crate::report::columns::level::finest_counted;
@@ -21,8 +20,7 @@ pub struct SuiteSource<'a> {
     pub yaml: &'a str,
 }
 
-/// Creates the table of the groups of suites: the results, and for each basis the number of cases
-/// with the theoretical order.
+/// Creates the table of groups: results, and for each basis the cases with the order of theory.
 pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     let row = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let link = link(&format!("group-{}", plain(group)), group);
@@ -66,8 +64,7 @@ pub(super) fn heads<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>) -
     Html::tag("thead", &[], Html::tag("tr", &[], heads))
 }
 
-/// Creates the cell `K of N`: K of the N cases reach the theoretical order. The background is a bar
-/// of this length.
+/// Creates the cell `K of N` (cases with the order of theory), with a bar of this length.
 fn share(kept: usize, all: usize) -> Html {
     if all == 0 {
         return Html::tag("td", &[], "-");
@@ -214,8 +211,7 @@ pub(super) fn suite_id(outcome: &SuiteOutcome) -> String {
     format!("suite-{}", outcome.suite)
 }
 
-/// Returns the id of a case's row. The id has a dot between the names of suite and case. Names of
-/// suites contain no dot, so ids are unique.
+/// Returns the id of a case's row, unique because names of suites contain no dot.
 pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }

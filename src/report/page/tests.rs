@@ -106,8 +106,7 @@ fn ids_are_unique_and_links_have_targets() {
     }
 }
 
-/// The page contains every line of the text report and every figure, for example cost tables and
-/// work-precision diagrams.
+/// The page contains every line of the text report and every figure.
 #[test]
 fn the_page_contains_the_text_report_and_all_figures() {
     let outcome = outcome("a", "words & more", &[]);

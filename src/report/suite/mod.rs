@@ -20,8 +20,7 @@ pub fn plotted<'a>(
     outcomes.find(|outcome| outcome.suite == PLOTTED).or(last)
 }
 
-/// Draws all figures of a suite: the figures of its kind of study, and diagrams of error against
-/// work.
+/// Draws the figures of the kind of study of a suite, and diagrams of error against work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
     let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
     let rankings = verify::by_transfers(&outcome.cases);

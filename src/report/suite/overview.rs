@@ -6,8 +6,7 @@ use crate::report::text::prose::{paragraph_lines, row, row_of_width};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, CaseResult, Convergence, SuiteOutcome};
 
-/// Width of the column with the names of suites. The width is fixed, because the overview is stored
-/// as a snapshot.
+/// Width of the column with the names of suites, fixed for the snapshot.
 const SUITE: usize = 33;
 
 /// Maximum number of suites that [`glance`] lists one by one.
@@ -73,8 +72,7 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Reports how many 95 % intervals of extrapolated values contain the exact value, and how many
-/// cases have no estimate.
+/// Counts the 95 % intervals of extrapolated values that contain the exact value.
 fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
     let studies: Vec<&Convergence> = cases.iter().filter_map(|case| case.convergence()).collect();
     let results = studies.iter().filter_map(|study| study.observed_limit);

@@ -1,7 +1,6 @@
 //! Reports as text: aligned tables that are readable in a diff.
 //!
-//! Errors have four significant digits, and orders have two decimals. Counters are exact. Reports
-//! do not depend on the machine.
+//! Errors have four significant digits, orders two decimals. Counters are exact.
 
 use super::verdicts;
 use crate::report::columns::TableColumn;
@@ -33,8 +32,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
 
 /// Adds the description of the problem, one fact in each row.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
-    // The heading of the error table contains the judged quantity. The equation follows from the
-    // material.
+    // The error table has the judged quantity; the equation follows from the material.
     let is_known = |(key, value): &&(String, String)| match key.as_str() {
         "judged" | "equation" => true,
         "crossing levels" => value == "counted",

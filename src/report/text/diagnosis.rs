@@ -86,8 +86,7 @@ fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> S
     }
 }
 
-/// Describes the error of a changed run on the finest level, compared with the error of the
-/// unchanged case.
+/// Describes the finest error of a changed run, compared with that of the unchanged case.
 fn error_of_run(found: &Diagnosis, run: &ChangedRun) -> String {
     let (before, after) = (found.finest_error, run.error);
     if !run.ratio.is_finite() {

@@ -9,8 +9,7 @@ use crate::verify::{
     format_number, grouped,
 };
 
-/// Adds tables of errors with their orders, measured values of the finest levels, drifts, rates and
-/// limits.
+/// Adds tables of errors and orders, of the finest levels, and of drifts, rates and limits.
 pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     settings(lines, studies);
     first_crossings(lines, studies);
@@ -33,9 +32,8 @@ fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     }
 }
 
-/// Lists the coarsest level on which particles change cells. The row is omitted if no case has
-/// crossings, or if the cases have a single level, because the table of the finest levels then
-/// shows the crossings.
+/// Lists the coarsest level on which particles change cells, unless no case has crossings, or each
+/// case has a single level, whose crossings the table of the finest levels shows.
 fn first_crossings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let crossings = |level: &LevelOutcome| level.run.counters.crossings;
     let first = |study: &Convergence| {
@@ -155,8 +153,7 @@ fn observed_velocities(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_level(lines, &heading, &observed, &level::velocity(), false);
 }
 
-/// Adds a table with the values of `column` on each level, below a heading. If `is_pair`, a value
-/// belongs to a level and the next coarser one.
+/// Adds a table of `column`. If `is_pair`, a value belongs to a level and the next coarser one.
 fn by_level<'a>(
     lines: &mut Vec<String>,
     heading: &str,
@@ -251,8 +248,7 @@ fn rates(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, heading, &rated, level::energy_rate());
 }
 
-/// Adds the table of the extrapolated displacements at the observed point, with their true errors
-/// if the exact displacement is known.
+/// Adds the table of extrapolated displacements, with their true errors if these are known.
 fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     let Some(place) = studies.iter().find_map(|(_, study)| study.place()) else { return };
     let limit = |(name, study): &NamedStudy<'_>| {

@@ -22,8 +22,7 @@ pub(crate) fn effects(profile: &Profile, none: &str) -> String {
     if profile.effects.is_empty() { none.to_owned() } else { profile.effects.join(", ") }
 }
 
-/// Lists the differences between two profiles: each row of the first profile that differs, followed
-/// by the same row of the second.
+/// Lists each row of the first profile that differs, followed by the row of the second.
 pub fn difference(with: &Profile, without: &Profile) -> Vec<(&'static str, String)> {
     let rows = profile(with).into_iter().zip(profile(without));
     let changed = rows.filter(|((_, before), (_, after))| before != after);
@@ -42,8 +41,7 @@ fn visits(profile: &Profile) -> String {
     profile.visits.iter().map(part).collect::<Vec<_>>().join(", ")
 }
 
-/// Lists the memory per particle or node: `168 B: X 16, x 16, ...`. Columns with fewer entries than
-/// particles or nodes come last.
+/// Lists the memory per particle or node: `168 B: X 16, x 16, ...`, shorter columns last.
 fn memory(profile: &Profile, holder: Holder) -> String {
     let holders = profile.holders(holder);
     let (whole, partial): (Vec<&ColumnSize>, Vec<&ColumnSize>) = profile
@@ -129,8 +127,7 @@ fn rows(cases: &[&CaseOutcome]) -> Vec<String> {
     lines
 }
 
-/// Returns the bytes of the columns with an entry for each particle or node, and the bytes of the
-/// other columns.
+/// Returns the bytes of full columns, and the bytes of the other columns.
 fn bytes(profile: &Profile, holder: Holder) -> [usize; 2] {
     let whole = profile.holders(holder);
     let of_holder = || profile.columns.iter().filter(|column| column.holder == holder);

@@ -9,9 +9,9 @@ const WIDTH: usize = 96;
 /// Indentation of continuation lines in a list of cases.
 const LIST: &str = "           ";
 
-/// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals.
-/// Comments explain the origin of each key and how to reach a stronger expectation. The text begins
-/// with `remarks` about the suite.
+/// Writes the proposed `expect` of a suite, with one entry for all cases with equal proposals,
+/// after `remarks`. Comments explain the origin of each key and how to reach a stronger
+/// expectation.
 pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) -> String {
     let proposed = outcome.results(CaseOutcome::convergence).map(|(case, study)| {
         let mut proposal = propose(study);

@@ -49,8 +49,7 @@ pub(crate) fn row_of_width(lines: &mut Vec<String>, column: usize, key: &str, va
     }
 }
 
-/// Formats a row with `key` in a first column of width `column`. A value that exceeds the line is
-/// wrapped.
+/// Formats a row with `key` in a first column of width `column`, wrapped if it is too long.
 pub fn wrapped_row(column: usize, key: &str, value: &str) -> String {
     let row = format!("  {key:column$} {value}");
     if row.chars().count() <= WIDTH {

@@ -13,8 +13,7 @@ fn seeking(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_some()).collect()
 }
 
-/// Returns the map of the stability limits of all cases of a suite; `None` if no study searches for
-/// a limit.
+/// Returns the map of all stability limits of a suite; `None` if no study searches for one.
 pub(crate) fn map(outcome: &SuiteOutcome) -> Option<Map> {
     let studies = seeking(outcome);
     let (_, first) = studies.first()?;

@@ -93,10 +93,9 @@ impl Table {
         self.rows[0].len()
     }
 
-    /// Returns the lines of the table, indented by two spaces. Each column is as wide as its widest
-    /// cell; columns of results also have a minimum width, so that a changed result changes only
-    /// its own line. A table of more than 100 characters is split into blocks of columns, which
-    /// repeat the first column.
+    /// Returns the indented lines of the table. Columns are as wide as their widest cell; those of
+    /// results have a minimum width, so that a changed result changes only its own line. A table of
+    /// more than 100 characters is split into blocks of columns that repeat the first column.
     pub(crate) fn lines(&self) -> Vec<String> {
         let width = |c: usize| {
             let cells = self.rows[1..].iter().map(|row| least_width(&row[c])).max();
@@ -119,16 +118,14 @@ impl Table {
         lines
     }
 
-    /// Returns the width of the widest cell of a column. A heading needs only the width of its
-    /// longest word, because headings are wrapped.
+    /// Returns the width of the widest cell of a column, or of the longest word of its heading.
     fn widest(&self, column: usize) -> usize {
         let cells = self.rows[1..].iter().map(|row| row[column].as_str());
         let words = self.rows[0][column].split(' ');
         cells.chain(words).map(|text| text.chars().count()).max().unwrap_or(0)
     }
 
-    /// Aligns the cells of some columns. Headings that are wider than their column are wrapped, and
-    /// end directly above the first row.
+    /// Aligns the cells of some columns. Wrapped headings end directly above the first row.
     fn aligned(&self, columns: &[usize], widths: &[usize]) -> Vec<String> {
         let set = |cells: Vec<&str>| {
             let cells = columns.iter().zip(cells).map(|(c, cell)| {
@@ -173,8 +170,7 @@ fn least_width(cell: &str) -> usize {
     }
 }
 
-/// Replaces control characters. Names may come from a file, and control characters could change the
-/// terminal.
+/// Replaces control characters, which could change the terminal.
 pub(crate) fn printable(text: &str) -> String {
     let safe = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     text.chars().map(safe).collect()
@@ -204,8 +200,7 @@ pub(crate) fn merged_blocks(blocks: impl Iterator<Item = CaseRows>) -> Vec<Vec<S
     rows
 }
 
-/// Puts the combined name of each group in front of its rows. If it would be too long, the rows are
-/// repeated for several parts of the group.
+/// Puts the combined name of each group in front of its rows, in parts if it is too long.
 fn named_blocks(groups: Vec<(Vec<Vec<String>>, Vec<String>)>) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for (block, names) in groups {
@@ -234,8 +229,7 @@ fn is_short(names: &[String]) -> bool {
     combined(names).chars().count() <= LONGEST
 }
 
-/// Lists the distinct values, each with its names in brackets. The brackets are omitted if all
-/// names have the same value.
+/// Lists the distinct values, each with its names in brackets unless all names have it.
 pub(crate) fn shared<'a>(
     values: impl Iterator<Item = (&'a str, String)>,
 ) -> impl Iterator<Item = (String, String)> {

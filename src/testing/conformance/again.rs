@@ -45,8 +45,8 @@ pub(super) fn step_length(make: Make<'_>, states: &[RunState], dt: f64) -> Optio
     })
 }
 
-/// Reports a breach if the same problem, set up a second time, gives a different run. Rounding
-/// differences are allowed.
+/// Reports a breach if a second subject of the same problem gives a run that differs beyond
+/// rounding.
 pub(super) fn repeat(make: Make<'_>, states: &[RunState], dt: f64) -> Option<Breach> {
     let mut subject = make().ok()?;
     let mut again = vec![RunState::from_subject(subject.as_ref())];

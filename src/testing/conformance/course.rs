@@ -1,5 +1,4 @@
-//! Checks of the initial state and of the later states of a run: labels (reference positions),
-//! weights, finite numbers, counters and sums.
+//! Checks of the initial state and of the later states of a run.
 
 use super::record::{Breach, RunState, columns, largest};
 use crate::external::LevelProblem;
@@ -114,8 +113,7 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Returns breaches due to labels, weights or column sizes that change during the run, and due to
-/// numbers that are not finite.
+/// Returns breaches due to changing labels, weights or column sizes, and due to numbers not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();

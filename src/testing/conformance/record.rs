@@ -19,8 +19,7 @@ impl RunState {
     }
 }
 
-/// Advances the solver by `steps` steps of length `dt` (s), and appends the state after each step.
-/// Stops if a step fails.
+/// Takes `steps` steps of length `dt` (s), until one fails, and appends the state after each step.
 pub(super) fn record(
     subject: &mut dyn Subject,
     steps: usize,
@@ -49,8 +48,7 @@ pub(super) fn columns(samples: &Samples) -> [(&'static str, &[f64], usize); 8] {
     ]
 }
 
-/// Describes the first number of `seen` that differs from `wanted` by more than `tolerance` times
-/// the largest number of its column.
+/// Describes the first number that differs by more than `tolerance` times the column maximum.
 pub(super) fn difference(wanted: &Samples, seen: &Samples, tolerance: f64) -> Option<String> {
     if wanted.dimension != seen.dimension {
         return Some(format!("dimension {} instead of {}", seen.dimension, wanted.dimension));

@@ -11,9 +11,8 @@ use rayon::prelude::*;
 /// Maximum number of suites that are listed for a capability.
 const SUITES: usize = 3;
 
-/// Lists the capabilities that `solver` declares and that no examination covers. An examination
-/// that is not applicable covers nothing; a skipped one runs once the defects are corrected, so its
-/// capabilities are not listed.
+/// Lists the capabilities that `solver` declares and that no examination covers. Skipped
+/// examinations cover theirs, because they run once the defects are corrected.
 pub(super) fn unexamined(
     solver: &dyn SolverFactory,
     reports: &[ExaminationReport],
@@ -43,8 +42,7 @@ pub(super) fn unexamined(
     left.into_iter().map(of).collect()
 }
 
-/// Returns the capabilities that the embedded suite `name` requires; `None` if the solver cannot
-/// run the suite.
+/// Returns the capabilities that a built-in suite requires; `None` if the solver cannot run it.
 fn required(name: &str, solver: &dyn SolverFactory) -> Option<Vec<String>> {
     let suite = Suite::load(&embedded::source(name)?.ok()?.trusted()).ok()?;
     let needs = needs_of_suite(&suite)?;

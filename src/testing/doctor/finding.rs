@@ -219,8 +219,7 @@ fn heading(result: &ExaminationResult) -> &'static str {
     }
 }
 
-/// Adds the capabilities that no examination covers. Capabilities that the same suites test share a
-/// row.
+/// Adds the capabilities that no examination covers, one row for those that the same suites test.
 fn not_examined_lines(lines: &mut Vec<String>, all: &[UnexaminedCapability]) {
     let mut rows: Vec<(Vec<&str>, &[&str])> = Vec::new();
     for one in all {

@@ -32,9 +32,8 @@ use crate::external::SolverFactory;
 use examination::ALL;
 use patient::{Examination, Examined, Hindrance, Patient};
 
-/// Runs all examinations of a solver, starting with the simplest. An examination is skipped if an
-/// examination on which it depends reports defects. `progress` is called with the name of each
-/// examination.
+/// Runs all examinations of a solver, starting with the simplest, and calls `progress` with the
+/// name of each. Defects in an examination skip those that depend on it.
 pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorReport {
     let mut report = DoctorReport {
         solver: solver.name().to_owned(),
@@ -129,8 +128,7 @@ fn broke(seen: String) -> SolverFinding {
     )
 }
 
-/// Returns the first examination with defects on which `examination` depends, directly or through a
-/// skipped one.
+/// Returns the first examination with defects on which `examination` depends, even indirectly.
 fn ground(examination: &Examination, report: &DoctorReport) -> Option<&'static str> {
     let is_ground = |made: &&ExaminationReport| examination.after.contains(&made.examination);
     let has_defect = |made: &&ExaminationReport| {

@@ -82,8 +82,8 @@ impl Patient<'_> {
         }
     }
 
-    /// Returns the first scene that the solver supports. Tries all `laws` for the first of the
-    /// `dimensions`, then for the next one.
+    /// Returns the first supported scene: all `laws` for one of the `dimensions`, then the next
+    /// one.
     pub(super) fn able(
         &self,
         dimensions: &[usize],
@@ -167,8 +167,7 @@ pub(super) struct Examination {
     pub(super) name: &'static str,
     /// Expected behaviour of a correct solver, in one sentence.
     pub(super) expected: &'static str,
-    /// Examinations that must have no defects before this one runs, except those that one of
-    /// them already requires.
+    /// Examinations that must have no defects before this one, without those that they require.
     pub(super) after: &'static [&'static str],
     /// Capabilities that the examination tests, in the notation of
     /// [`Capabilities::entries`](crate::external::Capabilities::entries). Declared capabilities

@@ -17,16 +17,15 @@ pub(super) const ANY: f64 = f64::NAN;
 pub(super) struct Rules<const N: usize> {
     /// Name, expected value and accepted error of each quantity.
     pub(super) quantities: [(&'static str, f64, f64); N],
-    /// Name, pattern and cause of each finding, in order of priority. The last one accepts any
-    /// values.
+    /// Name, pattern and cause of each finding, by priority. The last one accepts any values.
     pub(super) findings: &'static [(&'static str, Pattern<N>, &'static str)],
     /// Parts of the code to check.
     pub(super) look_at: &'static str,
 }
 
 impl<const N: usize> Rules<N> {
-    /// Reports the first finding that agrees with the first row of wrong values, with all wrong
-    /// rows that agree.
+    /// Reports the first finding that agrees with the first wrong row, with all wrong rows that
+    /// agree.
     pub(super) fn judge(&self, rows: &[Row<N>]) -> Examined {
         let agrees = |(_, values): &Row<N>, pattern: &Pattern<N>| {
             values.iter().zip(pattern).zip(&self.quantities).all(|((value, wanted), quantity)| {

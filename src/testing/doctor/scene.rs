@@ -32,8 +32,7 @@ pub(super) const ANY_LAW: [&str; 8] = [
 /// Cell size (m): a power of two, so lattice points can lie on cell faces without rounding.
 pub(super) const H: f64 = 0.125;
 
-/// Factor for the stiffness of a soft body. The resulting forces are negligible even at nodes whose
-/// mass is only a rounding error.
+/// Stiffness factor of a soft body; its forces are negligible even at nodes without real mass.
 pub(super) const SOFT: f64 = 1e-24;
 
 /// Names of the lower and the higher face of a box for each axis.
@@ -58,8 +57,7 @@ pub(super) const SWELLING_SLOPE: f64 = 0.001;
 /// Slope lambda of the compression line of Cam-clay.
 pub(super) const COMPRESSION_SLOPE: f64 = 0.005;
 
-/// Preconsolidation pressure of Cam-clay over its initial pressure. Below 2, the clay hardens in
-/// shear at constant volume.
+/// Preconsolidation over initial pressure of Cam-clay; below 2, the clay hardens in shear.
 pub(super) const OVERCONSOLIDATION: f64 = 1.5;
 
 /// A box of particles on a grid. Vectors have one number per dimension.
@@ -78,8 +76,7 @@ pub(super) struct BoxScene {
     /// Young's modulus (Pa).
     pub(super) young: f64,
     pub(super) poisson: f64,
-    /// Strength or cohesion (Pa) of a soil; the initial pressure of Cam-clay; the yield stress of
-    /// `j2` with [`Extras::hardening`].
+    /// Strength or cohesion (Pa) of a soil, initial pressure of Cam-clay, or yield stress of `j2`.
     pub(super) strength: f64,
     /// Friction of a soil, as a share of [`FRICTION`] or [`FRICTION_ANGLE`].
     pub(super) friction: f64,
@@ -127,8 +124,8 @@ pub(super) struct Extras {
 }
 
 impl BoxScene {
-    /// Creates a body at rest with `cells` cells along each axis. Its lowest corner is `from`, and
-    /// `margin` empty cells surround it.
+    /// Creates a body at rest of `cells` cells per axis from `from` on, with `margin` cells around
+    /// it.
     pub(super) fn of_cells(kind: Kind, from: [f64; 3], cells: f64, margin: f64) -> Self {
         let (dimension, law) = kind;
         let low = from[..dimension].to_vec();
@@ -149,9 +146,8 @@ impl BoxScene {
             strength: 1e-4,
             friction: 1.0,
             dilation: 1.0 / 3.0,
-            // This density is not a power, product or ratio of the other numbers, so that each
-            // possible mistake of a solver changes accelerations by another factor (see
-            // `fall::factors`).
+            // No power, product or ratio of the other numbers, so that each possible mistake of a
+            // solver changes accelerations by another factor.
             density: 1.7,
             velocity: AffineField::default(),
             displacement: AffineField::default(),
@@ -202,8 +198,7 @@ impl BoxScene {
         AffineField { gradient, centre: self.centre(), ..AffineField::default() }
     }
 
-    /// Returns the field of [`Self::linear`] whose only slope is that of component `i` along
-    /// axis `j`.
+    /// Returns the field of [`Self::linear`] with the only slope of component `i` along axis `j`.
     pub(super) fn slope(&self, (i, j): (usize, usize), slope: f64) -> AffineField {
         self.linear(|a, b| if (a, b) == (i, j) { slope } else { 0.0 })
     }
@@ -233,8 +228,7 @@ impl BoxScene {
         ((lambda + 2.0 * mu) / self.density).sqrt()
     }
 
-    /// Converts the scene to other units: lengths, times and masses are multiplied by these
-    /// factors.
+    /// Multiplies all lengths, times and masses of the scene by these factors.
     pub(super) fn scaled(&self, length: f64, time: f64, mass: f64) -> Self {
         let by = |all: &[f64]| all.iter().map(|x| x * length).collect::<Vec<f64>>();
         let volume = (0..self.dimension).fold(1.0, |product, _| product * length);
@@ -398,8 +392,7 @@ impl BoxScene {
         suite.map_err(|diagnostic| diagnostic.to_string().into())
     }
 
-    /// Runs this crate's MPM with PIC and the named basis, to measure how averaging changes
-    /// velocities.
+    /// Runs this crate's MPM with PIC, to measure how averaging changes velocities.
     pub(super) fn averaged(&self, basis: &str) -> Result<Course, SubjectError> {
         self.built_in(&format!("basis: {basis}, transfer: pic, scheme: usl"))
     }

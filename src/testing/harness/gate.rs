@@ -1,5 +1,4 @@
-//! Tests of a suite: comparison with theory, comparison of the report with its snapshot, and run
-//! times of cases.
+//! Tests of a suite: comparisons with theory and with the snapshot, and run times of cases.
 
 use crate::external::SolverFactory;
 use crate::report;
@@ -46,7 +45,7 @@ impl Gate {
             trials.extend(cases);
             suites.extend(suite);
         }
-        // Report tests come last, because each one blocks a thread until all cases of its suite are
+        // Report tests come last: each one blocks a thread until all cases of its suite are
         // complete.
         trials.extend(suites.iter().map(report));
         if self.with_overview {
@@ -221,8 +220,7 @@ fn trials(
     });
     let case = |(index, case): (usize, &&str)| {
         let shared = Arc::clone(&shared);
-        // Cases without expectations are ignored, because a passing test would suggest a met
-        // expectation.
+        // Cases without expectations are ignored: a passing test would suggest a met expectation.
         Trial::ignorable_test(format!("{}::{case}", suite.name), move || shared.hold(index))
             .with_ignored_flag(suite.explores())
     };

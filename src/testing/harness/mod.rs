@@ -91,9 +91,8 @@ impl SuiteFolder {
         Words::Item: Into<OsString> + Clone,
     {
         let mut arguments = Arguments::from_iter(words);
-        // Cases run on rayon threads, and a test thread only waits. There are more waiting tests
-        // than rayon threads, so that a thread that finishes its part of one case can start another
-        // case.
+        // Cases run on rayon threads, and a test thread only waits. With more test threads, a rayon
+        // thread that finishes its part of one case can start another case.
         arguments.test_threads =
             arguments.test_threads.or(Some(WAITING * rayon::current_num_threads()));
         let found = libtest_mimic::run(&arguments, self.0.trials());

@@ -1,5 +1,4 @@
-//! The canvas of a figure: the SVG document with its background, a title of several lines, and
-//! estimated text widths.
+//! The canvas of a figure: the SVG document, a title of several lines, estimated text widths.
 
 use super::style::{FONT, INK, PAPER, TEXT, TITLE, style_sheet};
 use super::svg::{SvgElement, number};
@@ -12,8 +11,7 @@ const LEADING: f64 = 17.0;
 /// Maximum number of title lines.
 const LINES: usize = 3;
 
-/// Creates an empty document of this size (px), with the paper colour as background. Screen readers
-/// read `title`.
+/// Creates an empty document of this size (px). Screen readers read `title`.
 pub(crate) fn canvas(width: f64, height: f64, title: &str) -> SvgElement {
     let mut svg = SvgElement::new("svg")
         .set("xmlns", "http://www.w3.org/2000/svg")
@@ -56,11 +54,9 @@ impl Heading {
     }
 }
 
-/// Estimates the width of `text` (px) at the font size `size`. The actual width of SVG text depends
-/// on the viewer.
+/// Estimates the width of `text` (px) at the font size `size`, which depends on the viewer.
 ///
-/// The estimate is based on `DejaVu Sans`, the widest face of the font stack. A text that fits in
-/// this face also fits in Helvetica.
+/// A text that fits in `DejaVu Sans`, the widest face, also fits in Helvetica.
 pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
@@ -96,8 +92,7 @@ pub(crate) fn shorten(text: &str, size: f64, limit: f64) -> String {
     short
 }
 
-/// Wraps `text` into at most `lines` lines of at most `limit` pixels. If it does not fit, the last
-/// line is shortened.
+/// Wraps `text` into at most `lines` lines of `limit` pixels; the last one may be shortened.
 pub(crate) fn wrap(text: &str, size: f64, limit: f64, lines: usize) -> Vec<String> {
     let mut wrapped: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

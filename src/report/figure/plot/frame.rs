@@ -84,8 +84,7 @@ impl<'a> Plot<'a> {
         SvgElement::text(middle, "middle", text).set("fill", NEUTRAL)
     }
 
-    /// Creates the complete document: `layers` are drawn over the grid, and `legend` and `notes`
-    /// below the frame.
+    /// Creates the document: `layers` over the grid, `legend` and `notes` below the frame.
     pub(crate) fn document(
         &self,
         layers: &[SvgElement],

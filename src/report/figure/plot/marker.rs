@@ -1,5 +1,4 @@
-//! Draws markers. The shape identifies the series. The filling shows whether the level counts for
-//! the order.
+//! Draws markers: the shape shows the series, and the filling whether the level counts.
 
 use super::style::{MarkerShape, PAPER};
 use super::svg::{Pt, SvgElement};

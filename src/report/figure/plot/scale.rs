@@ -18,8 +18,7 @@ pub(crate) struct Pad {
     pub(crate) hi: f64,
 }
 
-/// Minimum length of a logarithmic axis (decades), so that rounding noise of equal errors does not
-/// fill the figure.
+/// Minimum length of a logarithmic axis (decades), so that rounding noise does not fill it.
 const MIN_DECADES: f64 = 0.5;
 
 impl Scale {

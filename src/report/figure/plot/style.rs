@@ -37,9 +37,8 @@ const PALETTE: [(&str, &str); 6] = [
     (FRONT, "#4a4a2a"),
 ];
 
-/// Colours of series in the light and the dark theme, after Okabe and Ito. Yellow is excluded, and
-/// orange and sky blue are darker in the light theme, because WCAG 2.2 (1.4.11) requires a contrast
-/// of 3:1.
+/// Colours of series in the light and the dark theme, after Okabe and Ito, without yellow and with
+/// darker orange and sky blue for the contrast of 3:1 that WCAG 2.2 (1.4.11) requires.
 const SERIES: [(&str, &str); 7] = [
     ("#0072b2", "#4ba6e3"),
     ("#d55e00", "#f0803c"),
@@ -99,8 +98,7 @@ const SHAPES: [MarkerShape; 8] = [
 const DASHES: [&str; 8] =
     ["6 2.5", "1.5 2", "9 2.5 1.5 2.5", "3 2", "12 3", "6 2 1.5 2 1.5 2", "4 4", "1.5 4"];
 
-/// Returns the style of the series at `index`. Colours and shapes have coprime periods, so their
-/// combinations repeat only after 56 series.
+/// Returns the style of a series; the coprime periods repeat only after 56 series.
 pub(crate) fn look(index: usize) -> Look {
     Look {
         colour: SERIES[index % SERIES.len()].0,

@@ -98,8 +98,7 @@ impl SvgElement {
     }
 }
 
-/// Formats a coordinate with two decimals. Zero has no sign, so that equal figures have equal
-/// bytes.
+/// Formats a coordinate with two decimals, zero without sign.
 pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }

@@ -94,8 +94,7 @@ fn log_ticks(
     for power in libm::floor(lo) as i32..=libm::ceil(hi) as i32 {
         for &digit in digits {
             let at = scale.fraction_of_working(f64::from(power) + libm::log10(f64::from(digit)));
-            // The tolerance keeps ticks at the ends of the axis if rounding places them just
-            // outside.
+            // The tolerance keeps ticks that rounding places just outside the axis.
             if (-1e-9..=1.0 + 1e-9).contains(&at) {
                 let label = label(digit, power);
                 ticks.push(Tick { at, label });

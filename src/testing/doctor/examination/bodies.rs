@@ -1,7 +1,6 @@
 //! Examination of two bodies with different laws and densities that do not touch.
 //!
-//! Each body stretches at a constant rate as in `stress`, and the momentum flux through its middle
-//! gives its modulus.
+//! Each body stretches as in `stress`, and the momentum flux through its middle gives its modulus.
 
 use super::stress::{STEPS, TRAVEL, moduli_by_momentum, spreading};
 use crate::testing::doctor::prelude::*;

@@ -1,5 +1,5 @@
-//! Examination of the protocol: equal requests must give equal answers, and the number of steps per
-//! message must not matter.
+//! Examination of the protocol: equal requests give equal answers, for any number of steps per
+//! message.
 
 use super::force::ramp;
 use crate::external::ProblemNeeds;
@@ -67,8 +67,7 @@ fn wrong_weights(course: &Course, scene: &BoxScene) -> Option<SolverFinding> {
     (!is_near).then_some(finding)
 }
 
-/// Returns the largest difference of a column at the end of two runs, relative to the largest value
-/// of the column.
+/// Returns the largest difference of a final column, relative to the largest value of the column.
 fn difference(field: Field, a: &Course, b: &Course) -> f64 {
     let (last, other) = (a.last(), b.last());
     largest_difference(field(&a.states[last]), field(&b.states[other]))
@@ -104,9 +103,8 @@ fn repeated(first: &Course, second: &Course, patient: &Patient<'_>) -> Option<So
     })
 }
 
-/// Compares six steps in one message with six messages of one step. The body accelerates under all
-/// loads that the solver supports, to reveal an operation that is done once per message instead of
-/// once per step.
+/// Compares six steps in one message with six messages of one step. Under all loads that the solver
+/// supports, this reveals an operation that is done once per message instead of once per step.
 fn grouped_under_acceleration(
     patient: &Patient<'_>,
     kind: Kind,
@@ -156,8 +154,7 @@ fn grouped(
         largest_difference(a, b) / scale
     });
     let columns = others.into_iter().fold(0.0, f64::max);
-    // Rounding errors of stresses are larger, because stresses depend on differences of
-    // displacements.
+    // Rounding errors of stresses, which depend on differences of displacements, are larger.
     if off.max(speed) <= patient.rounding() && columns <= 1e3 * patient.rounding() {
         return None;
     }

@@ -22,8 +22,7 @@ const SHARE: f64 = 0.3;
 /// Gravity (m/s2).
 const GRAVITY: f64 = 0.9;
 
-/// A step of first order has an error of `c dt/2` in the rate, which is 0.4 %. The rate of the end
-/// of a step is 2 % larger.
+/// A step of first order has a rate error `c dt/2` of 0.4 %; the rate of its end is 2 % larger.
 const RULES: Rules<4> = Rules {
     quantities: [
         ("rate of damping", 1.0, 0.05),

@@ -95,8 +95,7 @@ pub(super) fn position_rounding(patient: &Patient<'_>, scene: &BoxScene) -> Resu
     Ok((1..=course.last()).map(error).fold(0.0, f64::max))
 }
 
-/// Returns a finding if the columns `stress` or `deformation_gradient` of a soft body in rigid
-/// motion show a strain.
+/// Returns a finding if the columns of a soft body in rigid motion show a strain.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();
@@ -109,8 +108,7 @@ fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFind
             largest_entry(&now.iter().zip(then).map(|(now, then)| now - then).collect::<Vec<_>>())
         };
         most = most.max(change(&state.deformation_gradient, &first.deformation_gradient));
-        // The stress check needs a law whose stress is proportional to an elastic modulus, unlike
-        // that of a fluid.
+        // This check needs a law whose stress is proportional to an elastic modulus.
         if ELASTIC.contains(&scene.law) {
             most = most.max(change(&state.stress, &first.stress) / (lambda + 2.0 * mu));
         }

@@ -16,8 +16,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Gravity (m/s2). The value differs from 9.81, because a solver may use 9.81 by default.
 const GRAVITY: f64 = 3.7;
 
-/// Maximum relative difference between a measured value and the value that a suspected cause
-/// predicts.
+/// Maximum relative difference between a measured value and the value that a cause predicts.
 const NEAR: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -50,8 +49,7 @@ fn scene(kind: Kind) -> BoxScene {
     BoxScene { steps: 40, dt: 0.01, ..scene }
 }
 
-/// Whether the solver takes several shorter steps for each step. `false` for solvers without
-/// gravity.
+/// Whether the solver takes several shorter steps for each step; `false` without gravity.
 pub(super) fn divides_steps(patient: &Patient<'_>) -> bool {
     let course = patient.able(&[2, 3, 1], &ANY_LAW, &scene).and_then(|scene| patient.run(&scene));
     course.is_ok_and(|course| {
@@ -115,9 +113,8 @@ fn of_force(patient: &Patient<'_>, course: &Course, g: Vector3<f64>) -> Option<S
 struct FallTimes {
     /// Smallest and largest l of the velocities `g (t - l dt)`.
     lag: [f64; 2],
-    /// Smallest and largest q of the steps: each step moves the body by `v dt + (1 + q) g dt^2/2`,
-    /// with the velocity v before the step. Shorter steps of the lengths `f dt` give the sum of all
-    /// f^2.
+    /// Smallest and largest q of the steps, which move the body by `v dt + (1 + q) g dt^2/2` with
+    /// the velocity v before the step. Shorter steps of the lengths `f dt` give the sum of all f^2.
     share: [f64; 2],
 }
 
@@ -150,8 +147,8 @@ impl FallTimes {
         self.has_lag(0.0) || self.has_lag(0.5)
     }
 
-    /// Whether positions and velocities are those of shorter steps, with velocities at most half a
-    /// shorter step early.
+    /// Whether the times are those of shorter steps, with velocities at most half such a step
+    /// early.
     fn is_of_shorter_steps(&self) -> bool {
         let [[lag, most_lag], [share, most_share]] = [self.lag, self.share];
         let is_lag = lag >= -NEAR && most_lag <= 0.5 * most_share.sqrt() + NEAR;

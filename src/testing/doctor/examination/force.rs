@@ -20,8 +20,7 @@ const FORCE: f64 = 0.8;
 /// Growth rate of the force per unit mass (m/s3).
 const RATE: f64 = 6.0;
 
-/// Maximum relative difference between a measured value and the value that a suspected cause
-/// predicts.
+/// Maximum relative difference between a measured value and the value that a cause predicts.
 const NEAR: f64 = 0.1;
 
 /// A request: its time (s) and reference position (m).
@@ -69,8 +68,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let asked = Questions::default();
     let force: ForceAlong = |_, t| FORCE + RATE * t;
     let mut course = run(patient, &moving, &asked, true, force);
-    // A request for a position outside the body ends the run, so a second run without this check
-    // records all requests.
+    // A request outside the body ends the run; a second run without this check records all
+    // requests.
     if matches!(course, Err(Hindrance::Broke(_))) {
         course = run(patient, &moving, &asked, false, force).or(course);
     }
@@ -114,8 +113,8 @@ pub(super) fn ramp(problem: &mut LevelProblem) {
     problem.constant_body_force = None;
 }
 
-/// Runs `scene` with the force `force(x, t)` along the first axis. If `checks_places`, a request
-/// for a position outside the body is an error.
+/// Runs `scene` with a force along the first axis. With `checks_places`, the problem has its
+/// fields, so a request for a position outside the body is an error.
 fn run(
     patient: &Patient<'_>,
     scene: &BoxScene,
@@ -189,8 +188,8 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     let gained = |k: usize| course.mean(velocity, k)[0] - VELOCITY[0];
     let wanted = integral(end);
     let instants = &course.times[1..];
-    // With velocities that lag by l steps and forces of a time s steps later, the error of the
-    // speed is `-l dt F + (s - l) dt R t`.
+    // If velocities lag by l and forces are late by s steps, the error is `-l dt F + (s - l) dt R
+    // t`.
     let errors: Vec<f64> = (1..=last).map(|k| gained(k) - integral(course.times[k])).collect();
     let (start, slope, off) = line(instants, &errors);
     let (lag, late) = (-start / (FORCE * dt), slope / (RATE * dt));
@@ -257,8 +256,7 @@ fn of_time(asked: &Questions, course: &Course) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if the velocities after one step do not grow linearly with X, as the force
-/// does in the run `course`.
+/// Returns a finding if velocities after one step do not grow linearly with X, as the force does.
 fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
     let (mut x, mut v, mut across) = (Vec::new(), Vec::new(), 0.0_f64);
     for (label, speed) in course.points(velocity, 1) {
@@ -267,8 +265,7 @@ fn of_points(course: &Course, slope: f64) -> Option<SolverFinding> {
         across = across.max((speed - speed[0] * Vector3::x()).norm());
     }
     let share = line(&x, &v).1 / slope;
-    // The accepted range is wide, because basis functions smooth a linear field near the edge of
-    // the body, also with APIC and PIC.
+    // The range is wide, because basis functions smooth a linear field near the edge of the body.
     let most = v.iter().map(|v| v.abs()).fold(0.0, f64::max);
     if (0.4..=1.3).contains(&share) && across <= 0.1 * most {
         return None;

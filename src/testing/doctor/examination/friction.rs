@@ -30,9 +30,8 @@ const GRAVITY: f64 = 1e-3;
 /// Relative speed of bodies that collide or separate, relative to the wave speed.
 const SPEED: f64 = 1e-3;
 
-/// Where all nodes of a contact slide, the ratio of the impulses is exact. The normal force of a
-/// wall oscillates about the weight, and that of a collision is smoothed. A body that has stopped
-/// vibrates.
+/// While all nodes of a contact slide, the ratio of the impulses is exact. The normal force of a
+/// wall oscillates, that of a collision is smoothed, and a body that has stopped vibrates.
 const RULES: Rules<4> = Rules {
     quantities: [
         ("normal force", 1.0, 0.5),

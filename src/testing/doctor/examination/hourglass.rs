@@ -60,8 +60,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(RULES.judge(&[("alternating mode".to_owned(), [Some(share)])]))
 }
 
-/// Returns the amplitude of the mode in the final displacements, relative to `v t`; `None` if the
-/// mode is zero at all points.
+/// Returns the amplitude of the mode relative to `v t`; `None` if the mode is zero at all points.
 fn share(scene: &BoxScene, course: &Course) -> Option<f64> {
     let mode = |label: Vector3<f64>| {
         let phase = |i: usize| std::f64::consts::PI / H * (label[i] - scene.body.0[i]);

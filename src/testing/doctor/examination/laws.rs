@@ -1,5 +1,4 @@
-//! Examination of stresses at finite strain and rotation: the columns `stress` and
-//! `deformation_gradient` for each law.
+//! Examination of the columns `stress` and `deformation_gradient` of each law at finite strain.
 //!
 //! A body with negligible stiffness moves with `v = L (X - C)` until stretch, shear and rotation
 //! are of order one. In the middle of the body, the column `deformation_gradient` is compared with
@@ -33,14 +32,13 @@ const FOLLOWS: f64 = 0.1;
 /// Initial displacement gradient of a body that starts deformed.
 const START: [[f64; 3]; 3] = [[0.1, -0.3, 0.0], [0.2, 0.0, -0.1], [0.0, 0.1, 0.1]];
 
-/// Maximum error of a component, relative to the largest one. The value allows for the time step
-/// error of laws in rate form.
+/// Maximum error of a component, relative to the largest one; allows for laws in rate form.
 const NEAR: f64 = 0.04;
 
 const STEPS: u64 = 25;
 
-/// State with small strains. The errors in this state and at half its time show whether an error
-/// grows with the strain.
+/// State with small strains. The errors here and at half its time show whether they grow with
+/// strain.
 const EARLY: usize = 4;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -135,9 +133,8 @@ fn stress_errors(course: &Course, scene: &BoxScene, k: usize) -> Result<StressEr
     Ok(stress_error(&column, &law_at(scene, &f)?))
 }
 
-/// Returns a finding if the stress is wrong by a constant factor, or already at small strains.
-/// Errors of other stress measures grow with the strain. `errors` belong to states with decreasing
-/// strains.
+/// Returns a finding if the stress is wrong by a constant factor, or already at small strains,
+/// where other stress measures agree. `errors` belong to states with decreasing strains.
 fn of_parameters(name: &str, errors: [StressError; 3]) -> Option<SolverFinding> {
     let [end, early, earliest] = errors;
     let is_scaled =
@@ -194,8 +191,7 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<Examined, Hindrance> {
     }
     let impulse = |course: &Course| impulses(course, &scene, 0, 0)[course.last()];
     let d = scene.dimension;
-    // The first Piola-Kirchhoff stress along the stretch, integrated by Simpson's rule. Because J =
-    // F_00, P_00 equals sigma_00.
+    // First Piola-Kirchhoff stress, by Simpson's rule. Because J = F_00, P_00 equals sigma_00.
     let mut expected = 0.0;
     for (share, weight) in [(0.0, 1.0), (0.25, 4.0), (0.5, 2.0), (0.75, 4.0), (1.0, 1.0)] {
         let mut f = vec![0.0; d * d];
@@ -250,9 +246,8 @@ fn volumes(patient: &Patient<'_>, kind: Kind) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, Some(finding)))
 }
 
-/// Returns the mass of the stretched body, relative to its initial mass: the acceleration under a
-/// constant total force in the first steps, divided by that in the last steps. `None` if the solver
-/// does not support such a force.
+/// Returns the mass of the stretched body over its initial mass: the acceleration under a constant
+/// force in the first steps over that in the last steps. `None` without support for such a force.
 fn mass_ratio(patient: &Patient<'_>, scene: &BoxScene) -> Option<f64> {
     let force = scene.density * (0..scene.dimension).fold(0.01, |f, _| f * 12.0 * H);
     let pulled = |_| BoxScene { force: Some(force), ..scene.soft() };
@@ -282,8 +277,7 @@ pub(super) fn deformation_gradient(course: &Course, scene: &BoxScene) -> Vec<f64
     deformation_gradient_at(course, scene, course.last())
 }
 
-/// Computes F in the middle of the body in state `k`, row by row, by a least-squares fit to the
-/// displacements.
+/// Fits F in the middle of the body in state `k` to the displacements, row by row.
 fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f64> {
     let (d, centre) = (scene.dimension, scene.centre());
     let points = course.points(displacement, k).filter(|(label, _)| scene.is_central(label, 1.0));
@@ -300,7 +294,7 @@ fn deformation_gradient_at(course: &Course, scene: &BoxScene, k: usize) -> Vec<f
     f
 }
 
-/// Returns the initial stress (Pa), row by row, of a body that starts with the deformation gradient
+/// Returns the initial stress (Pa), row by row, of a body with the initial deformation gradient
 /// `f`.
 fn law_at(scene: &BoxScene, f: &[f64]) -> Result<Vec<f64>, Hindrance> {
     let d = scene.dimension;

@@ -23,8 +23,7 @@ const CELLS: f64 = 8.0;
 /// Strain of the column at its foot.
 const STRAIN: f64 = 0.004;
 
-/// Maximum error, relative to the largest displacement. The error of linear functions is at most
-/// `(h/L)^2/4` of the displacement.
+/// Maximum error over the largest displacement. Linear functions have an error of `(h/L)^2/4`.
 const NEAR: f64 = 0.03 + STRAIN;
 
 const RULES: Rules<7> = Rules {

@@ -1,8 +1,7 @@
 //! Examination of walls with a given velocity.
 //!
-//! A wall of the velocity v pushes a bar at rest with the force `rho c v A` until waves return. The
-//! velocity of walls at low ends is constant. The velocity of walls at high ends grows as `v t/T`
-//! with the run time T.
+//! A wall of the velocity v pushes a bar at rest with the force `rho c v A` until waves return.
+//! Walls at low ends have a constant velocity, and walls at high ends `v t/T` with the run time T.
 
 use super::stress::{constant_and_rate, judge_ends};
 use super::walls::bar;
@@ -20,8 +19,7 @@ pub(super) const EXAMINATION: Examination = Examination {
 /// Velocity of the wall along its normal and along its tangents, relative to the wave speed.
 const SHARES: [f64; 3] = [1e-3, 0.6e-3, -0.4e-3];
 
-/// The forces of smooth motions have errors of up to 0.2, as in `walls`. After a sudden start, the
-/// force oscillates for a long time.
+/// Smooth motions have force errors of up to 0.2. After a sudden start, the force oscillates.
 const RULES: Rules<4> = Rules {
     quantities: [
         ("force", 1.0, 0.5),

@@ -12,8 +12,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// The body counts as moving as a whole if points deviate from the mean motion by at most this
-/// share of the largest motion.
+/// Maximum deviation from the mean motion of a body that moves as a whole, over the largest motion.
 const AS_ONE: f64 = 0.02;
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
@@ -36,8 +35,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
         return Ok(Examined::new(measured, None));
     }
     let claims_double = patient.solver.precision() == Precision::Double;
-    // Smaller motions are rounding errors of single precision, because an acceleration due to a
-    // defect causes far larger motion in one step.
+    // Smaller motions are rounding errors; an acceleration moves the body farther in one step.
     let is_noise = claims_double && way.max(speed) <= 1e-5;
     let finding = if is_noise { single(way, speed) } else { cause(&course) };
     Ok(Examined::new(measured, Some(finding)))

@@ -1,9 +1,8 @@
 //! Examination of a body that starts deformed and stressed, and is released.
 //!
-//! The displacement of the body is a simple shear, so F and the stress are uniform. A reference
-//! plane of area A with normal i divides the body into two halves. Until waves arrive from the free
-//! faces, component j of the momentum of the upper half changes at the rate `-P_ji A`, where P is
-//! the initial first Piola-Kirchhoff stress.
+//! The displacement is a simple shear, so F and the stress are uniform. Until waves arrive from the
+//! free faces, component j of the momentum above a reference plane of area A with normal i changes
+//! at the rate `-P_ji A`, where P is the initial first Piola-Kirchhoff stress.
 
 use super::start_gradient;
 use super::stress::{STEPS, TRAVEL, constant_and_rate, impulses, inside, require_whole_body};
@@ -28,9 +27,8 @@ pub(super) const EXAMINATION: Examination = Examination {
     examine,
 };
 
-/// Initial shear. A shear of one maps the square lattice of particles to a square lattice, so all
-/// cells have equally many particles. Unequal numbers would reduce the force by a tenth with linear
-/// functions.
+/// Initial shear. A shear of one maps the square lattice to a square lattice, with equally many
+/// particles in all cells. Unequal numbers reduce the force by a tenth with linear functions.
 const SHEAR: f64 = 1.0;
 
 /// Initial displacement gradient of a one-dimensional body.
@@ -71,8 +69,7 @@ const PLACEMENTS: [BodyPlacement; 3] = [
     BodyPlacement { sheared: [0.25, 0.0, 0.0], stretched: [0.0; 3], cells: [12.0; 3], steps: 4 },
 ];
 
-/// Maximum relative error of the force. The value allows for approaching waves and small changes of
-/// the state.
+/// Maximum relative error of the force, which allows for approaching waves.
 const NEAR: f64 = 0.12;
 
 /// Maximum force in the first step normal to the expected force, relative to the expected force.
@@ -166,8 +163,7 @@ fn scene(kind: Kind, offset: [f64; 3], placement: BodyPlacement) -> BoxScene {
     scene.with_waves(TRAVEL * placement.steps as f64 / STEPS as f64, placement.steps)
 }
 
-/// Creates a body stretched to 1.5 times its length. The stretch reduces three particles per cell
-/// and axis to two.
+/// Creates a body stretched to 1.5 times its length, from three to two particles per cell and axis.
 fn stretched(kind: Kind, placement: BodyPlacement) -> BoxScene {
     let mut scene = scene(kind, placement.stretched, placement);
     scene.ppc = 3;
@@ -194,8 +190,7 @@ impl Forces {
         let d = scene.dimension;
         let particles = &course.problem.particles;
         let (sigma, f) = (&particles.stress[..d * d], &particles.deformation_gradient[..d * d]);
-        // With P = J sigma F^-T, the first column of P is sigma times the first column of the
-        // cofactors of F.
+        // With P = J sigma F^-T, the first column of P is sigma times that of the cofactors of F.
         let cofactor = |k: usize| {
             let mut replaced = f.to_vec();
             (0..d).for_each(|row| replaced[row * d] = f64::from(u8::from(row == k)));
@@ -235,10 +230,9 @@ impl Forces {
         format!("the force due to the initial stress is {force} of the expected force{delay}")
     }
 
-    /// Describes the components of the initial stress that are wrong, if the force in the first
-    /// step has another direction than expected. In a sheared body, the force along axis j is
-    /// `sigma_jx - sigma_jy`. A run that starts half a step back has half this force in the first
-    /// step.
+    /// Names the wrong components of the initial stress if the force in the first step, which is
+    /// half as large in a run that starts half a step back, has another direction than expected. In
+    /// a sheared body, the force along axis j is `sigma_jx - sigma_jy`.
     fn wrong_components(&self, scene: &BoxScene) -> Option<String> {
         let across = self.first - self.first.dot(&self.unit) * self.unit;
         if across.norm() <= ACROSS {
@@ -300,8 +294,7 @@ fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
 
 fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFinding> {
     let d = scene.dimension;
-    // A wrong start is detected after the first step, because the motion in this step is much
-    // smaller than the initial displacement.
+    // The motion in the first step is much smaller than the initial displacement.
     let reach = course.farthest(displacement, 0, [0.0; 3]);
     let off = course.first_motion() / reach;
     let law = scene.law;

@@ -1,5 +1,4 @@
-//! Bodies that start with a strain or stress that varies linearly, as part of the examination
-//! `start`.
+//! Bodies whose initial strain or stress varies linearly, as part of the examination `start`.
 
 use crate::external::SMALL_STRAIN;
 use crate::testing::doctor::prelude::*;
@@ -31,9 +30,8 @@ const GRADIENT: Rules<2> = Rules {
 const UNIFORM: &str = "the initial stress or F of one particle, or a mean over the body, is used \
                        for all particles";
 
-/// Examines bodies whose initial strain is `c (X - X_c)`, and a body with the initial stress
-/// `M c (X - X_c)`. With the longitudinal modulus M, the middle has the acceleration `M c/rho`
-/// until waves arrive from the faces.
+/// Examines bodies with the initial strain `c (X - X_c)` or the initial stress `M c (X - X_c)`.
+/// Until waves arrive, the middle has the acceleration `M c/rho` (M: longitudinal modulus).
 pub(super) fn examine(
     patient: &Patient<'_>,
     undeformed: &dyn Fn(Kind) -> BoxScene,
@@ -69,8 +67,7 @@ pub(super) fn examine(
     Ok(GRADIENT.judge(&rows.collect::<Vec<Row<2>>>()))
 }
 
-/// Returns the accelerations of the middle in the first step and in later steps, relative to
-/// `M c/rho`.
+/// Returns the accelerations in the first and in later steps, relative to `M c/rho`.
 fn accelerations(course: &Course, scene: &BoxScene) -> [f64; 2] {
     let (lambda, mu) = scene.lame();
     let speed = |k: usize| {

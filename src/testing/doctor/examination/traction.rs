@@ -21,8 +21,7 @@ const SHARES: [f64; 3] = [1e-4, -0.7e-4, 0.4e-4];
 
 const CELLS: f64 = 4.0;
 
-/// The momentum of all particles or nodes is exact. The sum over a sample of particles has an
-/// error, because the velocity is not uniform.
+/// The momentum of all particles or nodes is exact; the sum over a sample has an error.
 const RULES: Rules<4> = Rules {
     quantities: [
         ("force along the normal", 1.0, 0.1),

@@ -1,10 +1,8 @@
-//! Examination of the velocity transfer between particles and grid, using a stress-free body that
-//! rotates or stretches.
+//! Examination of the velocity transfer, with a stress-free body that rotates or stretches.
 //!
-//! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (A uniform velocity
-//! would reveal nothing, because all weights that sum to one transfer it exactly.) The moment
-//! `M = sum m (X - C) x v` (rotation) or `M = sum m (X - C) . v` (stretch) shows how much of this
-//! velocity is transferred.
+//! The velocity is `v = L (X - C)`, a rotation or a stretch about the centre C. (All weights that
+//! sum to one transfer a uniform velocity.) The moment `M = sum m (X - C) x v` (rotation) or `M =
+//! sum m (X - C) . v` (stretch) shows how much of this velocity is transferred.
 //!
 //! A transfer that averages (PIC) loses `beta d D sum m L` of M in each step. In this formula, d is
 //! the number of axes along which v varies, beta is the share of PIC in a blend with FLIP, and D is
@@ -54,9 +52,8 @@ enum SlowMotion {
     Stretch,
 }
 
-/// Losses of the moment M in the first step and per step from the third on, in units of `d h2 M/I`.
-/// I is the moment of inertia divided by the mass. Affine matrices that start at zero reach their
-/// values in the first two steps.
+/// Losses of the moment M in the first step and per step from the third on (affine matrices that
+/// start at zero need two), in units of `d h2 M/I` with the moment of inertia per mass I.
 #[derive(Debug, Clone, Copy)]
 struct Losses {
     first: f64,
@@ -76,8 +73,8 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let losses: Vec<Losses> = courses.iter().zip(&scenes).map(|(c, s)| losses_of(c, s)).collect();
     let (stretch, small) = (losses[0], losses[losses.len() - 1]);
     let rotation = if kind.0 > 1 { losses[1] } else { stretch };
-    // If velocities and points are in different orders, the whole moment is lost in the first step,
-    // and nothing later.
+    // With velocities in another order than points, the first step loses all, and later steps
+    // nothing.
     if losses.iter().all(|l| l.first * l.unit > 0.5 && !(l.later.abs() > KEPT)) {
         let seen = "after one step, the velocities of a stretching body belong to other points";
         let finding = SolverFinding::defect(
@@ -102,8 +99,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured, finding))
 }
 
-/// Examines a stretching body, for solvers that ignore the initial velocity, confuse vectors of
-/// different points, or increase the velocity.
+/// Reveals ignored initial velocities, confused vectors of points, and velocities that grow.
 fn examine_initial_velocity(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| scene(kind, SlowMotion::Stretch))?;
     let course = patient.run(&scene)?;
@@ -212,9 +208,8 @@ fn cause(
     let defect = |name, cause| Some(SolverFinding::defect(name, seen.clone(), cause, look_at));
     let is_alike = |a: f64, b: f64| (a - b).abs() <= KEPT + NEAR * a.abs().max(b.abs());
     if stretch.later.abs() <= KEPT && rotation.later > KEPT {
-        // If the affine matrix is transposed, losses are twice those of averaging: in every step if
-        // the matrix starts with the velocity gradient, and otherwise in every step except the
-        // first.
+        // A transposed matrix doubles the averaging loss in every step, or in every step except the
+        // first if the matrix does not start with the velocity gradient.
         let averaged = averaging.iter().map(|l| l.first).fold(0.0, f64::max);
         let is_twice = rotation.later > 1.2 * rotation.first || rotation.first > 1.15 * averaged;
         return if is_twice {

@@ -17,8 +17,7 @@ pub(super) const VELOCITY: [f64; 3] = [0.25, -0.15625, 0.125];
 
 fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     let scene = patient.able(&[2, 3, 1], &ANY_LAW, &|kind| {
-        // This position keeps particles away from cell faces, even if the solver is half a step
-        // ahead.
+        // Particles stay away from cell faces, even if the solver is half a step ahead.
         let from = [0.375 + 0.1125 * H, 0.125 + 0.101_562_5 * H, 0.5 + 0.106_25 * H];
         let mut scene = BoxScene::of_cells(kind, from, 4.0, 7.0);
         scene.velocity = scene.uniform(VELOCITY);

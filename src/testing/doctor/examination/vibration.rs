@@ -1,11 +1,9 @@
 //! Examination of a free vibrating body, whose energy must not grow.
 //!
-//! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy must
-//! not exceed its initial value by much. This holds for schemes that compute the strain from the
-//! updated velocities (USL, MUSL), or the forces from the updated stress (USF). If a scheme
-//! computes strain and forces from the state at the beginning of the step, as in forward Euler,
-//! each step multiplies the amplitude of a mode with the angular frequency w by
-//! `sqrt(1 + w^2 dt^2)`.
+//! A body that starts with a uniform stretch rate vibrates for two periods. Its kinetic energy
+//! hardly exceeds its initial value in schemes that compute the strain from the updated velocities
+//! (USL, MUSL), or the forces from the updated stress (USF). In forward Euler, each step multiplies
+//! the amplitude of a mode with the angular frequency w by `sqrt(1 + w^2 dt^2)`.
 
 use crate::testing::doctor::prelude::*;
 

@@ -5,12 +5,10 @@ use crate::testing::doctor::finding::{LIGHT_NODES, MASS_THRESHOLD};
 use crate::testing::doctor::prelude::*;
 use std::f64::consts::SQRT_2;
 
-/// Basis functions at points up to this distance (cells) from the edge of the body use nodes
-/// outside the body.
+/// Distance (cells) from the edge of the body up to which points use nodes outside the body.
 const RIM: f64 = 1.6;
 
-/// Returns a cause that is recognised even if the error is small: a position limit, nodes with
-/// little mass, or cell changes.
+/// Returns a cause that even small errors reveal: a position limit, light nodes, or cell changes.
 pub(super) fn plain(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     limit(motion)
         .or_else(|| changed_on_faces(motion))

@@ -2,12 +2,10 @@
 
 use crate::testing::doctor::prelude::*;
 
-/// Maximum relative difference between a measured value and the value that a suspected cause
-/// predicts.
+/// Maximum relative difference between a measured value and the value that a cause predicts.
 const NEAR: f64 = 0.02;
 
-/// The body counts as moving as a whole if the motions of points differ from the mean motion by at
-/// most this share of the mean error.
+/// Maximum deviation from the mean motion of a body that moves as a whole, over the mean error.
 const AS_ONE: f64 = 0.05;
 
 pub(super) struct UniformMotion<'a> {
@@ -151,8 +149,7 @@ fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindran
     }))
 }
 
-/// Returns the mean velocity in the expected direction at each time, relative to the expected
-/// speed.
+/// Returns the mean velocity along the expected one at each time, over the expected speed.
 fn speed_shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     let v = motion.velocity;
     let mean = |k| motion.course.mean(velocity, k);

@@ -23,8 +23,7 @@ fn is_near(measured: f64, expected: f64) -> bool {
     (measured - expected).abs() <= NEAR * expected.abs()
 }
 
-/// Computes the preconsolidation pressure, divided by the initial mean stress, after a plastic
-/// compaction with this hardening slope.
+/// Computes the preconsolidation pressure over the initial mean stress after a plastic compaction.
 fn hardened(compaction: f64, slope: f64) -> f64 {
     OVERCONSOLIDATION * libm::exp(compaction / slope)
 }
@@ -125,8 +124,7 @@ fn of_hardening(compression: &PathEnd, shear: &PathEnd) -> Option<SolverFinding>
         return is_wrong.then(|| yield_surface(seen(shear)));
     }
     let slope = compression.hardening_slope();
-    // The total volume strain may count from the start or from first yield, which is at a mean
-    // stress below pc.
+    // The total volume strain may count from the start or from first yield, which is below pc.
     let total = compression.compaction - 0.5 * SWELLING_SLOPE * libm::log(OVERCONSOLIDATION);
     let cause = if is_near(compression.consolidation(), OVERCONSOLIDATION) {
         "the preconsolidation pressure is not updated".to_owned()

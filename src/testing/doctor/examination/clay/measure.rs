@@ -99,8 +99,7 @@ impl PathEnd {
         self.compaction - SWELLING_SLOPE * libm::log(self.p)
     }
 
-    /// Returns the preconsolidation pressure of the yield surface through the stress, divided by
-    /// the initial mean stress.
+    /// Returns the preconsolidation pressure of the yield surface through the stress, over p0.
     pub(super) fn consolidation(&self) -> f64 {
         self.p + self.q * self.q / (CRITICAL_STATE_SLOPE * CRITICAL_STATE_SLOPE * self.p)
     }

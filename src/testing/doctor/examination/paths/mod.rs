@@ -28,8 +28,7 @@ const AFTER: &[&str] = &["translation", "force", "transfer", "stress", "laws"];
 /// Young's modulus (Pa) of all paths.
 const YOUNG: f64 = 15_000.0;
 
-/// Poisson's ratio. Below 0.25, soils with a friction angle of 30 degrees yield in uniaxial
-/// compression.
+/// Poisson's ratio. Below 0.25, soils with a friction angle of 30 degrees yield in compression.
 const POISSON: f64 = 0.2;
 
 /// Density (kg/m3). The density is so large that waves travel only about 1e-8 cells in a second.
@@ -51,8 +50,7 @@ type StrainGradient = [[f64; 3]; 3];
 /// Uniaxial compression.
 const COMPRESSION: StrainGradient = [[-0.000_75, 0.0, 0.0], [0.0; 3], [0.0; 3]];
 
-/// Shear with three different principal stresses, so the stress is on a face of the Mohr-Coulomb
-/// pyramid.
+/// Shear with different principal stresses, on a face of the Mohr-Coulomb pyramid.
 const SHEAR: StrainGradient = [[0.000_3, 0.0, 0.0], [0.0, -0.000_3, 0.0], [0.0; 3]];
 
 /// Name of a finding, its cause, and the code to check.
@@ -150,16 +148,15 @@ impl Leg {
         !(self.relative_error() <= self.bound)
     }
 
-    /// Returns the largest difference between the stress errors of `self` and `other`, relative to
-    /// the largest expected component.
+    /// Returns the largest difference between the errors of two legs, over the largest component.
     fn distance_from(&self, other: &Self) -> f64 {
         let errors = other.stress.iter().zip(&other.expected).map(|(stress, right)| stress - right);
         let moved: Vec<f64> = errors.zip(&self.expected).map(|(off, right)| right + off).collect();
         self.distance(&moved)
     }
 
-    /// Whether the stress agrees with `factor` times the stress of the law after `change`, and much
-    /// better than with its own law.
+    /// Whether the stress agrees with `factor` times that of the changed law, and better than its
+    /// own.
     fn is_that_of(&self, (change, factor, _): &LawMistake) -> Result<bool, Hindrance> {
         let mut scene = self.scene.clone();
         change(&mut scene);
@@ -244,8 +241,7 @@ fn legs(
     paths.into_iter().zip(&scenes).zip(&courses).map(leg).collect()
 }
 
-/// Returns the finding on the first wrong stress. A path is examined only if the stresses on all
-/// simpler paths are correct.
+/// Returns the finding on the first wrong stress; the stresses on simpler paths are correct.
 fn finding(legs: &[Leg], laws: &Laws) -> Result<Option<SolverFinding>, Hindrance> {
     for (k, leg) in legs.iter().enumerate() {
         let next = legs.get(k + 1).filter(|next| {
@@ -331,9 +327,8 @@ pub(super) fn in_middle(course: &Course, scene: &BoxScene) -> Result<Vec<f64>, H
         .ok_or_else(|| Hindrance::Broke("the column `stress` is missing".to_owned()))
 }
 
-/// Computes the stress (Pa) in the middle of `scene` at the end with the built-in solver. The body
-/// is cut to four cells along each axis, because only the outer cells have nodes whose velocity is
-/// not exact.
+/// Computes the stress (Pa) in the middle of `scene` at the end with the built-in solver, for a
+/// body of four cells along each axis: only nodes of outer cells have an inexact velocity.
 fn expected(scene: &BoxScene) -> Result<Vec<f64>, Hindrance> {
     const METHOD: &str = "basis: linear, transfer: flip, scheme: usl, frame: total_lagrangian";
     let at =

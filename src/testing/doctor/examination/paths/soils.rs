@@ -194,8 +194,7 @@ mod tests {
         (mean - 2.0 / 3.0_f64.sqrt() * root, mean + root / 3.0_f64.sqrt())
     }
 
-    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil. On an edge of the pyramid, two
-    /// planes share one plastic multiplier.
+    /// Returns the stresses of [`cone`] for a Mohr-Coulomb soil, whose edges share one multiplier.
     fn pyramid(scene: &BoxScene, e: f64) -> (f64, f64) {
         let (lambda, mu) = scene.lame();
         let modulus = lambda + 2.0 * mu;

@@ -13,8 +13,7 @@ pub(super) const SHEAR: f64 = 4e-3;
 /// Half the width (cells) of the tube: the points near an axis whose momentum is measured.
 const TUBE: f64 = 2.0;
 
-/// Distance that waves travel during the run (cells), so short that waves from free faces do not
-/// reach the tube.
+/// Distance that waves travel during the run (cells); waves from free faces do not reach the tube.
 pub(crate) const TRAVEL: f64 = 1.5;
 
 /// Number of steps. The number is small, because averaging (PIC) spreads momentum in each step.
@@ -27,16 +26,13 @@ pub(crate) struct MeasuredModuli {
     pub(crate) along: f64,
     pub(super) across: f64,
     pub(super) shear: [f64; 2],
-    /// Kinematic viscosity (m2/s) of a stress that is proportional to the strain rate; negative if
-    /// the stress follows the strain with a delay.
+    /// Kinematic viscosity (m2/s) of the stress; negative if the stress follows the strain late.
     pub(super) viscosity: f64,
-    /// Ratio of the momentum transferred by averaging to the momentum transferred by stress; at
-    /// most 1.
+    /// Ratio of the momentum transferred by averaging to that transferred by stress; at most 1.
     pub(super) averaged_share: f64,
     /// Ratio of the momentum transferred by averaging to that transferred by the stress of the law.
     pub(super) averaging: f64,
-    /// Ratio of the momentum transferred by viscosity to the momentum transferred by stress; at
-    /// most 1.
+    /// Ratio of the momentum transferred by viscosity to that transferred by stress; at most 1.
     pub(super) viscous_share: f64,
     /// Error of sums over the points relative to the momentum that the free faces gain, if the
     /// points are a sample; zero for a complete set of points.
@@ -44,8 +40,7 @@ pub(crate) struct MeasuredModuli {
 }
 
 pub(crate) fn spreading(kind: Kind) -> BoxScene {
-    // With a cell of 0.15 m and these particle numbers, each kind of defect changes the moduli by a
-    // different factor.
+    // With this cell size and these particle numbers, each defect gives moduli of another factor.
     let mut scene = BoxScene::of_cells(kind, [0.75, 0.25, 0.5], 12.0, 3.0);
     scene.ppc = if kind.0 == 3 { 2 } else { 3 };
     let mut scene = scene.scaled(1.2, 1.0, libm::pow(1.2, kind.0 as f64));
@@ -93,8 +88,7 @@ pub(crate) fn moduli_by_momentum(
 }
 
 /// Computes the constant part (Pa) and the rate (Pa/s) of a stress from its impulses (Pa s) at the
-/// times `t` (s). Fits `constant t + rate t^2/2` by least squares, starting at the end of the first
-/// step.
+/// times `t` (s): a least-squares fit of `constant t + rate t^2/2` from the end of the first step.
 pub(crate) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     let (mut rows, mut ends) = ([[0.0; 2]; 2], [0.0; 2]);
     for k in 2..impulse.len() {
@@ -111,9 +105,8 @@ pub(crate) fn constant_and_rate(t: &[f64], impulse: &[f64]) -> [f64; 2] {
     [constant, (ends[1] * rows[0][0] - ends[0] * rows[1][0]) / det]
 }
 
-/// Computes the impulse (Pa s) of the stress component with normal i and force direction j, at each
-/// time. The impulse is the momentum transferred from the upper to the lower half of a tube along
-/// axis i, divided by the area of the tube.
+/// Computes the impulse (Pa s) of the stress with normal i and force direction j at each time: the
+/// momentum transferred from the upper to the lower half of a tube along axis i, over its area.
 pub(crate) fn impulses(course: &Course, scene: &BoxScene, i: usize, j: usize) -> Vec<f64> {
     let (d, middle) = (scene.dimension, scene.centre());
     let weight = &course.states[0].weight;
@@ -122,8 +115,7 @@ pub(crate) fn impulses(course: &Course, scene: &BoxScene, i: usize, j: usize) ->
         (0..d).all(|a| a == i || (label[a] - middle[a]).abs() <= TUBE * scene.h * (1.0 + 1e-9))
     };
     let labels = course.points(velocity, 0).map(|(label, _)| label);
-    // Points (such as nodes) may lie exactly on the side of the tube, so the area is computed from
-    // the points inside.
+    // Points (such as nodes) may lie on the side of the tube, so the points give the area.
     let volume: f64 = labels.zip(weight).filter(|(x, _)| in_tube(*x)).map(|(_, w)| w).sum();
     let area = volume / (scene.body.1[i] - scene.body.0[i]);
     let impulse = |k: usize| {
@@ -144,8 +136,7 @@ pub(crate) fn impulses(course: &Course, scene: &BoxScene, i: usize, j: usize) ->
 /// Maximum relative error of a column. The limit is large, because the column may be one step old.
 pub(super) const NEAR: f64 = 0.2;
 
-/// Returns the growth of the column `stress` along the stretch, relative to its expected growth;
-/// `None` without this column.
+/// Returns the growth of the column `stress` along the stretch over its exact growth, if reported.
 pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let (lambda, mu) = scene.lame();
@@ -154,8 +145,7 @@ pub(super) fn factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((along(last)? - along(1)?) / ((lambda + 2.0 * mu) * STRETCH * time))
 }
 
-/// Returns F_00 - 1 from the column `deformation_gradient`, relative to F_00 - 1 of the exact
-/// motion; `None` without this column.
+/// Returns F_00 - 1 of the column `deformation_gradient` over that of the motion, if reported.
 pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     let last = course.last();
     let f = inside(course, scene, &course.states[last].deformation_gradient)?;
@@ -188,8 +178,7 @@ pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> 
     found
 }
 
-/// Returns the mean of a tensor column over the points within one cell of the body's centre; `None`
-/// without the column.
+/// Returns the mean of a tensor column over the points within one cell of the centre, if reported.
 pub(crate) fn inside(course: &Course, scene: &BoxScene, column: &[f64]) -> Option<Vec<f64>> {
     mean_tensor(course, column, |label| {
         let ends = scene.body.0.iter().zip(&scene.body.1);

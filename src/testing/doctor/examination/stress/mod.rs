@@ -1,5 +1,4 @@
-//! Examination of a body that stretches and shears: the stress is measured from the momentum flux
-//! through the middle.
+//! Examination of a body that stretches and shears: stress from the momentum flux in the middle.
 //!
 //! With an initial velocity `v = L (X - C)`, the strain is L t and uniform until waves arrive from
 //! the free faces. The middle plane with normal i has the area A. Through this plane the upper half
@@ -61,8 +60,7 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Examines the body in tension. Returns a finding if the stress differs from the stress in
-/// compression.
+/// Returns a finding if the stress in tension differs from the stress in compression.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -114,8 +112,7 @@ fn examine_scene(
     }
     let (lambda, mu) = scene.lame();
     let ratio = measured.along.abs() / (lambda + 2.0 * mu);
-    // Such a stiff body has waves faster than expected, which have already arrived, so a shorter
-    // run is needed.
+    // Waves in such a stiff body are faster and have already arrived, so a shorter run is needed.
     if ratio > 2.0 {
         scene.dt /= ratio.sqrt();
         (course, measured) = measure(patient, &scene, averages)?;
@@ -134,9 +131,8 @@ fn examine_scene(
     Ok((Examined::new(describe(&scene, &measured), findings), measured.averaged_share))
 }
 
-/// Maximum of [`MeasuredModuli::averaging`]. PIC has 1 to 2.2 with one step for each step that is
-/// requested, about 2.9 with two sub-steps, and 3.9 with three, where the measured moduli of a
-/// correct solver are too low by an eighth.
+/// Maximum of [`MeasuredModuli::averaging`]. PIC has 1 to 2.2, 2.9 with two sub-steps, and 3.9 with
+/// three, where the measured moduli of a correct solver are too low by an eighth.
 const MOST_AVERAGING: f64 = 3.3;
 
 /// Names of findings whose measured values viscosity can also cause.
@@ -214,11 +210,10 @@ fn lost_momentum(
     (!(share <= most)).then_some(finding)
 }
 
-/// Returns the error of the mean velocity if the points are a sample of the body, relative to the
-/// speed that the free faces gain. A sum over a sample is a quadrature. If each point represents
-/// `k` particles with the spacing `p` along one axis, the points are shifted by up to (k - 1) p/2
-/// from the middle of what they represent, over which velocities differ by twice the gain. Zero for
-/// a complete set of points.
+/// Returns the error of the mean velocity of a sample, relative to the speed that the free faces
+/// gain; zero for a complete set of points. If each point represents `k` particles with the spacing
+/// `p` along one axis, it is shifted by up to (k - 1) p/2 from the middle of what it represents,
+/// over which velocities differ by twice the gain.
 fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
     if is_complete(course, scene) {
         return 0.0;
@@ -231,10 +226,9 @@ fn sampling_error(course: &Course, scene: &BoxScene) -> f64 {
     largest / particle * spacing / shortest
 }
 
-/// Returns whether the points have the moments of a complete set: the centroid is that of the body,
-/// no mixed second moments, and the variance along an axis of length L between that of particles
-/// in the middle of cells of size p, (L^2 - p^2)/12, and that of nodes at the ends of cells of size
-/// h, L^2/12 + h^2/6.
+/// Whether the points have the moments of a complete set: the centroid of the body, no mixed second
+/// moments, and the variance along an axis of length L between that of particles in cells of size
+/// p, (L^2 - p^2)/12, and that of nodes at the ends of cells of size h, L^2/12 + h^2/6.
 fn is_complete(course: &Course, scene: &BoxScene) -> bool {
     let (samples, d) = (&course.states[0], scene.dimension);
     let volume: f64 = samples.weight.iter().sum();
@@ -258,8 +252,7 @@ fn is_complete(course: &Course, scene: &BoxScene) -> bool {
         && (0..d).all(|i| (0..i).all(|j| moment(i, j).abs() <= least * spacing))
 }
 
-/// Returns an error if the points are a sample, whose sums are too inaccurate for the momentum that
-/// waves from a face carry.
+/// Returns an error for a sample, whose sums are too inaccurate for the momentum of waves.
 pub(super) fn require_whole_body(course: &Course, scene: &BoxScene) -> Result<(), Hindrance> {
     if sampling_error(course, scene) > 0.0 {
         let lacks = "states at the whole body: the points are a sample, too coarse for the force \

@@ -9,8 +9,7 @@ const NEAR: f64 = 0.03;
 /// Value added to [`NEAR`] if averaging transfers as much momentum as stress.
 const AVERAGED: f64 = 0.06;
 
-/// A defect: its name, the measured moduli that it would cause (longitudinal, lateral, shear), its
-/// cause, and the code to check.
+/// A defect: name, moduli that it causes (longitudinal, lateral, shear), cause, and code to check.
 type Mistake = (&'static str, [f64; 3], &'static str, &'static str);
 
 pub(super) fn cause(
@@ -222,8 +221,7 @@ fn scaled(course: &Course, scene: &BoxScene, factor: f64, seen: String) -> Solve
     SolverFinding::defect(name, seen, &(what + &mistake.unwrap_or_default()), look_at)
 }
 
-/// Returns the factors by which known mistakes change accelerations, each with the mistake. No two
-/// factors are equal.
+/// Returns the factors by which known mistakes change accelerations; no two are equal.
 fn factors(scene: &BoxScene) -> Vec<(f64, &'static str)> {
     let d = scene.dimension as u32;
     let (h, particles) = (scene.h, scene.ppc.pow(d) as f64);

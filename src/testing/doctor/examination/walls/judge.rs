@@ -4,19 +4,16 @@ use super::measure::{SUNK, TRAVEL, Wall};
 use crate::testing::doctor::prelude::*;
 
 /// Accepted range of the force on a body thrown against the wall, relative to the expected force.
-/// The force oscillates about its mean for a long time. With FLIP and cubic functions, the mean
-/// over the run is 0.70.
+/// The force oscillates; with FLIP and cubic functions, its mean over the run is 0.70.
 const THROWN: std::ops::RangeInclusive<f64> = 0.5..=1.5;
 
-/// Maximum wall force, relative to the expected force, of a body that separates from the wall or
-/// slides along it.
+/// Maximum relative wall force on a body that separates from the wall or slides along it.
 const NONE: f64 = 0.2;
 
 /// Maximum force, relative to the expected force, of a wall that counts as missing.
 const ABSENT: f64 = 0.1;
 
-/// Maximum relative difference between forces of walls that are mirror images, or that differ only
-/// in their tangential condition.
+/// Maximum relative difference between forces of equivalent walls.
 const UNEVEN: f64 = 0.05;
 
 /// Maximum displacement through a wall with a correct force, relative to the displacement of a free
@@ -29,13 +26,11 @@ const SMOOTH: f64 = 0.2;
 /// The wall force under gravity may be too small by this share of the weight of a cell.
 const WEIGHT: f64 = 0.3;
 
-/// The wall force under gravity may be too large by this share of the weight of a cell, because
-/// averaging (PIC) increases the force.
+/// Averaging (PIC) may increase the wall force under gravity by this share of the weight of a cell.
 const CARRIED: f64 = 0.4;
 
-/// Maximum error of displacements in a uniform stretch. Quadratic functions that are modified at
-/// the wall have an error of up to 0.04, and functions that are truncated at the wall of 0.07 or
-/// more.
+/// Maximum error of displacements in a uniform stretch. Quadratic functions have up to 0.04 if they
+/// are modified at the wall, and 0.07 or more if they are truncated there.
 const STRETCH: f64 = 0.05;
 
 /// Condition on a wall, observed values, name of the finding, likely cause, and the code to check.
@@ -134,8 +129,7 @@ const RULES: [WallRule; 10] = [
          zero",
         "the order of operations on the grid: forces, all loads, new velocities, and walls last",
     ),
-    // Stress at the wall differs from stress elsewhere, so this also detects a wrong order of
-    // points.
+    // Stress at the wall differs from stress elsewhere, so this also detects another order.
     (
         |wall| wall.column.is_some_and(|column| !THROWN.contains(&column)),
         |wall| {
@@ -171,8 +165,7 @@ const NOT_LINEAR: WallRule = (
      errors of the same kind",
 );
 
-/// Returns the defect with the highest priority, with all faces that have this defect. Without a
-/// defect, returns a remark, if any.
+/// Returns the defect with the highest priority, with all its faces, or else a remark, if any.
 pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     first_finding(walls, &RULES).or_else(|| uneven(walls)).or_else(|| {
         let finding = first_finding(walls, &[NOT_LINEAR])?;
@@ -180,8 +173,7 @@ pub(super) fn finding(walls: &[Wall]) -> Option<SolverFinding> {
     })
 }
 
-/// Returns the finding of the first rule that a wall breaks, with all faces for which this rule is
-/// the first one.
+/// Returns the finding of the first broken rule, with all faces whose first broken rule it is.
 fn first_finding(walls: &[Wall], rules: &[WallRule]) -> Option<SolverFinding> {
     let rule_of = |wall: &Wall| rules.iter().position(|(holds, ..)| holds(wall));
     let first = walls.iter().filter_map(rule_of).min()?;
@@ -193,9 +185,8 @@ fn first_finding(walls: &[Wall], rules: &[WallRule]) -> Option<SolverFinding> {
     Some(SolverFinding::defect(name, format!("{faces}: {}", seen(alike[0])), cause, look_at))
 }
 
-/// Returns a finding if two walls that should exert equal forces do not. These are walls on
-/// opposite faces with equal conditions, and the same wall in two runs with different tangential
-/// conditions.
+/// Returns a finding if equivalent walls exert different forces: walls on opposite faces with equal
+/// conditions, and one wall in two runs with different tangential conditions.
 fn uneven(walls: &[Wall]) -> Option<SolverFinding> {
     let axis = |wall: &Wall| FACES.iter().position(|pair| pair.contains(&wall.face));
     let differ =
@@ -254,8 +245,7 @@ fn sinks(wall: &Wall) -> bool {
     let Some([sinking, halved]) = wall.sinking else { return false };
     // Averaging (PIC) also makes the body sink, but the body then sinks further with smaller steps.
     let sinks_by_steps = sinking.abs() > SUNK && halved.abs() <= 0.75 * sinking.abs();
-    // The wall fixes its nodes correctly, but its force lacks the weight of these nodes (half a
-    // cell).
+    // The force lacks the weight of the fixed nodes (half a cell).
     let is_missing =
         wall.stretch.abs() <= STRETCH && wall.offset.is_some_and(|offset| !(offset >= -WEIGHT));
     sinks_by_steps || is_missing

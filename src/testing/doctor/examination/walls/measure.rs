@@ -25,8 +25,7 @@ const STRETCH_RATE: f64 = 1e-4;
 /// Gravity (m/s2).
 const GRAVITY: f64 = 1e-3;
 
-/// If the body sinks into the wall by more than this value (in the unit of [`Wall::sinking`]), the
-/// run is repeated with half the step length.
+/// Minimum [`Wall::sinking`] for which the run is repeated with half the step length.
 pub(super) const SUNK: f64 = 0.1;
 
 /// Results of the runs for one wall; `None` for a quantity that no run measures.
@@ -42,22 +41,18 @@ pub(super) struct Wall {
     pub(super) along: Option<f64>,
     /// Force under gravity, relative to the expected force.
     pub(super) falling: Option<f64>,
-    /// Error of the force under gravity that does not change with time, relative to the weight of
-    /// one cell.
+    /// Constant error of the force under gravity, relative to the weight of one cell.
     pub(super) offset: Option<f64>,
-    /// Displacement through the wall, relative to the displacement of a free body while a wave
-    /// crosses one cell.
+    /// Displacement through the wall, over that of a free body while a wave crosses one cell.
     pub(super) through: Option<f64>,
     /// Largest displacement in the first step, relative to the product of velocity and step length.
     pub(super) jump: f64,
     /// Displacement along gravity at the wall, for the original and for half the step length. Unit:
     /// g t times the time in which a wave crosses one cell.
     pub(super) sinking: Option<[f64; 2]>,
-    /// Error of the displacements in a uniform stretch, relative to the displacement at a distance
-    /// of one cell from the wall.
+    /// Error of displacements in a uniform stretch, over the displacement one cell from the wall.
     pub(super) stretch: f64,
-    /// Column `stress` next to the wall at the end of the first run, relative to its expected
-    /// value.
+    /// Column `stress` next to the wall at the end of the first run, over its expected value.
     pub(super) column: Option<f64>,
 }
 
@@ -129,8 +124,7 @@ pub(super) fn walls_across(
     };
     Ok(sides.map(|side| {
         let force = |run: usize| side.force(&courses[run], &scenes[run], axis, c);
-        // In the first run the body pushes the high wall and pulls the low wall; in the second run,
-        // the reverse.
+        // The body pushes the high wall in the first run, and the low wall in the second run.
         let (push, pull) = if side.high { (0, 1) } else { (1, 0) };
         let of_run = |run: usize| (run == 0 || axis == 0).then(|| force(run));
         let run_along = if axis == 0 { 2 } else { 1 };
@@ -171,10 +165,9 @@ pub(super) fn walls_across(
 /// Computes displacement errors within two cells of the walls at both ends of `axis`, relative to
 /// the displacement at a distance of one cell. Errors away from the wall are positive.
 ///
-/// With the initial velocity `v = a (X - X_wall)` along the normal, a linear elastic bar stretches
-/// uniformly until a wave arrives from its free end. A method reproduces this motion if its basis
-/// functions represent a linear velocity up to the wall. Nodes behind the wall must therefore not
-/// have zero velocity.
+/// With the initial velocity `v = a (X - X_wall)`, a linear elastic bar stretches uniformly until a
+/// wave arrives from its free end. A method reproduces this motion if its basis functions represent
+/// a linear velocity up to the wall, so nodes behind the wall must not have zero velocity.
 fn stretch_errors(
     patient: &Patient<'_>,
     kind: Kind,
@@ -248,9 +241,8 @@ impl BarEnd {
         if self.high { ends.1 - label[self.axis] } else { label[self.axis] - ends.0 }
     }
 
-    /// Returns the gain of velocity of this half since the start, in the direction `along`, times
-    /// the length of the half. This is the impulse of the wall divided by the mass per length
-    /// (m2/s).
+    /// Returns the gain of velocity of this half since the start along `along`, times its length:
+    /// the impulse of the wall divided by the mass per length (m2/s).
     fn gained(self, course: &Course, scene: &BoxScene, along: usize, k: usize) -> f64 {
         let half = 0.5 * (scene.body.1[self.axis] - scene.body.0[self.axis]);
         let weights = &course.states[0].weight;
@@ -289,8 +281,8 @@ impl BarEnd {
         [constant / (scene.h * GRAVITY), rate / (c * GRAVITY)]
     }
 
-    /// Returns the mean normal stress (Pa) less than two cells from the wall at the end; `None` if
-    /// the solver does not report the column.
+    /// Returns the mean normal stress (Pa) less than two cells from the wall at the end, if
+    /// reported.
     fn stress_column(self, course: &Course, scene: &BoxScene) -> Option<f64> {
         let d = scene.dimension;
         let is_near = |label: &[f64]| {

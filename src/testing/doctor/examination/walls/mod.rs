@@ -2,11 +2,10 @@
 //! moves along the wall, and falls onto the wall.
 //!
 //! A bar with modulus E and zero Poisson's ratio is fixed at both ends and has the initial velocity
-//! v. Each wall stops the adjacent half of the bar with the force `rho c v A`, c^2 = E/rho, until a
-//! wave arrives from the other wall. One end is in compression, the other in tension. Under the
-//! acceleration g from rest, the force is `rho c g t A`. The force of a wall is computed from the
-//! momentum of the adjacent half. A bar that is stretched uniformly from a wall shows whether
-//! linear fields are reproduced there.
+//! v. Each wall stops the adjacent half with the force `rho c v A`, c^2 = E/rho, one in compression
+//! and one in tension, until a wave arrives from the other wall. Under the acceleration g from
+//! rest, the force is `rho c g t A`. The momentum of the adjacent half gives the force of a wall. A
+//! bar that is stretched from a wall shows whether linear fields are reproduced there.
 //!
 //! ```text
 //! measure   the scenes, and the forces and motions at each wall
