@@ -113,7 +113,6 @@ impl Expected {
     }
 }
 
-/// Parses a time with its unit, and converts it to seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, Expected> {
     let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
     let known = units.iter().find_map(|(unit, size)| {

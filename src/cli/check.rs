@@ -37,7 +37,6 @@ struct CheckPrintArgs {
     notes: bool,
 }
 
-/// Validates each suite, prints its errors, and warns of runs that cannot meet their expectation.
 pub(super) fn check(args: &CheckArgs) -> Result<Status, CommandError> {
     let found = select::with_sources(&args.targets.targets);
     let mut counts = Counts::default();
@@ -137,7 +136,6 @@ impl ApplicableSuites {
     }
 }
 
-/// Maximum number of missing capabilities in the summary.
 const MOST_LACKING: usize = 8;
 
 impl CheckFindings {
@@ -159,7 +157,6 @@ impl CheckFindings {
         self.applicable.is_some()
     }
 
-    /// Adds a file that cannot be loaded.
     fn refused(&mut self, diagnostic: &Diagnostic) {
         if !self.is_json {
             return output::diagnose(diagnostic);
@@ -186,7 +183,6 @@ impl CheckFindings {
         }
     }
 
-    /// Adds a suite that can run, with its findings.
     fn sound(&mut self, suite: &Suite, source: &Source, found: &[Diagnostic], has_solver: bool) {
         if let Some(applicable) = &mut self.applicable {
             applicable.names.push(suite.name.clone());
@@ -265,7 +261,6 @@ impl Counts {
         } += 1;
     }
 
-    /// Prints the counts in one line on standard error, unless all are zero.
     fn print(self, has_notes: bool) {
         let counts = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")];
         let counts = counts.into_iter().filter(|(count, _)| *count > 0);

@@ -39,7 +39,6 @@ enum ComparedResults {
     Snapshots(ReportDocument),
 }
 
-/// Prints the changes between two runs. If both runs have errors, reports the errors of both.
 pub(super) fn compare(args: &CompareArgs) -> Result<Status, CommandError> {
     let (old, new) = match (side(&args.old, &args.folder), side(&args.new, &args.folder)) {
         (Ok(ComparedResults::Run(old)), Ok(ComparedResults::Run(new)))
@@ -97,7 +96,6 @@ fn side(place: &str, folder: &str) -> Result<ComparedResults, Diagnostic> {
     Ok(snapshots(&overview, |file| committed(place, &format!("{folder}/{file}")).ok()))
 }
 
-/// Loads the results in snapshots. `read` returns the text of a snapshot file.
 fn snapshots(overview: &str, read: impl Fn(&str) -> Option<String>) -> ComparedResults {
     let report = |group: &str, suite: &str| read(&format!("{group}/{suite}.snap"));
     ComparedResults::Snapshots(ReportDocument::of_snapshots(overview, report))

@@ -48,7 +48,6 @@ pub(super) fn cost(args: &CostArgs) -> Result<Status, CommandError> {
     Ok(if refused.is_empty() { found } else { Status::BadInput })
 }
 
-/// Measures the error and the time (s) of every level of each convergence study.
 fn prices(suites: Vec<Suite>, args: &CostArgs) -> Result<Status, CommandError> {
     let solvers = solver::greet_all(&args.programs)?;
     let runs = if solvers.is_empty() {

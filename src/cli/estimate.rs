@@ -29,7 +29,6 @@ const LONGEST: u64 = 1 << 20;
 
 const FORMAT_HELP: &str = "each line has a spacing and a value, such as `0.125 1.0625`";
 
-/// Prints the estimate for a series, or the reason why the series has none.
 pub(super) fn estimate(args: &EstimateArgs) -> Result<Status, CommandError> {
     let (name, text) = read(args.file.as_deref())?;
     let lines = parse(&name, &text)?;

@@ -96,7 +96,6 @@ fn explanation(suite: &Suite, without: Option<Dispensable>) -> String {
     page + "\n"
 }
 
-/// Lists the levels. Cases with the same levels share one list.
 fn levels(suite: &Suite) -> String {
     let mut page = String::new();
     let planned = planned_levels(suite);

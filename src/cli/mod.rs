@@ -111,7 +111,6 @@ enum Command {
     Man(generate::ManArgs),
 }
 
-/// Commands by purpose, each group with an example.
 const GROUPS: [(&str, &[&str], &str); 5] = [
     ("Start", &["run", "list", "explain"], "run vibrating-bar"),
     ("Your solver", &["doctor", "diagnose", "problem"], "doctor --solver 'python mpm.py'"),
@@ -136,7 +135,6 @@ fn command_line() -> clap::Command {
     line.help_template(template.replace("GROUPS", &groups))
 }
 
-/// Parses the command line and runs the command. A failure to write output is an error.
 pub(crate) fn main() -> ExitCode {
     let arguments = with_command(std::env::args_os().collect(), &command_line());
     let mut status = arguments.and_then(run_arguments).unwrap_or_else(|error| {

@@ -35,7 +35,6 @@ pub(super) fn failure() -> Option<&'static str> {
     FAILURE.get().map(String::as_str)
 }
 
-/// Prints to standard error.
 pub(super) fn complain(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}", painted(text.trim_end()));
 }
@@ -110,7 +109,6 @@ impl From<Status> for ExitCode {
 pub(super) enum CommandError {
     #[error("error: {0}")]
     Message(String),
-    /// An error with its position in a file.
     #[error("{}", .0.styled())]
     Diagnostic(#[from] Diagnostic),
 }

@@ -24,7 +24,6 @@ pub(super) struct ProposeArgs {
     solver: SolverArgs,
 }
 
-/// Runs each suite without its expectations, and prints proposed expectations.
 pub(super) fn propose(args: &ProposeArgs) -> Result<Status, CommandError> {
     let case = args.case.as_deref();
     let solver = solver::greeted(&args.solver)?;

@@ -10,7 +10,6 @@ use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Default folder of suites.
 const FOLDER: &str = "verification";
 
 const STDIN: &str = "-";

@@ -9,7 +9,6 @@ use mpm_verify::verify::SuiteOutcome;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// Starts the solver that the command line names, if any.
 pub(super) fn greeted(args: &SolverArgs) -> Result<Option<SolverProgram>, CommandError> {
     args.solver.as_deref().map(|command| greet(command, &args.limits)).transpose()
 }
@@ -38,7 +37,6 @@ pub(super) fn greet_all(args: &SolversArgs) -> Result<Vec<SolverProgram>, Comman
     args.solver.iter().map(greet).collect()
 }
 
-/// Starts a solver and requests its capabilities.
 pub(super) fn greet(
     command: &str,
     limits: &SolverLimitArgs,

@@ -84,7 +84,6 @@ impl SuiteRuns {
         &self.parts[0].suite
     }
 
-    /// Returns a name that two cases share, if any.
     fn twice(&self) -> Option<String> {
         repeated(self.parts.iter().flat_map(|part| part.suite.case_names())).map(str::to_owned)
     }

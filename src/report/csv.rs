@@ -77,7 +77,6 @@ impl CsvTable {
         }
     }
 
-    /// Adds a value to a row. An object adds one column for each of its members.
     fn put(&mut self, row: &mut CsvRow, column: &str, value: &Value) {
         let text = match value {
             Value::Null => return,
@@ -117,7 +116,6 @@ impl CsvTable {
     }
 }
 
-/// Returns the keys of levels in the order in which their columns are declared.
 fn level_keys() -> Vec<&'static str> {
     let outer = |key: &'static str| key.split_once('.').map_or(key, |(outer, _)| outer);
     let mut keys: Vec<_> = level::json_columns().iter().map(|column| outer(column.key)).collect();

@@ -47,7 +47,6 @@ pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len
     })
 }
 
-/// Whether the observed order is at least the expected one.
 fn has_order(study: &Convergence) -> bool {
     study.accepted.is_some()
         || matches!(study.judgement.verdict, Verdict::Converging | Verdict::TooGood)

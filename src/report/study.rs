@@ -28,13 +28,11 @@ pub(crate) trait StudyReport: Sync {
     /// Returns the JSON members of one case, with null for cases of another kind of study.
     fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
 
-    /// Draws the figures of a suite; none by default.
     fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
         Vec::new()
     }
 }
 
-/// Returns the studies of one kind, with the names of their cases.
 pub(crate) fn studies<'a, R>(
     cases: &'a [CaseOutcome],
     of: fn(&'a CaseOutcome) -> Option<&'a R>,
@@ -42,7 +40,6 @@ pub(crate) fn studies<'a, R>(
     cases.iter().filter_map(|case| Some((case.case.as_str(), of(case)?))).collect()
 }
 
-/// Returns the members of an object that was created by `json!`.
 pub(crate) fn members(object: Value) -> Map<String, Value> {
     match object {
         Value::Object(members) => members,
@@ -252,7 +249,6 @@ impl StudyReport for SpectrumReport {
 
 type NamedWave = (String, SpectrumRow);
 
-/// Adds a column with the names of the cases in front of `columns`.
 fn with_case(columns: Vec<TableColumn<'_, SpectrumRow>>) -> Vec<TableColumn<'_, NamedWave>> {
     let name = TableColumn::text("case", "case", |(name, _): &NamedWave| name.clone());
     let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));

@@ -46,7 +46,6 @@ pub(super) fn new(args: &NewArgs) -> Result<Status, CommandError> {
     Ok(Status::Passed)
 }
 
-/// Returns the text of the suite with its name, its path and the names of all methods.
 fn text(args: &NewArgs, path: &Path) -> String {
     let name = serde_json::Value::from(args.name.as_str()).to_string();
     SUITES[usize::from(args.dimension) - 1]
@@ -72,7 +71,6 @@ fn load(name: &str, path: &Path, text: &str) -> Result<Suite, Diagnostic> {
     })
 }
 
-/// Writes a new file. An existing file is not overwritten.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     let saved = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     saved.map_err(|error| match error.kind() {

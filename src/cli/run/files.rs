@@ -69,7 +69,6 @@ pub(super) fn write_junit(
     fs::write(file, text).map_err(|error| unwritable("--junit", file, &error))
 }
 
-/// Writes the HTML page. `outcomes` has the order of `sources`.
 pub(super) fn write_page(
     file: &Path,
     sources: &[Source],
@@ -95,12 +94,10 @@ pub(super) fn write_page(
     fs::write(file, page::page(&parts, &run)).map_err(|error| unwritable("--html", file, &error))
 }
 
-/// Writes cases as time series for ParaView.
 pub(super) struct Series {
     folder: PathBuf,
     /// Whether all cases are written, or only those that fail.
     all: bool,
-    /// Whether a case was selected.
     is_used: AtomicBool,
     /// First file that could not be written. No further cases are written then.
     failure: OnceLock<CommandError>,

@@ -18,7 +18,6 @@ pub(super) struct JudgedSolver {
 }
 
 pub(super) struct SolverGate {
-    /// Suites that the command line names individually.
     named: BTreeSet<String>,
     /// Whether the gate may pass although named suites are not applicable to the solver.
     allows_not_applicable: bool,
@@ -101,13 +100,11 @@ struct TermsSpec {
     order: Option<f64>,
     /// Errors at or below this bound are accepted for any observed order.
     error_below: Option<f64>,
-    /// Reason why the suite is not run.
     skip: Option<String>,
     /// Reason for `order` and `error_below`.
     because: Option<String>,
 }
 
-/// Content of a configuration file after all checks.
 #[derive(Debug, Default)]
 struct SolverConfig {
     formal_order: Option<f64>,

@@ -201,7 +201,6 @@ fn report(
     Ok(if passed { Status::Passed } else { Status::Failed })
 }
 
-/// Outcomes and times of all suites.
 struct RunResults {
     outcomes: Vec<SuiteOutcome>,
     /// Index of the suite of each outcome.
@@ -211,7 +210,6 @@ struct RunResults {
     times: RunTimes,
 }
 
-/// Results of one suite.
 struct JobResult {
     /// Outcome of each part, with the index of its solver; `None` for the methods of the suite.
     parts: Vec<(Option<usize>, SuiteOutcome)>,
@@ -317,9 +315,7 @@ struct Judging {
     kept: Option<ResultCache>,
     solvers: Vec<JudgedSolver>,
     repeat: usize,
-    /// Writes cases as files for ParaView, if requested.
     series: Option<Series>,
-    /// Hint that is printed on Ctrl-C.
     at_interrupt: Option<String>,
 }
 
@@ -337,7 +333,6 @@ impl Judging {
     }
 }
 
-/// Runs a suite by its methods or by one solver.
 fn one<T>(
     part: &SuitePart,
     args: &ReportArgs,

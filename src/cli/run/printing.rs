@@ -21,7 +21,6 @@ pub(super) enum Printing {
     Latex,
     /// All reports, followed by one line for each case.
     Reports,
-    /// One line for each case.
     Verdicts,
     /// One line for each suite or group, and the failing cases.
     Overview,
@@ -77,14 +76,12 @@ impl Printing {
         print_verdict(args, sources, outcomes, time);
     }
 
-    /// Prints the text for a suite as soon as the suite has finished.
     pub(super) fn of_suite(self, outcome: &SuiteOutcome) {
         if self == Self::Reports {
             output::print(&format!("{}\n", report::text(outcome)));
         }
     }
 
-    /// Prints the results of all suites.
     pub(super) fn of_all(self, args: &ReportArgs, outcomes: &[SuiteOutcome]) {
         match self {
             Self::Json => output::print(&report::json(outcomes)),
@@ -110,7 +107,6 @@ impl Printing {
     }
 }
 
-/// Returns one line for each written file or folder.
 fn written(args: &ReportArgs) -> impl Iterator<Item = String> {
     let paths = [&args.out, &args.html, &args.junit].into_iter().flatten();
     paths.map(|path| format!("wrote {}\n", path.display()))
@@ -160,7 +156,6 @@ fn annotation(diagnostic: &Diagnostic) -> String {
     format!("::error file={file}{place},title={title}::{text}\n")
 }
 
-/// Returns all failing cases, with the sources and the names of their suites.
 fn failed<'a>(
     sources: &'a [Source],
     outcomes: &'a [SuiteOutcome],

@@ -9,7 +9,6 @@ use std::borrow::Cow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Exit status after Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
 /// Fraction of the total predicted time that must have finished before the remaining time is shown.
@@ -21,7 +20,6 @@ pub(super) struct RunProgress {
 }
 
 struct ProgressState {
-    /// Name of the suite that was started last.
     suite: String,
     /// Predicted time (s) of the finished levels.
     done: f64,
@@ -29,7 +27,6 @@ struct ProgressState {
     start: Instant,
 }
 
-/// Counts the finished levels of one suite.
 pub(super) struct SuiteProgress<'a> {
     of_run: &'a RunProgress,
     /// Predicted times (s) of the remaining levels, in decreasing order.

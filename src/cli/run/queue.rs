@@ -5,13 +5,11 @@ use std::sync::mpsc::{self, Sender};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// A message or the result of a job.
 pub(super) enum JobOutput<T> {
     Message(String),
     Result(T),
 }
 
-/// A running job.
 pub(super) struct Job<'a, T> {
     number: usize,
     send: Sender<(usize, JobOutput<T>)>,
@@ -73,7 +71,6 @@ impl<T> Job<'_, T> {
         }
     }
 
-    /// Passes on a message.
     pub(super) fn say(&self, text: String) {
         // If the receiver is gone, the calling thread has panicked.
         let _ = self.send.send((self.number, JobOutput::Message(text)));

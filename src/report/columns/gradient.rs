@@ -15,13 +15,11 @@ pub(crate) struct TaylorRow {
     difference: f64,
 }
 
-/// Returns the levels of a study, from coarse to fine.
 pub(crate) fn level_rows(study: &GradientStudy) -> Vec<GradientLevelRow> {
     let orders = std::iter::once(None).chain(study.pairwise_orders().into_iter().map(Some));
     study.levels.iter().copied().zip(orders).collect()
 }
 
-/// Returns the perturbations of a study, the largest first.
 pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
     let taylor = &study.taylor;
     let orders = std::iter::once(None).chain(taylor.orders());

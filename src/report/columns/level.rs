@@ -17,7 +17,6 @@ pub(crate) type LevelColumn<'a> = TableColumn<'a, LevelRow<'a>>;
 
 pub(crate) type NamedStudy<'a> = (&'a str, &'a Convergence);
 
-/// Returns the levels of a study, coarse to fine.
 pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
     study.levels.iter().enumerate().map(move |(index, level)| LevelRow { study, index, level })
 }

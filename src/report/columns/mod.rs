@@ -98,11 +98,9 @@ fn two_digit_exponent(text: &str) -> String {
 }
 
 pub(crate) struct TableColumn<'a, R: ?Sized> {
-    /// Heading in text.
     pub(crate) heading: Cow<'a, str>,
     /// Key in JSON, empty for text only. `errors.rms` is the key `rms` of the object `errors`.
     pub(crate) key: &'static str,
-    /// Meaning of the column, with its unit.
     pub(crate) about: &'static str,
     /// Whether text is aligned to the left, as for names; numbers are aligned to the right.
     pub(crate) flush_left: bool,
@@ -110,7 +108,6 @@ pub(crate) struct TableColumn<'a, R: ?Sized> {
 }
 
 impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
-    /// Creates a column in text and JSON.
     pub(crate) fn new(
         heading: impl Into<Cow<'a, str>>,
         key: &'static str,
@@ -183,7 +180,6 @@ pub(crate) fn number(value: f64) -> Value {
     }
 }
 
-/// Converts an estimate and its confidence interval to JSON.
 pub(crate) fn interval(estimate: Interval) -> Value {
     let Interval { value, low, high } = estimate;
     json!({"value": number(value), "low": number(low), "high": number(high)})

@@ -38,7 +38,6 @@ fn steps<'a>() -> TrialColumn<'a> {
     TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
 }
 
-/// Returns the columns of runs, for studies that do not search for a limit.
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {
     // A separate table lists the other energies of the ledger, in joules.
     let is_here = |one: &&RunFigure| !one.is_of_ledger() || **one == RunFigure::LedgerGap;

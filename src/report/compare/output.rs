@@ -48,7 +48,6 @@ fn equality(tolerance: f64) -> String {
 /// Maximum number of printed notes of a case. The other notes are only counted.
 const MAX_NOTES: usize = 3;
 
-/// Returns the columns for changes of a case, with dashes if there is no change or value.
 fn cases<'a>() -> [TableColumn<'a, Moved>; 7] {
     type MovedColumn<'a> = TableColumn<'a, Moved>;
     [
@@ -99,7 +98,6 @@ fn both(moved: &CheapestMove, part: impl Fn(&(f64, String)) -> String) -> String
     [old, new].map(|side| side.unwrap_or_else(|| "not reached".to_owned())).join(" -> ")
 }
 
-/// Returns the first notes of a case, and the number of the other notes.
 fn notes(moved: &Moved) -> Vec<String> {
     let mut notes: Vec<String> = moved.notes.iter().take(MAX_NOTES).cloned().collect();
     if let more @ 1.. = moved.notes.len().saturating_sub(MAX_NOTES) {

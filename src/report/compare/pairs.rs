@@ -75,7 +75,6 @@ fn shown(case: &CaseDocument) -> String {
     if case.passed { case.verdict.clone() } else { format!("{} (FAIL)", case.verdict) }
 }
 
-/// Returns the change of a case; `None` without a change.
 fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) -> Option<Moved> {
     let comparable = old.judge == new.judge || old.judge.is_none() || new.judge.is_none();
     let common = accuracy::common(old, new);
@@ -102,7 +101,6 @@ fn pair(name: String, old: &CaseDocument, new: &CaseDocument, tolerance: f64) ->
     Some(found)
 }
 
-/// Describes differences in the judged quantity, the levels and the rows of a stability study.
 fn otherwise(
     old: &CaseDocument,
     new: &CaseDocument,
@@ -211,7 +209,6 @@ const OF_LEVELS: [&str; 11] = [
     "crossing",
 ];
 
-/// Returns the suites whose problem description differs between the runs.
 fn problem_moves(old: &ReportDocument, new: &ReportDocument) -> Vec<ProblemMove> {
     let moved = |suite: &SuiteDocument| {
         let before = old.suites.iter().find(|known| known.name == suite.name)?;

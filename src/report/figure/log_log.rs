@@ -127,7 +127,6 @@ impl LogLogPlot {
         entries
     }
 
-    /// Returns notes about points that cannot be drawn on logarithmic axes.
     fn omissions(&self, lines: &[SeriesLine]) -> Vec<String> {
         let points = self.series.iter().chain(&self.others).map(|one| one.points.len());
         let count = points.sum::<usize>() - lines.iter().map(SeriesLine::count).sum::<usize>();

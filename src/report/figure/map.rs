@@ -98,7 +98,6 @@ impl Map {
     }
 }
 
-/// Position of a row of fields on the canvas (px).
 #[derive(Clone, Copy)]
 struct RowPlace {
     left: f64,

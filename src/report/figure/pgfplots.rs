@@ -14,7 +14,6 @@ const LEGEND: &str = "legend pos=outer north east, legend cell align=left";
 /// Shorter axes also have labels at 2 and 5 times powers of ten.
 const SHORT: f64 = 2.0;
 
-/// LaTeX source of a document under construction.
 struct PgfDocument {
     text: String,
 }

@@ -80,7 +80,6 @@ pub struct PlotSeries {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PlotLevel {
     x: f64,
-    /// Error; `None` if the level failed.
     error: Option<f64>,
     /// Mark of the level: [`Mark::Failed`] if and only if there is no error.
     mark: Mark,
@@ -111,7 +110,6 @@ pub(super) struct SeriesLine<'a> {
 }
 
 impl<'a> SeriesLine<'a> {
-    /// Creates a series with the colour and marker of its method.
     pub(super) fn new(series: &'a PlotSeries) -> Self {
         let look = look(series.look);
         Self { name: &series.name, look, grey: false, levels: levels(&series.points) }
@@ -144,7 +142,6 @@ impl<'a> SeriesLine<'a> {
         levels.filter_map(|l| Some((plot.place((l.x, l.error?)), l.mark))).collect()
     }
 
-    /// Draws line and markers. Failed levels are drawn separately.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let path = self.marked_path(plot);
         let mut group = SvgElement::new("g");
@@ -187,7 +184,6 @@ impl<'a> SeriesLine<'a> {
     }
 }
 
-/// All marks with a legend text, in the order of the legend.
 const MARKS: [(Mark, &str); 4] = [
     (Mark::Window, "in the asymptotic window"),
     (Mark::OutsideWindow, "outside the window"),
@@ -263,7 +259,6 @@ pub(super) fn headroom(failures: &[FailedLevel]) -> f64 {
 }
 
 impl FailedLevel {
-    /// Draws the marker, and an arrow above the first row.
     pub(super) fn draw(&self, plot: &Plot) -> SvgElement {
         let top = plot.frame.y;
         let below = ARROW + 7.0 + FAILED_ROW * self.rank as f64;

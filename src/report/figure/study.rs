@@ -74,7 +74,6 @@ fn plot(outcome: &SuiteOutcome, curves: &[(Vec<NamedStudy<'_>>, PlotSeries)]) ->
     }
 }
 
-/// Returns the label of an axis of spacings.
 pub(crate) fn spacing_label(axis: Axis) -> &'static str {
     match axis {
         Axis::Space => "cell size h (m)",

@@ -11,7 +11,6 @@ fn studies(outcome: &SuiteOutcome) -> Vec<(&str, &StabilityStudy)> {
     outcome.results(CaseOutcome::stability).filter(|(_, study)| study.sought.is_none()).collect()
 }
 
-/// Draws a map of each reported quantity, if there are several runs to compare.
 pub(crate) fn figures(outcome: &SuiteOutcome) -> Vec<Figure> {
     let studies = studies(outcome);
     let Some((_, first)) = studies.first() else { return Vec::new() };

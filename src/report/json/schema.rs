@@ -196,7 +196,6 @@ fn row<R>(columns: &[TableColumn<'_, R>]) -> Value {
     closed(properties)
 }
 
-/// Returns the schema of an object. Each key is given with its schema and its meaning.
 fn object<const N: usize>(keys: [(&str, Value, &str); N]) -> Value {
     let property = |(key, mut schema, about): (&str, Value, &str)| {
         schema["description"] = about.into();

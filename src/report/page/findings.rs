@@ -17,7 +17,6 @@ pub(super) fn findings(sources: &[SuiteSource<'_>]) -> Vec<Html> {
     figure.into_iter().chain(limits(sources)).collect()
 }
 
-/// Creates the first figure of a suite, with the results and the known limits below it.
 fn figure(outcome: &SuiteOutcome) -> Option<Html> {
     let drawn = svg(outcome).into_iter().next()?;
     let results = Html::text(&format!(": {}. ", counts(outcome.cases.iter())));
@@ -27,7 +26,6 @@ fn figure(outcome: &SuiteOutcome) -> Option<Html> {
     Some(Html::block("figure", &[("id", "first-figure")], &parts))
 }
 
-/// Returns the known limits of a suite with the reasons that it states.
 fn known_limits(outcome: &SuiteOutcome) -> Vec<Html> {
     let cases = outcome.cases.iter().filter(|case| case.result() == CaseResult::KnownLimit);
     let limit = |(reason, cases): (&str, Vec<&CaseOutcome>)| {
@@ -38,7 +36,6 @@ fn known_limits(outcome: &SuiteOutcome) -> Vec<Html> {
     grouped(cases.map(|case| (case.because.trim(), case))).into_iter().map(limit).collect()
 }
 
-/// Lists the known limits of each group of suites; `None` if there are none.
 fn limits(sources: &[SuiteSource<'_>]) -> Option<Html> {
     let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
         let limits = sources.iter().flat_map(|source| known_limits(source.outcome));

@@ -27,7 +27,6 @@ impl Html {
         Self(format!("<{name}{open}>\n{inside}\n</{name}>"))
     }
 
-    /// Creates a void element, which has no content.
     pub(super) fn void(name: &str, attributes: &[(&str, &str)]) -> Self {
         Self(format!("<{name}{}>", self::attributes(attributes)))
     }

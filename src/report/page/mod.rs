@@ -80,7 +80,6 @@ fn meta() -> Vec<Html> {
     ]
 }
 
-/// Creates the page header: the purpose, the counts of the results, the failures, and the run.
 fn head(sources: &[SuiteSource<'_>], run: &RunFacts) -> Html {
     let cases = || sources.iter().flat_map(|s| s.outcome.cases.iter().map(move |c| (s, c)));
     let failed: Vec<_> = cases().filter(|(_, case)| !case.passed()).collect();
@@ -118,7 +117,6 @@ fn head(sources: &[SuiteSource<'_>], run: &RunFacts) -> Html {
     Html::block("header", &[], &parts)
 }
 
-/// States what is verified.
 const PURPOSE: &str = "mpm-verify runs solvers of the Material Point Method on problems with known \
                        solutions (suites), and compares the result of each method (case) with an \
                        expectation.";

@@ -90,7 +90,6 @@ fn folded(id: &str, words: &str, label: &str, text: Html) -> Html {
 /// Minimum size of text in a figure on the screen (px).
 const LEGIBLE: f64 = 9.0;
 
-/// Shows all figures; `None` without figures.
 fn figures(source: &SuiteSource<'_>) -> Option<Html> {
     let outcome = source.outcome;
     let drawn = svg(outcome).into_iter().enumerate();

@@ -39,12 +39,10 @@ pub(super) fn topics(sources: &[SuiteSource<'_>]) -> Html {
     titled("methods", "Methods by topic", about, table)
 }
 
-/// Creates a cell with the number of cases for each result.
 fn result_counts<'a>(cases: impl Iterator<Item = &'a CaseOutcome> + Clone) -> Html {
     coloured(main_result(cases.clone()), counts(cases))
 }
 
-/// Creates a section with a heading, a remark and its content.
 pub(super) fn titled(id: &str, title: &str, about: &str, content: Html) -> Html {
     let head = format!("{id}-head");
     let about = Html::tag("p", &[("class", "muted")], about);
@@ -52,12 +50,10 @@ pub(super) fn titled(id: &str, title: &str, about: &str, content: Html) -> Html 
     Html::block("section", &[("id", id), ("aria-labelledby", &head)], &parts)
 }
 
-/// Creates the headings of a table with the results and one column for each basis.
 fn bases(first: &'static str) -> Html {
     heads([first, "Results"].into_iter().chain(COLUMNS).map(|name| (name, "word")))
 }
 
-/// Creates the headings of a table, each with the class of its column.
 pub(super) fn heads<'a>(columns: impl IntoIterator<Item = (&'a str, &'a str)>) -> Html {
     let head = |(name, class)| Html::tag("th", &[("scope", "col"), ("class", class)], name);
     let heads: Vec<Html> = columns.into_iter().map(head).collect();
@@ -87,7 +83,6 @@ fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_whitespace() { '_' } else { c }).collect()
 }
 
-/// Creates the table of all suites with their results, in groups.
 pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     let columns = (COLUMNS.len() + 2).to_string();
     let group = |(group, sources): (&str, Vec<&SuiteSource<'_>>)| {
@@ -107,7 +102,6 @@ pub(super) fn matrix(sources: &[SuiteSource<'_>]) -> Html {
     Html::block("nav", &[("id", "suites"), ("aria-label", "Suites")], &parts)
 }
 
-/// Creates the legend, with the names of findings formatted as code.
 fn legend() -> Html {
     let part = |(k, part): (usize, &str)| match k % 2 {
         0 => Html::text(part),
@@ -176,7 +170,6 @@ pub(super) fn scrolled(label: &str, content: Html) -> Html {
     Html::tag("div", &attributes, content)
 }
 
-/// Creates the text of a result.
 pub(super) fn result(case: &CaseOutcome) -> Html {
     let name = case.result().name();
     Html::tag("span", &[("class", &plain(name))], name)
@@ -216,12 +209,10 @@ pub(super) fn case_id(outcome: &SuiteOutcome, case: &CaseOutcome) -> String {
     format!("case-{}.{}", outcome.suite, plain(&case.case))
 }
 
-/// Creates a link to the row of a case.
 pub(super) fn case_link(outcome: &SuiteOutcome, case: &CaseOutcome) -> Html {
     link(&case_id(outcome, case), &format!("{}::{}", outcome.suite, case.case))
 }
 
-/// Creates a link to an element of the page.
 pub(super) fn link(id: &str, words: &str) -> Html {
     Html::tag("a", &[("href", &format!("#{id}"))], words)
 }

@@ -30,7 +30,6 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Adds the description of the problem, one fact in each row.
 fn problem(lines: &mut Vec<String>, statement: &[(String, String)]) {
     // The error table has the judged quantity; the equation follows from the material.
     let is_known = |(key, value): &&(String, String)| match key.as_str() {

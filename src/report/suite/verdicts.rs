@@ -7,7 +7,6 @@ use crate::report::text::prose::{hanging, row};
 use crate::report::text::table::Table;
 use crate::verify::{CaseOutcome, CaseResult, Verdict, distinct, grouped};
 
-/// Adds verdicts, unmet expectations, expectations with their reasons, and remarks.
 pub(crate) fn head(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     row(lines, "result", &counts(cases.iter()));
     for case in cases {
@@ -82,7 +81,6 @@ fn letter(k: usize) -> String {
     if k < 26 { last.to_string() } else { format!("{}{last}", letter(k / 26 - 1)) }
 }
 
-/// Adds the remarks on single cases. Equal remarks are merged.
 fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
     let of_case = |case: &'_ CaseOutcome| {
         // Convergence studies have a remark for each failed level.

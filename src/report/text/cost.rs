@@ -35,7 +35,6 @@ pub fn cost(ranking: &Ranking, work: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Describes the value by which the errors of a ranking are divided.
 fn relative(ranking: &Ranking) -> String {
     if ranking.size == 1.0 {
         return "divided by the `scale` of the suite".to_owned();
@@ -75,7 +74,6 @@ pub fn timed(timed: &TimedSuite, is_verbose: bool) -> String {
     text
 }
 
-/// Names the method with the least work for the smallest error that any method reaches.
 fn cheapest(ranking: &Ranking) -> String {
     let least = |k: usize| {
         let reached = ranking.rows.iter().filter_map(|row| Some((row, row.reaches[k].work()?)));

@@ -56,7 +56,6 @@ pub(crate) fn paragraph(found: &Diagnosis) -> String {
     sentences.join(" ")
 }
 
-/// Names the repeated levels, from the coarsest to the finest.
 fn range(found: &Diagnosis) -> String {
     match (found.levels.first(), found.levels.last()) {
         (Some(first), Some(last)) => format!("{first} to {last}"),
@@ -68,7 +67,6 @@ fn order(order: Option<Interval>) -> String {
     order.map_or("not determined".to_owned(), |order| order.shown())
 }
 
-/// Describes the effect of the run that reveals the cause.
 fn evidence_of_run(found: &Diagnosis, run: &ChangedRun, evidence: Evidence) -> String {
     let (change, with, before) = (&run.change, order(run.order), order(found.finest.order));
     let (range, error) = (range(found), error_of_run(found, run));
@@ -113,7 +111,6 @@ fn share(ratio: f64) -> String {
     }
 }
 
-/// Returns the remedy of a cause, or the reason why `check` rejects it.
 fn remedy(cause: &Cause<'_>) -> Option<String> {
     let label = match cause {
         Cause::Run(_, Evidence::Raised | Evidence::Lowered) => "Partial remedy",

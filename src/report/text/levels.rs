@@ -24,7 +24,6 @@ pub(crate) fn tables(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     observed_limits(lines, studies);
 }
 
-/// Lists the levels. Levels that all cases have in common are listed once.
 fn settings(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     for (levels, names) in shared(studies.iter().map(|(name, study)| (*name, setting(study)))) {
         lines.extend(indented(&format!("levels{names}")).lines().map(str::to_owned));
@@ -109,7 +108,6 @@ fn setting(study: &Convergence) -> String {
     parts.into_iter().flatten().collect::<Vec<_>>().join("\n")
 }
 
-/// Groups studies with equal level names and the same judged quantity and norm.
 fn by_levels<'a>(studies: &[NamedStudy<'a>]) -> Vec<Vec<NamedStudy<'a>>> {
     let key = |study: &Convergence| format!("{} {}", study.judged(), level::names(study).join(" "));
     let compared = studies.iter().filter(|(_, study)| study.compared);
@@ -224,7 +222,6 @@ fn finest(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     by_case(lines, heading, studies, columns);
 }
 
-/// Whether a study has more than one level.
 fn has_levels(studies: &[NamedStudy<'_>]) -> bool {
     studies.iter().any(|(_, study)| study.levels.len() > 1)
 }
@@ -274,7 +271,6 @@ fn observed_limits(lines: &mut Vec<String>, studies: &[NamedStudy<'_>]) {
     lines.extend(table.merged().lines());
 }
 
-/// Adds an empty line and the heading of a table.
 fn heading_lines(lines: &mut Vec<String>, heading: &str) {
     lines.push(String::new());
     lines.extend(indented(heading).lines().map(str::to_owned));
@@ -287,7 +283,6 @@ fn limit_shown(estimate: &LimitEstimate) -> String {
     format!("{value:.*e}", (digits + 1.0).clamp(1.0, 15.0) as usize)
 }
 
-/// Extrapolated limit of a case, or the reason why there is none.
 struct ObservedLimit {
     case: String,
     result: Result<LimitEstimate, EstimateRefusal>,

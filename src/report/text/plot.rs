@@ -56,7 +56,6 @@ pub fn convergence_plot(outcome: &SuiteOutcome) -> Option<String> {
 
 const NONE: Pad = Pad { lo: 0.0, hi: 0.0 };
 
-/// A level: spacing and error.
 struct PlottedLevel {
     at: [f64; 2],
     counts: bool,
@@ -81,7 +80,6 @@ fn dot(scales: [Scale; 2], point: &PlottedLevel) -> [usize; 2] {
     })
 }
 
-/// Returns the lines of the canvas with its axes and their ends.
 fn framed(canvas: &Canvas, scales: [Scale; 2], spacing: &str) -> Vec<String> {
     let [[left, right], [bottom, top]] = scales.map(|scale| {
         let (low, high) = scale.ends();
@@ -134,12 +132,10 @@ impl Canvas {
         }
     }
 
-    /// Puts a mark at a dot, unless another mark is there.
     fn mark(&mut self, [x, y]: [usize; 2], mark: char) {
         self.marks[y / DOTS[1]][x / DOTS[0]].get_or_insert(mark);
     }
 
-    /// Returns the rows from top to bottom.
     fn rows(&self) -> Vec<String> {
         let braille = |bits: u32| char::from_u32(0x2800 + bits).filter(|_| bits > 0);
         let row = |(dots, marks): (&[u32; SIZE[0]], &[Option<char>; SIZE[0]])| {

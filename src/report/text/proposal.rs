@@ -32,7 +32,6 @@ pub fn proposals(outcome: &SuiteOutcome, remarks: impl Iterator<Item = String>) 
     lines.join("\n") + "\n"
 }
 
-/// Adds the entry of `cases`, which have the same proposal, each with its observed result.
 fn entry(lines: &mut Vec<String>, proposal: &Proposal, cases: &[(&str, String)], alone: bool) {
     let width = cases.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     lines.extend(cases.iter().map(|(name, seen)| format!("  # {name:width$}  {seen}")));

@@ -34,7 +34,6 @@ pub(crate) fn section<'a>(
 /// Width of the column of keys in a [`section`].
 pub(crate) const KEYS: usize = 23;
 
-/// Adds a paragraph with a bullet.
 pub(crate) fn hanging(lines: &mut Vec<String>, mark: &str, paragraph: &str) {
     row_of_width(lines, 4, mark, paragraph);
 }

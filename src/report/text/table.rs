@@ -41,7 +41,6 @@ impl Table {
         self
     }
 
-    /// Whether there are no rows except the headings.
     pub(crate) fn is_empty(&self) -> bool {
         self.rows.len() == 1
     }
@@ -75,7 +74,6 @@ impl Table {
         self.without_columns_of("-")
     }
 
-    /// Removes columns that contain only `cell` below their heading.
     pub(crate) fn without_columns_of(mut self, cell: &str) -> Self {
         let columns = self.rows[0].len();
         let kept: Vec<bool> =

@@ -12,7 +12,6 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// tolerance is wide, because solvers resolve the edge of the body differently.
 const RIM: f64 = 0.1;
 
-/// Returns breaches due to columns of wrong size and numbers that are not finite.
 pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let (d, n) = (problem.dimension, samples.len());
     if samples.dimension != d {
@@ -39,7 +38,6 @@ pub(super) fn counts(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Returns breaches due to wrong labels, weights and motion in the initial state.
 pub(super) fn start(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     let mut breaches = Vec::from_iter(weights(problem, samples));
     breaches.extend(labels(problem, samples));
@@ -56,7 +54,6 @@ fn is_of_particles(problem: &LevelProblem, samples: &Samples) -> bool {
     wanted.len() == samples.label.len() && pairs.all(|(a, b)| (a - b).abs() <= near)
 }
 
-/// Returns a breach due to labels outside the grid.
 fn labels(problem: &LevelProblem, samples: &Samples) -> Option<Breach> {
     let (grid, d) = (&problem.grid, problem.dimension);
     let near = ROUNDING * grid.h;
@@ -113,7 +110,6 @@ fn motion(problem: &LevelProblem, samples: &Samples) -> Vec<Breach> {
     breaches
 }
 
-/// Returns breaches due to changing labels, weights or column sizes, and due to numbers not finite.
 pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     let first = &states[0].samples;
     let mut breaches = Vec::new();
@@ -144,7 +140,6 @@ pub(super) fn samples(states: &[RunState]) -> Vec<Breach> {
     breaches
 }
 
-/// Returns a breach if the counter `transfers` does not grow in every step.
 pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     let work: Vec<u64> = states.iter().map(|state| state.counters.transfers).collect();
     let step = (1..work.len()).find(|step| work[*step] <= work[step - 1])?;
@@ -154,7 +149,6 @@ pub(super) fn work(states: &[RunState]) -> Option<Breach> {
     Some(Breach::new("work counters", wanted, seen))
 }
 
-/// Returns breaches due to counters that disagree with the run so far.
 pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breach> {
     let given = problem.particles.len() as u64;
     let volumes = problem.particles.volume.iter().zip(&problem.particles.reference_volume);
@@ -192,7 +186,6 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
     breaches
 }
 
-/// Returns a breach if the total mass differs from that of the particles.
 pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Breach> {
     let mass: f64 = problem.particles.mass.iter().sum();
     let is_off = |seen: f64| !((seen - mass).abs() <= ROUNDING * mass);

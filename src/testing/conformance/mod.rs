@@ -71,7 +71,6 @@ pub(crate) fn examined(
     Ok(breaches(solver, &problem(solver, suite)?))
 }
 
-/// Returns the coarsest level of a suite.
 fn problem(solver: &dyn SolverFactory, suite: &Suite) -> Result<LevelProblem, SubjectError> {
     let plan = suite.convergence().ok_or("the suite is not a convergence study")?;
     let lacks = lacking(suite, solver);

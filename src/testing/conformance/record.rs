@@ -3,7 +3,6 @@
 use crate::subject::{Failure, RunCounters, Samples, Subject, Totals};
 use std::fmt;
 
-/// Observable state of a solver between two steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RunState {
     pub(super) samples: Samples,

@@ -8,7 +8,6 @@ use crate::study::{needs_of_suite, under};
 use crate::suite::Suite;
 use rayon::prelude::*;
 
-/// Maximum number of suites that are listed for a capability.
 const SUITES: usize = 3;
 
 /// Lists the capabilities that `solver` declares and that no examination covers. Skipped

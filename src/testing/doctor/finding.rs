@@ -126,10 +126,8 @@ impl ExaminationResult {
     }
 }
 
-/// Name of the finding on solvers that ignore nodes with little mass.
 pub(super) const LIGHT_NODES: &str = "light-nodes-left-out";
 
-/// Advice on the code to check in solvers that ignore nodes with little mass.
 pub(super) const MASS_THRESHOLD: &str = "the threshold on nodal mass below which nodes get no \
                                          velocity: this threshold must be zero, or far below the \
                                          particle mass times the smallest weight";
@@ -172,7 +170,6 @@ pub fn brief_page(report: &DoctorReport) -> String {
     with_ends(report, &lines)
 }
 
-/// Adds the description of the solver and the verdict.
 fn with_ends(report: &DoctorReport, middle: &[String]) -> String {
     let mut lines = Vec::new();
     let settings = report.settings.iter().map(|(name, value)| format!("{name}: {value}"));

@@ -87,7 +87,6 @@ pub fn doctor(solver: &dyn SolverFactory, progress: &dyn Fn(&str)) -> DoctorRepo
     report
 }
 
-/// Returns the reason why the solver cannot be examined, from the result of the first examination.
 fn silent(first: &ExaminationResult) -> Option<String> {
     match first {
         ExaminationResult::Examined { findings, .. } => {

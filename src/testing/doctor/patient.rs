@@ -74,7 +74,6 @@ impl Patient<'_> {
         self.tolerance(1e-9, 1e-3)
     }
 
-    /// Returns the tolerance for the precision of the solver.
     pub(super) fn tolerance(&self, double: f64, single: f64) -> f64 {
         match self.solver.precision() {
             Precision::Double => double,
@@ -117,7 +116,6 @@ impl Patient<'_> {
         Err(Hindrance::Lacks(fewest.unwrap_or_default().join(", ")))
     }
 
-    /// Runs `scene`. The run may end early with a failure.
     pub(super) fn run(&self, scene: &BoxScene) -> Result<Course, Hindrance> {
         #[cfg(test)]
         if let Some(method) = self.built_in {

@@ -10,7 +10,6 @@ pub(super) type Row<const N: usize> = (String, [Option<f64>; N]);
 /// Values that identify a finding; [`ANY`] for a quantity that may have any value.
 pub(super) type Pattern<const N: usize> = [f64; N];
 
-/// Any value of a quantity.
 pub(super) const ANY: f64 = f64::NAN;
 
 /// Expected values of `N` quantities, and the findings if other values are measured.
@@ -19,7 +18,6 @@ pub(super) struct Rules<const N: usize> {
     pub(super) quantities: [(&'static str, f64, f64); N],
     /// Name, pattern and cause of each finding, by priority. The last one accepts any values.
     pub(super) findings: &'static [(&'static str, Pattern<N>, &'static str)],
-    /// Parts of the code to check.
     pub(super) look_at: &'static str,
 }
 

@@ -44,7 +44,6 @@ pub(super) const FRICTION: f64 = 0.3;
 /// Friction angle (degrees) of a Mohr-Coulomb soil.
 pub(super) const FRICTION_ANGLE: f64 = 30.0;
 
-/// Exponent of a polytropic gas.
 const GAS_EXPONENT: f64 = 1.4;
 
 /// Slope M of the critical-state line of Cam-clay, `q = M p`.
@@ -290,7 +289,6 @@ impl BoxScene {
         format!("{{{law}: {{{parameters}, density: {density:e}}}}}")
     }
 
-    /// Formats box, material and initial velocity of the body as keys of a suite.
     fn body_keys(&self) -> String {
         let Self { body: (from, to), dimension, extras, .. } = self;
         let material = self.material();
@@ -303,7 +301,6 @@ impl BoxScene {
         format!("{keys}, initial_velocity: {velocity:?}")
     }
 
-    /// Formats the scene as the text of a suite with this method.
     fn text(&self, method: &str) -> String {
         let Self { extras, grid: (low, high), dimension: d, .. } = self;
         let cells = libm::round((high[0] - low[0]) / self.h);
@@ -379,7 +376,6 @@ impl BoxScene {
         Ok(needs)
     }
 
-    /// Creates the suite from which the problem is derived.
     fn handed_over(&self) -> Result<Suite, SubjectError> {
         let in_time = "basis: linear, transfer: flip, scheme: musl";
         let quasi_static = "basis: linear, scheme: quasi_static";

@@ -20,9 +20,7 @@ use std::time::{Duration, Instant};
 pub(super) struct Gate {
     pub(super) folder: PathBuf,
     pub(super) snapshots: PathBuf,
-    /// Solver that replaces the methods of the suites.
     pub(super) solver: Option<&'static dyn SolverFactory>,
-    /// Whether to compare the snapshots that cover all suites.
     pub(super) with_overview: bool,
 }
 
@@ -109,7 +107,6 @@ impl Gate {
     }
 }
 
-/// Returns `suite` with `solver` in place of its methods.
 fn judged(suite: &Suite, solver: &dyn SolverFactory) -> Result<Suite, String> {
     let suite =
         under(suite, solver, true).ok_or("the suite examines internals of the built-in methods")?;

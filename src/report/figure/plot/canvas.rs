@@ -8,7 +8,6 @@ const LEFT: f64 = 14.0;
 const TOP: f64 = 18.0;
 /// Height of a title line (px).
 const LEADING: f64 = 17.0;
-/// Maximum number of title lines.
 const LINES: usize = 3;
 
 /// Creates an empty document of this size (px). Screen readers read `title`.

@@ -17,7 +17,6 @@ pub(crate) struct Titles<'a> {
 pub(crate) struct Plot<'a> {
     titles: Titles<'a>,
     heading: Heading,
-    /// The box around the data.
     pub(crate) frame: Rect,
     x: PlotAxis,
     y: PlotAxis,
@@ -51,7 +50,6 @@ const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.0;
 
 impl<'a> Plot<'a> {
-    /// Computes the frame layout, with space for titles and tick labels around the frame.
     pub(crate) fn new(titles: Titles<'a>, x: Scale, y: Scale) -> Self {
         let heading = Heading::new(titles.title, WIDTH);
         let y = PlotAxis::new(y, FRAME_HEIGHT, |_| TEXT + 10.0);
@@ -180,7 +178,6 @@ const LEGEND_ROW: f64 = 17.0;
 const COLUMN_GAP: f64 = 16.0;
 /// Distance of the legend from the edges of the figure (px).
 const LEGEND_MARGIN: f64 = 10.0;
-/// Maximum number of columns of a legend.
 const MAX_COLUMNS: usize = 4;
 
 #[derive(Clone, Debug)]
@@ -221,7 +218,6 @@ impl Legend {
         if self.entries.is_empty() { 0.0 } else { LEGEND_ROW * self.rows as f64 + LEGEND_MARGIN }
     }
 
-    /// Draws the legend, centred in the figure, with its upper edge at `top`.
     pub(crate) fn draw(&self, top: f64) -> SvgElement {
         let mut group = SvgElement::new("g").set("class", "legend");
         let mut left = (WIDTH - legend_width(&self.entries, self.rows)) / 2.0;

@@ -5,11 +5,8 @@ use super::svg::{Pt, SvgElement};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fill {
-    /// Filled with the colour of the series.
     Solid,
-    /// Filled with the paper colour.
     Hollow,
-    /// Filled with the paper colour, with a cross inside.
     Crossed,
 }
 

@@ -37,7 +37,6 @@ impl Scale {
         (self.lo, self.hi)
     }
 
-    /// Returns the length of the axis in decades.
     pub(crate) fn span(&self) -> f64 {
         self.hi - self.lo
     }
@@ -68,7 +67,6 @@ pub(crate) struct Label {
 }
 
 impl Label {
-    /// Creates a decimal number with a typographic minus.
     pub(crate) fn decimal(value: f64, decimals: usize) -> Self {
         Self { base: format!("{value:.decimals$}").replace('-', "\u{2212}"), exponent: None }
     }
@@ -82,7 +80,6 @@ impl Label {
         text_width(&self.base, TEXT) + text_width(&self.superscript(), SUPERSCRIPT)
     }
 
-    /// Draws the label with its baseline anchored at `at`.
     pub(crate) fn draw(&self, at: Pt, anchor: &str) -> SvgElement {
         if self.exponent.is_none() {
             return SvgElement::text(at, anchor, &self.base);

@@ -18,7 +18,6 @@ pub(crate) const TITLE: f64 = 13.0;
 pub(crate) const PAPER: &str = "#ffffff";
 /// Colour of texts, frame and ticks.
 pub(crate) const INK: &str = "#222222";
-/// Colour of grid lines.
 pub(crate) const GRID: &str = "#e3e3e3";
 /// Colour of elements that belong to no series, such as reference lines.
 pub(crate) const NEUTRAL: &str = "#4d4d4d";

@@ -72,7 +72,6 @@ impl SvgElement {
         self
     }
 
-    /// Sets an attribute to a coordinate or a length.
     pub(crate) fn at(self, name: &str, value: f64) -> Self {
         let value = number(value);
         self.set(name, &value)

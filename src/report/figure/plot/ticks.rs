@@ -7,7 +7,6 @@ use super::scale::{Label, Scale};
 pub(crate) struct Tick {
     /// Position along the axis from 0 to 1.
     pub(crate) at: f64,
-    /// The number next to a major tick.
     pub(crate) label: Option<Label>,
 }
 
@@ -83,7 +82,6 @@ fn short_label(digit: i32, power: i32, written_out: bool) -> Label {
     }
 }
 
-/// Creates ticks at the given multiples of all powers of ten on the axis.
 fn log_ticks(
     scale: &Scale,
     digits: &[i32],

@@ -17,7 +17,6 @@ pub(super) const EXAMINATION: Examination = Examination {
 
 /// Rate of damping (1/s).
 const RATE: f64 = 0.4;
-/// Share of local damping.
 const SHARE: f64 = 0.3;
 /// Gravity (m/s2).
 const GRAVITY: f64 = 0.9;
@@ -68,7 +67,6 @@ fn damped(kind: Kind) -> [BoxScene; 2] {
     [RATE.to_string(), format!("{RATE}*t")].map(|c| scene(kind, 0.25, format!("damping: {c}")))
 }
 
-/// Creates a falling and a rising body with local damping.
 fn locally_damped(kind: Kind) -> [BoxScene; 2] {
     [-0.125, 1.5 * GRAVITY].map(|speed| {
         let scene = scene(kind, speed, format!("local_damping: {SHARE}"));

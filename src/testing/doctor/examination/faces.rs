@@ -95,7 +95,6 @@ pub(super) fn position_rounding(patient: &Patient<'_>, scene: &BoxScene) -> Resu
     Ok((1..=course.last()).map(error).fold(0.0, f64::max))
 }
 
-/// Returns a finding if the columns of a soft body in rigid motion show a strain.
 fn strained(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let course = patient.run(scene)?;
     let (lambda, mu) = scene.lame();

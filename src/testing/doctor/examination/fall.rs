@@ -57,7 +57,6 @@ pub(super) fn divides_steps(patient: &Patient<'_>) -> bool {
     })
 }
 
-/// Returns a finding if the acceleration differs from g, or velocities have few digits.
 fn of_force(patient: &Patient<'_>, course: &Course, g: Vector3<f64>) -> Option<SolverFinding> {
     let (last, d) = (course.last(), course.problem.dimension);
     let end = course.times[last];

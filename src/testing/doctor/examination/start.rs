@@ -46,7 +46,6 @@ struct BodyPlacement {
     stretched: [f64; 3],
     /// Number of cells along an axis, by dimension.
     cells: [f64; 3],
-    /// Number of time steps.
     steps: u64,
 }
 
@@ -75,10 +74,8 @@ const NEAR: f64 = 0.12;
 /// Maximum force in the first step normal to the expected force, relative to the expected force.
 const ACROSS: f64 = 0.15;
 
-/// Name of the finding for an initial stress without effect.
 const DROPPED: &str = "initial-stress-dropped";
 
-/// Name of the finding for wrong components of the initial stress.
 const COMPONENTS: &str = "initial-stress-components";
 
 /// Examines the body at one position, and if this shows a defect, at further positions. At nodes
@@ -144,7 +141,6 @@ fn examine_at(patient: &Patient<'_>, placement: BodyPlacement) -> Result<Examine
     Ok(all)
 }
 
-/// Creates the first body of the examination, undeformed.
 fn undeformed(kind: Kind) -> BoxScene {
     let displacement = AffineField::default();
     BoxScene { displacement, ..scene(kind, PLACEMENTS[0].sheared, PLACEMENTS[0]) }
@@ -268,7 +264,6 @@ fn wrong_entries_of_column(course: &Course, scene: &BoxScene) -> Option<(Vec<usi
     Some(((0..d * d).filter(is_wrong).collect(), has_stress))
 }
 
-/// Lists components of a tensor by their axes.
 fn component_names(components: &[usize], d: usize) -> String {
     let axis = ["x", "y", "z"];
     let names = components.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d]));

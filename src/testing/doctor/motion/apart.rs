@@ -116,7 +116,6 @@ fn weights(motion: &UniformMotion<'_>, low: f64, high: f64, soft: (f64, f64)) ->
     )
 }
 
-/// Returns a finding if one end of the body stops.
 fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let (last, d) = (course.last(), course.problem.dimension);
@@ -143,7 +142,6 @@ fn limit(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     })
 }
 
-/// Name of the finding on solvers that change the positions of particles on cell faces.
 pub(crate) const CHANGED: &str = "positions-changed";
 
 /// Maximum change (v dt) of a position that weights do not explain. If a weight of a particle on a
@@ -193,7 +191,6 @@ fn changed_on_faces(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     (step > 0).then_some(finding)
 }
 
-/// Returns a finding if the error begins when a particle first changes its cell.
 fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let course = &motion.course;
     let (h, origin) = (motion.scene.h, &course.problem.grid.origin);
@@ -230,7 +227,6 @@ fn crossing(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns a finding if only points at the edge of the body have an error at first.
 fn light_nodes(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v) = (&motion.course, motion.velocity);
     let whole = v.norm() * course.times[course.last()];

@@ -66,7 +66,6 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>,
     if speed <= motion.patient.rounding() { Ok(way(motion)) } else { of_speed(motion) }
 }
 
-/// Returns a finding if a vector has permuted components or wrong signs.
 fn turned(motion: &UniformMotion<'_>, column: &str, seen: Vector3<f64>) -> Option<SolverFinding> {
     let d = motion.course.problem.dimension;
     let wanted = motion.velocity;
@@ -86,7 +85,6 @@ fn turned(motion: &UniformMotion<'_>, column: &str, seen: Vector3<f64>) -> Optio
     ))
 }
 
-/// Returns a finding if velocities are wrong or change.
 fn of_speed(motion: &UniformMotion<'_>) -> Result<Option<SolverFinding>, Hindrance> {
     let shares = speed_shares(motion);
     let last = shares[shares.len() - 1];
@@ -156,7 +154,6 @@ fn speed_shares(motion: &UniformMotion<'_>) -> Vec<f64> {
     (1..=motion.course.last()).map(|k| mean(k).dot(&v) / v.dot(&v)).collect()
 }
 
-/// Returns a finding if displacements are wrong although the velocities are correct.
 fn way(motion: &UniformMotion<'_>) -> Option<SolverFinding> {
     let (course, v, dt) = (&motion.course, motion.velocity, motion.scene.dt);
     let t = &course.times[1..];
@@ -233,7 +230,6 @@ fn unequal_steps(ways: &[f64], dt: f64) -> Option<SolverFinding> {
     ))
 }
 
-/// Returns the likely cause if velocities or displacements are wrong by `factor`.
 fn units(factor: f64) -> &'static str {
     let log = libm::log10(factor.abs());
     if (log - libm::round(log)).abs() <= 1e-3 && libm::round(log) != 0.0 {

@@ -17,7 +17,6 @@ use as_one::UniformMotion;
 /// Maximum relative error of a motion that single precision can explain.
 const SINGLE: f64 = 1e-4;
 
-/// Examines whether the body in `scene` keeps its uniform initial velocity.
 pub(super) fn uniform(patient: &Patient<'_>, scene: &BoxScene) -> Result<Examined, Hindrance> {
     let course = patient.run(scene)?;
     let motion = UniformMotion { patient, scene, course, velocity: scene.velocity.value };

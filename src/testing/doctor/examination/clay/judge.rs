@@ -288,7 +288,6 @@ mod tests {
         PathEnd { path, dimension: 2, ratio, compaction, shear: shear.abs(), p, q: q.abs() }
     }
 
-    /// Runs all paths with a fault.
     fn run(fault: Fault) -> [PathEnd; 3] {
         let swelling = -libm::log1p(PATHS[0].1[0][0]);
         let compaction = -libm::log1p(PATHS[1].1[0][0]);

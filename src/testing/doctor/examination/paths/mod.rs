@@ -143,7 +143,6 @@ impl Leg {
         differences.fold(0.0, most) / largest(&self.expected)
     }
 
-    /// Whether the stress is wrong. NaN counts as wrong.
     fn is_wrong(&self) -> bool {
         !(self.relative_error() <= self.bound)
     }
@@ -177,7 +176,6 @@ impl Leg {
     }
 }
 
-/// Examines the solver with each of `laws` that it supports.
 fn examine(patient: &Patient<'_>, laws: &Laws) -> Result<Examined, Hindrance> {
     let able = |dimensions: &[usize], law: &[&'static str]| {
         let scene = |kind: Kind| laws.paths[0].scene(kind);

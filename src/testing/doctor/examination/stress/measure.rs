@@ -152,7 +152,6 @@ pub(super) fn strain_factor(course: &Course, scene: &BoxScene) -> Option<f64> {
     Some((f[0] - 1.0) / (STRETCH * course.times[last]))
 }
 
-/// Returns findings on columns that disagree with the motion.
 pub(super) fn findings(course: &Course, scene: &BoxScene) -> Vec<SolverFinding> {
     let (d, last) = (scene.dimension, course.last());
     let (samples, t) = (&course.states[last], course.times[last]);
@@ -211,7 +210,6 @@ pub(crate) fn largest_entry(tensors: &[f64]) -> f64 {
     tensors.iter().fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { x.abs().max(most) })
 }
 
-/// Whether `seen` is `factor` times `wanted`.
 fn is(seen: &[f64], wanted: &[f64], factor: f64) -> bool {
     let scale = factor.abs() * wanted.iter().map(|x| x.abs()).fold(0.0, f64::max);
     seen.iter().zip(wanted).all(|(a, b)| (a - factor * b).abs() <= NEAR * scale)

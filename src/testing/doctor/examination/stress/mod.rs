@@ -60,7 +60,6 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(all)
 }
 
-/// Returns a finding if the stress in tension differs from the stress in compression.
 fn in_tension(patient: &Patient<'_>, scene: &BoxScene) -> Result<Option<SolverFinding>, Hindrance> {
     let mut stretched = scene.clone();
     stretched.velocity.gradient = scene.velocity.gradient.map(|row| row.map(|slope| -slope));
@@ -262,7 +261,6 @@ pub(super) fn require_whole_body(course: &Course, scene: &BoxScene) -> Result<()
     Ok(())
 }
 
-/// Runs a scene for each end of each axis, and judges the rows of measured values.
 pub(super) fn judge_ends<const N: usize>(
     patient: &Patient<'_>,
     dimensions: &[usize],

@@ -146,7 +146,6 @@ const RULES: [WallRule; 10] = [
     ),
 ];
 
-/// Rule for walls near which linear fields are not reproduced.
 const NOT_LINEAR: WallRule = (
     |wall| !(wall.stretch.abs() <= STRETCH),
     |wall| {
@@ -220,7 +219,6 @@ fn is_none(force: f64) -> bool {
     force.abs() <= NONE
 }
 
-/// Whether the wall exerts no force on a thrown body.
 fn is_absent(wall: &Wall) -> bool {
     [wall.pushed, wall.pulled].into_iter().flatten().all(|force| force.abs() <= ABSENT)
 }

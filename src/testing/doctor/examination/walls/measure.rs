@@ -71,7 +71,6 @@ impl Wall {
     }
 }
 
-/// Creates the bar along `axis`, fixed at both ends.
 pub(crate) fn bar(kind: Kind, axis: usize, condition: &'static str) -> BoxScene {
     let mut scene = BoxScene::of_cells(kind, [0.25; 3], if kind.0 == 3 { 3.0 } else { 4.0 }, 3.0);
     scene.body.1[axis] = scene.body.0[axis] + CELLS * H;
@@ -192,7 +191,6 @@ fn stretch_errors(
     }))
 }
 
-/// Creates the bar with one wall, stretched from that wall.
 fn stretched(kind: Kind, end: BarEnd, condition: &'static str) -> BoxScene {
     let mut scene = bar(kind, end.axis, condition);
     scene.faces = vec![(FACES[end.axis][usize::from(end.high)], condition)];

@@ -74,7 +74,6 @@ fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
     Ok(Examined::new(measured.join("; "), findings))
 }
 
-/// Checks that a body between two rollers normal to `axis` slides along them without resistance.
 fn slide(patient: &Patient<'_>, kind: Kind, axis: usize) -> Result<Examined, Hindrance> {
     let other = (axis + 1) % kind.0;
     let mut from = [0.25; 3];
