@@ -15,19 +15,13 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
             MethodColumn::text("x", "times the least work", move |row| row.times[k].map(ratio)),
         ]);
     }
+    let best = "smallest error, relative to the size of the solution";
+    let not_reached = "reason why the smallest target error is not reached";
     columns.extend([
-        MethodColumn::new(
-            "best error",
-            "best",
-            "smallest error, relative to the size of the solution",
-            |row| Cell::number(row.best, short),
-        ),
-        MethodColumn::new(
-            "not reached",
-            "not_reached",
-            "reason why the smallest target error is not reached",
-            |row| Cell::plain(row.obstacle().map(End::words)),
-        ),
+        MethodColumn::number("best error", "best", best, short, |row| row.best),
+        MethodColumn::plain("not reached", "not_reached", not_reached, |row| {
+            row.obstacle().map(End::words)
+        }),
         MethodColumn::new(
             "Pareto front",
             "pareto_front",
@@ -43,8 +37,7 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
 }
 
 fn name<'a>(heading: &'static str) -> MethodColumn<'a> {
-    MethodColumn::new(heading, "case", "method", |row| Cell::plain(row.method.name.clone()))
-        .flush_left()
+    MethodColumn::plain(heading, "case", "method", |row| row.method.name.clone()).flush_left()
 }
 
 pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
@@ -55,19 +48,17 @@ pub(crate) fn exponents<'a>() -> Vec<MethodColumn<'a>> {
 fn exponent<'a>() -> [TableColumn<'a, Exponent>; 5] {
     type ExponentColumn<'a> = TableColumn<'a, Exponent>;
     let of = |heading, key, about, value: fn(&Exponent) -> f64| {
-        ExponentColumn::new(heading, key, about, move |e| Cell::number(value(e), decimals(2)))
+        ExponentColumn::number(heading, key, about, decimals(2), value)
     };
+    let agrees = "whether the exponent agrees with theory, or else the difference";
     [
         of("k", "value", "exponent of work ~ error^k", |e| e.observed.value),
         of("low", "low", "lower end of its interval", |e| e.observed.low),
         of("high (95 %)", "high", "upper end", |e| e.observed.high),
         of("theory", "theory", "exponent in theory", |e| e.theory),
-        ExponentColumn::new(
-            "",
-            "agrees",
-            "whether the exponent agrees with theory, or else the difference",
-            |e| Cell::new(agreement(e), e.agreement() == Agreement::Agrees),
-        )
+        ExponentColumn::new("", "agrees", agrees, |e| {
+            Cell::new(agreement(e), e.agreement() == Agreement::Agrees)
+        })
         .flush_left(),
     ]
 }

@@ -1,6 +1,6 @@
 //! Columns of a gradient study.
 
-use super::{Cell, TableColumn, decimals, number, scientific};
+use super::{TableColumn, decimals, number, scientific};
 use crate::verify::{GradientLevel, GradientStudy, Perturbed, SweepPoint};
 use serde_json::{Value, json};
 
@@ -34,39 +34,34 @@ pub(crate) fn taylor_rows(study: &GradientStudy) -> Vec<TaylorRow> {
 pub(crate) fn levels<'a>() -> Vec<TableColumn<'a, GradientLevelRow>> {
     type GradientLevelColumn<'a> = TableColumn<'a, GradientLevelRow>;
     let of = |key, about, value: fn(&GradientLevel) -> f64| {
-        GradientLevelColumn::new(key, key, about, move |(level, _)| {
-            Cell::number(value(level), scientific)
-        })
+        GradientLevelColumn::number(key, key, about, scientific, move |(level, _)| value(level))
     };
+    let order = "order from the level before";
     vec![
-        GradientLevelColumn::new("cells", "cells", "cells along the first axis", |(level, _)| {
-            Cell::plain(level.cells)
+        GradientLevelColumn::plain("cells", "cells", "cells along the first axis", |(level, _)| {
+            level.cells
         }),
         of("dt", "time step (s)", |level| level.dt),
         of("gradient", "derivative that the solver reports", |level| level.gradient),
         of("exact", "exact derivative", |level| level.exact),
         of("error", "magnitude of the error of the derivative", GradientLevel::error),
-        GradientLevelColumn::new("order", "order", "order from the level before", |(_, order)| {
-            Cell::number(*order, decimals(2))
-        }),
+        GradientLevelColumn::number("order", "order", order, decimals(2), |(_, order)| *order),
     ]
 }
 
 pub(crate) fn taylor<'a>() -> Vec<TableColumn<'a, TaylorRow>> {
     type TaylorColumn<'a> = TableColumn<'a, TaylorRow>;
+    let of = |key, about, value: fn(&TaylorRow) -> f64| {
+        TaylorColumn::number(key, key, about, scientific, value)
+    };
+    let order = "order of the remainder in e";
     vec![
-        TaylorColumn::new("k", "level", "the perturbation is the parameter times 2^-k", |row| {
-            Cell::plain(u64::from(row.perturbed.level))
+        TaylorColumn::plain("k", "level", "the perturbation is the parameter times 2^-k", |row| {
+            u64::from(row.perturbed.level)
         }),
-        TaylorColumn::new("remainder", "remainder", "|J(q + e) - J(q) - e g|", |row| {
-            Cell::number(row.remainder, scientific)
-        }),
-        TaylorColumn::new("order", "order", "order of the remainder in e", |row| {
-            Cell::number(row.order, decimals(2))
-        }),
-        TaylorColumn::new("difference", "difference", "(J(q + e) - J(q - e))/(2 e)", |row| {
-            Cell::number(row.difference, scientific)
-        }),
+        of("remainder", "|J(q + e) - J(q) - e g|", |row| row.remainder),
+        TaylorColumn::number("order", "order", order, decimals(2), |row| row.order),
+        of("difference", "(J(q + e) - J(q - e))/(2 e)", |row| row.difference),
     ]
 }
 
@@ -75,9 +70,7 @@ pub(crate) fn points<'a>() -> Vec<TableColumn<'a, SweepPoint>> {
     vec![
         SweepColumn::json("parameter", "value of the parameter", |point| number(point.at)),
         SweepColumn::json("value", "value of the functional", |point| number(point.value)),
-        SweepColumn::json("gradient", "derivative that the solver reports", |point| {
-            number(point.gradient)
-        }),
+        SweepColumn::json("gradient", "derivative that the solver reports", |p| number(p.gradient)),
     ]
 }
 

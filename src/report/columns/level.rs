@@ -22,17 +22,15 @@ pub(crate) fn rows(study: &Convergence) -> impl Iterator<Item = LevelRow<'_>> {
 }
 
 pub(crate) fn cells<'a>() -> LevelColumn<'a> {
-    LevelColumn::new("cells", "cells", "cells along the first axis", |row| {
-        Cell::plain(row.level.cells)
-    })
+    LevelColumn::plain("cells", "cells", "cells along the first axis", |row| row.level.cells)
 }
 
 fn dt<'a>() -> LevelColumn<'a> {
-    LevelColumn::new("dt", "dt", "time step (s)", |row| Cell::number(row.level.dt, scientific))
+    LevelColumn::number("dt", "dt", "time step (s)", scientific, |row| row.level.dt)
 }
 
 fn ppc<'a>() -> LevelColumn<'a> {
-    LevelColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| Cell::plain(row.level.ppc))
+    LevelColumn::plain("ppc", "ppc", "particles per cell (MPM)", |row| row.level.ppc)
 }
 
 /// Returns the column of what is refined: cells, time step or particles per cell.
@@ -60,7 +58,7 @@ pub(crate) fn judged<'a>() -> LevelColumn<'a> {
 
 pub(crate) fn order<'a>() -> LevelColumn<'a> {
     let about = "order between the next coarser level and this one";
-    LevelColumn::new("order", "order", about, |row| Cell::number(row.level.order, decimals(2)))
+    LevelColumn::number("order", "order", about, decimals(2), |row| row.level.order)
 }
 
 /// Returns the columns of the displacement error norms (m).
@@ -119,58 +117,43 @@ pub(crate) fn velocity<'a>() -> LevelColumn<'a> {
 }
 
 pub(crate) fn counters<'a>() -> Vec<LevelColumn<'a>> {
+    let outside = "particles outside the grid at the end";
+    let min_j = "smallest det F of the run; it remains positive if a particle is inverted along two \
+                 axes at once";
+    let speed = "for an equilibrium: largest speed in the last tenth of the run, divided by the wave \
+                 speed";
+    let stable = "time step divided by the stable time step; in JSON the stable time step (s)";
     vec![
-        LevelColumn::new("particles", "particles", "particles (MPM)", |row| {
-            Cell::plain(row.level.run.counters.particles)
+        LevelColumn::plain("particles", "particles", "particles (MPM)", |row| {
+            row.level.run.counters.particles
         }),
-        LevelColumn::new("steps", "steps", "steps taken", |row| Cell::plain(row.level.run.steps)),
+        LevelColumn::plain("steps", "steps", "steps taken", |row| row.level.run.steps),
         LevelColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
             // External solvers do not count transfers.
             let transfers = row.level.run.counters.transfers;
             Cell { json: transfers.into(), ..Cell::text(Some(transfers).filter(|n| *n > 0)) }
         }),
-        LevelColumn::new("crossings", "crossings", "changes of cell (MPM)", |row| {
-            Cell::plain(row.level.run.counters.crossings)
+        LevelColumn::plain("crossings", "crossings", "changes of cell (MPM)", |row| {
+            row.level.run.counters.crossings
         }),
-        LevelColumn::new(
-            "outside",
-            "left_domain",
-            "particles outside the grid at the end",
-            |row| {
-                let outside = row.level.run.counters.left_domain;
-                Cell { json: outside.into(), ..Cell::text(outside.filter(|count| *count > 0)) }
-            },
-        ),
-        LevelColumn::new(
-            "min J",
-            "min_j",
-            "smallest det F of the run; it remains positive if a particle is inverted along two axes at once",
-            |row| {
-                let known = Some(row.level.run.counters.min_j).filter(|j| !j.is_nan());
-                Cell::number(known, decimals(4))
-            },
-        ),
-        LevelColumn::new(
-            "speed/c",
-            "residual_speed",
-            "for an equilibrium: largest speed in the last tenth of the run, divided by the wave speed",
-            |row| {
-                let cell = row.unless_failed(row.level.run.residual_speed);
-                // Load steps have no speed.
-                let is_load = row.study.steps == StepKind::Load;
-                if is_load { Cell { text: "-".to_owned(), ..cell } } else { cell }
-            },
-        ),
-        LevelColumn::new(
-            "dt/stable",
-            "stable_time_step",
-            "time step divided by the stable time step; in JSON the stable time step (s)",
-            |row| {
-                let stable = row.level.stable_time_step;
-                let ratio = Cell::number(stable.map(|stable| row.level.dt / stable), decimals(3));
-                Cell { json: stable.map_or(Value::Null, number), ..ratio }
-            },
-        ),
+        LevelColumn::new("outside", "left_domain", outside, |row| {
+            let outside = row.level.run.counters.left_domain;
+            Cell { json: outside.into(), ..Cell::text(outside.filter(|count| *count > 0)) }
+        }),
+        LevelColumn::number("min J", "min_j", min_j, decimals(4), |row| {
+            Some(row.level.run.counters.min_j).filter(|j| !j.is_nan())
+        }),
+        LevelColumn::new("speed/c", "residual_speed", speed, |row| {
+            let cell = row.unless_failed(row.level.run.residual_speed);
+            // Load steps have no speed.
+            let is_load = row.study.steps == StepKind::Load;
+            if is_load { Cell { text: "-".to_owned(), ..cell } } else { cell }
+        }),
+        LevelColumn::new("dt/stable", "stable_time_step", stable, |row| {
+            let stable = row.level.stable_time_step;
+            let ratio = Cell::number(stable.map(|stable| row.level.dt / stable), decimals(3));
+            Cell { json: stable.map_or(Value::Null, number), ..ratio }
+        }),
     ]
 }
 

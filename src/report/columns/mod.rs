@@ -35,11 +35,6 @@ impl Cell {
         Self::new(None::<String>, json)
     }
 
-    /// Creates a cell with a name or a count. The value is equal in text and JSON.
-    pub(crate) fn plain(value: impl Text + Clone + Into<Value>) -> Self {
-        Self::new(value.clone(), value)
-    }
-
     /// Creates a cell with a number, whose text is formatted by `format`.
     pub(crate) fn number(value: impl Into<Option<f64>>, format: impl Fn(f64) -> String) -> Self {
         let value = value.into();
@@ -115,6 +110,30 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
         cell: impl Fn(&R) -> Cell + 'a,
     ) -> Self {
         Self { heading: heading.into(), key, about, flush_left: false, cell: Box::new(cell) }
+    }
+
+    /// Creates a column of names or counts, which are equal in text and JSON.
+    pub(crate) fn plain<V: Text + Clone + Into<Value>>(
+        heading: impl Into<Cow<'a, str>>,
+        key: &'static str,
+        about: &'static str,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        Self::new(heading, key, about, move |row| {
+            let value = value(row);
+            Cell::new(value.clone(), value)
+        })
+    }
+
+    /// Creates a column of numbers, whose text is formatted by `format`.
+    pub(crate) fn number<V: Into<Option<f64>>>(
+        heading: impl Into<Cow<'a, str>>,
+        key: &'static str,
+        about: &'static str,
+        format: impl Fn(f64) -> String + 'a,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
+        Self::new(heading, key, about, move |row| Cell::number(value(row), &format))
     }
 
     pub(crate) fn text<V: Text>(

@@ -35,7 +35,7 @@ fn verdict<'a>() -> TrialColumn<'a> {
 }
 
 fn steps<'a>() -> TrialColumn<'a> {
-    TrialColumn::new("steps", "steps", "steps taken", |trial| Cell::plain(trial.steps))
+    TrialColumn::plain("steps", "steps", "steps taken", |trial| trial.steps)
 }
 
 pub(crate) fn trials(study: &StabilityStudy) -> Vec<RowColumn<'_>> {

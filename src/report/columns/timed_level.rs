@@ -35,19 +35,15 @@ pub(crate) fn rows(suite: &TimedSuite, case: usize) -> impl Iterator<Item = Time
 pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
     [
         TimedColumn::text("case", "case", |row| row.case.case.clone()).flush_left(),
-        TimedColumn::new("cells", "cells", "cells along the first axis", |row| {
-            Cell::plain(row.level.cells)
-        }),
-        TimedColumn::new("dt", "dt", "time step (s)", |row| Cell::number(row.level.dt, short)),
-        TimedColumn::new("ppc", "ppc", "particles per cell (MPM)", |row| {
-            Cell::plain(row.level.ppc)
-        }),
+        TimedColumn::plain("cells", "cells", "cells along the first axis", |row| row.level.cells),
+        TimedColumn::number("dt", "dt", "time step (s)", short, |row| row.level.dt),
+        TimedColumn::plain("ppc", "ppc", "particles per cell (MPM)", |row| row.level.ppc),
         TimedColumn::new("error", "error", "error, relative to the size of the solution", |row| {
             let error = Cell::number(row.level.error / row.size, short);
             error.or_failed(row.level.run.failure.as_ref())
         }),
-        TimedColumn::new("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
-            Cell::plain(Some(row.level.run.counters.transfers).filter(|count| *count > 0))
+        TimedColumn::plain("transfers", "transfers", "particle-node pairs of P2G and G2P", |row| {
+            Some(row.level.run.counters.transfers).filter(|count| *count > 0)
         }),
         TimedColumn::new("seconds", "seconds", "time of the steps, median of the repeats", |row| {
             let text = Cell::text(row.timing.map(|timing| short(timing.median)));
@@ -66,20 +62,17 @@ pub(crate) fn columns<'a>() -> [TimedColumn<'a>; 10] {
 }
 
 pub(crate) fn json_columns<'a>() -> Vec<TimedColumn<'a>> {
+    let bytes = "size of the particle columns, summed over all particle updates (B)";
     let mut list: Vec<_> = columns().into();
     list.extend([
         TimedColumn::json("particle_updates", "particles times steps", |row| {
             row.load.updates as u64
         }),
         TimedColumn::json("steps", "steps taken", |row| row.level.run.steps),
-        TimedColumn::json(
-            "bytes",
-            "size of the particle columns, summed over all particle updates (B)",
-            |row| {
-                let bytes = row.case.profile.as_ref().map(bytes_of_a_particle);
-                bytes.map(|bytes| bytes as u64 * row.load.updates as u64)
-            },
-        ),
+        TimedColumn::json("bytes", bytes, |row| {
+            let bytes = row.case.profile.as_ref().map(bytes_of_a_particle);
+            bytes.map(|bytes| bytes as u64 * row.load.updates as u64)
+        }),
         TimedColumn::json("failure", "reason and time of the failure", |row| {
             row.level.run.failure.clone()
         }),
