@@ -1,8 +1,8 @@
 //! Tables, remarks, JSON and figures for each kind of study.
 
 use crate::report::columns::stability::json_columns;
-use crate::report::columns::{TableColumn, interval, number};
 use crate::report::columns::{force, gradient, json_objects, level, spectrum};
+use crate::report::columns::{interval, number, with_case};
 use crate::report::figure::Figure;
 use crate::report::figure::{study, sweep};
 use crate::report::text::table::Table;
@@ -11,27 +11,56 @@ use crate::verify::{
     Axis, CaseOutcome, Convergence, Floor, FloorCause, GradientStudy, InternalForce, Probe,
     SpectrumRow, SpectrumStudy, StabilityStudy, SuiteOutcome,
 };
-use serde_json::{Map, Value, json};
-
-pub(crate) const KINDS: [&dyn StudyReport; 5] =
-    [&ConvergenceReport, &InternalForceReport, &StabilityReport, &GradientReport, &SpectrumReport];
+use serde_json::{Value, json};
 
 /// Report of one kind of study. Cases of other kinds add nothing to the report.
-pub(crate) trait StudyReport: Sync {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]);
-
+pub(crate) struct StudyReport {
+    pub(crate) tables: fn(&mut Vec<String>, &[CaseOutcome]),
     /// Returns remarks on one case, about results that no table shows.
-    fn remarks(&self, _case: &CaseOutcome) -> Vec<String> {
-        Vec::new()
-    }
-
+    pub(crate) remarks: fn(&CaseOutcome) -> Vec<String>,
     /// Returns the JSON members of one case, with null for cases of another kind of study.
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value>;
-
-    fn figures(&self, _: &SuiteOutcome) -> Vec<Figure> {
-        Vec::new()
-    }
+    pub(crate) json: fn(&CaseOutcome) -> Value,
+    pub(crate) figures: fn(&SuiteOutcome) -> Vec<Figure>,
 }
+
+pub(crate) const KINDS: [StudyReport; 5] = [
+    StudyReport {
+        tables: |lines, cases| levels::tables(lines, &studies(cases, CaseOutcome::convergence)),
+        remarks: |case| case.convergence().map_or(Vec::new(), remarks),
+        json: convergence_json,
+        figures: study::figures,
+    },
+    StudyReport {
+        tables: force_tables,
+        remarks: |_| Vec::new(),
+        json: |case| {
+            let rows = case.internal_force().map(|study| &study.rows);
+            json!({"forces": rows.map(|rows| json_objects(&force::columns(), rows))})
+        },
+        figures: |_| Vec::new(),
+    },
+    StudyReport {
+        tables: |lines, cases| stability::tables(lines, &studies(cases, CaseOutcome::stability)),
+        remarks: |case| case.stability().map_or(Vec::new(), stability::remarks),
+        json: |case| json!({"stability": case.stability().map(stability_json)}),
+        figures: stability_figures,
+    },
+    StudyReport {
+        tables: gradient_tables,
+        remarks: |_| Vec::new(),
+        json: |case| json!({"gradient": case.gradient().map(gradient_json)}),
+        figures: |_| Vec::new(),
+    },
+    StudyReport {
+        tables: wave_tables,
+        remarks: |case| case.spectrum().map_or(Vec::new(), wave_remarks),
+        json: |case| {
+            let rows = case.spectrum().map(|study| &study.rows);
+            json!({"spectrum": rows.map(|rows| json_objects(&spectrum::json_columns(), rows))})
+        },
+        figures: |_| Vec::new(),
+    },
+];
 
 pub(crate) fn studies<'a, R>(
     cases: &'a [CaseOutcome],
@@ -40,42 +69,19 @@ pub(crate) fn studies<'a, R>(
     cases.iter().filter_map(|case| Some((case.case.as_str(), of(case)?))).collect()
 }
 
-pub(crate) fn members(object: Value) -> Map<String, Value> {
-    match object {
-        Value::Object(members) => members,
-        _ => Map::new(),
-    }
-}
-
-pub(crate) struct ConvergenceReport;
-
-impl StudyReport for ConvergenceReport {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        levels::tables(lines, &studies(cases, CaseOutcome::convergence));
-    }
-
-    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
-        case.convergence().map_or(Vec::new(), remarks)
-    }
-
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let study = case.convergence();
-        let levels = study.into_iter().flat_map(level::rows);
-        members(json!({
-            "axis": study.map(|study| study.axis.name()),
-            "formal_order": study
-                .filter(|study| study.axis != Axis::Particles)
-                .map(|study| number(study.formal_order)),
-            "judge": study.filter(|study| study.compared).map(judge),
-            "observed_order": study.and_then(|study| study.judgement.order).map(interval),
-            "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
-            "levels": json_objects(&level::json_columns(), levels),
-        }))
-    }
-
-    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
-        study::figures(outcome)
-    }
+fn convergence_json(case: &CaseOutcome) -> Value {
+    let study = case.convergence();
+    let levels = study.into_iter().flat_map(level::rows);
+    json!({
+        "axis": study.map(|study| study.axis.name()),
+        "formal_order": study
+            .filter(|study| study.axis != Axis::Particles)
+            .map(|study| number(study.formal_order)),
+        "judge": study.filter(|study| study.compared).map(judge),
+        "observed_order": study.and_then(|study| study.judgement.order).map(interval),
+        "floor": study.and_then(|study| study.floor.as_ref()).map(floor),
+        "levels": json_objects(&level::json_columns(), levels),
+    })
 }
 
 /// Returns remarks about too long time steps, failed runs, and causes of error floors.
@@ -125,47 +131,20 @@ fn floor(floor: &Floor) -> Value {
     })
 }
 
-pub(crate) struct InternalForceReport;
-
-impl StudyReport for InternalForceReport {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        for case in cases {
-            if let Some(InternalForce { rows }) = case.internal_force() {
-                lines.extend([String::new(), format!("  {}", case.case)]);
-                lines.extend(Table::new(&force::columns(), rows).lines());
-            }
-        }
-    }
-
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let objects = |study: &InternalForce| json_objects(&force::columns(), &study.rows);
-        members(json!({"forces": case.internal_force().map(objects)}))
+fn force_tables(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+    for (name, InternalForce { rows }) in studies(cases, CaseOutcome::internal_force) {
+        lines.extend([String::new(), format!("  {name}")]);
+        lines.extend(Table::new(&force::columns(), rows).lines());
     }
 }
 
-pub(crate) struct StabilityReport;
-
-impl StudyReport for StabilityReport {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        stability::tables(lines, &studies(cases, CaseOutcome::stability));
-    }
-
-    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
-        case.stability().map_or(Vec::new(), stability::remarks)
-    }
-
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        members(json!({"stability": case.stability().map(stability_json)}))
-    }
-
-    fn figures(&self, outcome: &SuiteOutcome) -> Vec<Figure> {
-        let limits = stability::map(outcome).map(|map| Figure {
-            file: format!("{}.svg", outcome.suite),
-            svg: map.to_svg(),
-            pgfplots: map.to_pgfplots(),
-        });
-        limits.into_iter().chain(sweep::figures(outcome)).collect()
-    }
+fn stability_figures(outcome: &SuiteOutcome) -> Vec<Figure> {
+    let limits = stability::map(outcome).map(|map| Figure {
+        file: format!("{}.svg", outcome.suite),
+        svg: map.to_svg(),
+        pgfplots: map.to_pgfplots(),
+    });
+    limits.into_iter().chain(sweep::figures(outcome)).collect()
 }
 
 fn stability_json(study: &StabilityStudy) -> Value {
@@ -176,20 +155,12 @@ fn stability_json(study: &StabilityStudy) -> Value {
     })
 }
 
-pub(crate) struct GradientReport;
-
-impl StudyReport for GradientReport {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        for (name, study) in studies(cases, CaseOutcome::gradient) {
-            lines.extend([String::new(), format!("  {name}")]);
-            lines.extend(Table::new(&gradient::levels(), gradient::level_rows(study)).lines());
-            lines.push(String::new());
-            lines.extend(Table::new(&gradient::taylor(), gradient::taylor_rows(study)).lines());
-        }
-    }
-
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        members(json!({"gradient": case.gradient().map(gradient_json)}))
+fn gradient_tables(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+    for (name, study) in studies(cases, CaseOutcome::gradient) {
+        lines.extend([String::new(), format!("  {name}")]);
+        lines.extend(Table::new(&gradient::levels(), gradient::level_rows(study)).lines());
+        lines.push(String::new());
+        lines.extend(Table::new(&gradient::taylor(), gradient::taylor_rows(study)).lines());
     }
 }
 
@@ -208,49 +179,31 @@ fn gradient_json(study: &GradientStudy) -> Value {
     })
 }
 
-pub(crate) struct SpectrumReport;
-
-impl StudyReport for SpectrumReport {
-    fn tables(&self, lines: &mut Vec<String>, cases: &[CaseOutcome]) {
-        let mut waves: Vec<NamedWave> = Vec::new();
-        let mut curves: Vec<NamedWave> = Vec::new();
-        for (name, study) in studies(cases, CaseOutcome::spectrum) {
-            for row in &study.rows {
-                let is_known =
-                    |(case, known): &NamedWave| case == name && known.courant == row.courant;
-                if row.limit.is_some() && !curves.iter().any(is_known) {
-                    curves.push((name.to_owned(), row.clone()));
-                }
-                waves.push((name.to_owned(), row.clone()));
+fn wave_tables(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
+    let mut waves: Vec<(&str, &SpectrumRow)> = Vec::new();
+    let mut curves: Vec<(&str, &SpectrumRow)> = Vec::new();
+    for (name, study) in studies(cases, CaseOutcome::spectrum) {
+        for row in &study.rows {
+            let is_known =
+                |known: &(&str, &SpectrumRow)| known.0 == name && known.1.courant == row.courant;
+            if row.limit.is_some() && !curves.iter().any(is_known) {
+                curves.push((name, row));
             }
-        }
-        for (columns, rows) in [(spectrum::waves(), waves), (spectrum::curves(), curves)] {
-            if !rows.is_empty() {
-                lines.push(String::new());
-                lines.extend(Table::new(&with_case(columns), rows).merged().lines());
-            }
+            waves.push((name, row));
         }
     }
-
-    fn remarks(&self, case: &CaseOutcome) -> Vec<String> {
-        let remark = |row: &SpectrumRow| {
-            let reason = row.measured.as_ref().err()?;
-            Some(format!("{} cells, C = {}: {reason}", row.cells, row.courant))
-        };
-        let study = case.spectrum();
-        study.map_or(Vec::new(), |study| study.rows.iter().filter_map(remark).collect())
-    }
-
-    fn json(&self, case: &CaseOutcome) -> Map<String, Value> {
-        let objects = |study: &SpectrumStudy| json_objects(&spectrum::json_columns(), &study.rows);
-        members(json!({"spectrum": case.spectrum().map(objects)}))
+    for (columns, rows) in [(spectrum::waves(), waves), (spectrum::curves(), curves)] {
+        if !rows.is_empty() {
+            lines.push(String::new());
+            lines.extend(Table::new(&with_case(columns), rows).merged().lines());
+        }
     }
 }
 
-type NamedWave = (String, SpectrumRow);
-
-fn with_case(columns: Vec<TableColumn<'_, SpectrumRow>>) -> Vec<TableColumn<'_, NamedWave>> {
-    let name = TableColumn::text("case", "case", |(name, _): &NamedWave| name.clone());
-    let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));
-    std::iter::once(name.flush_left()).chain(of_row).collect()
+fn wave_remarks(study: &SpectrumStudy) -> Vec<String> {
+    let remark = |row: &SpectrumRow| {
+        let reason = row.measured.as_ref().err()?;
+        Some(format!("{} cells, C = {}: {reason}", row.cells, row.courant))
+    };
+    study.rows.iter().filter_map(remark).collect()
 }

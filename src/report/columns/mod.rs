@@ -168,6 +168,16 @@ impl<'a, R: ?Sized + 'a> TableColumn<'a, R> {
     }
 }
 
+/// Adds a column with the names of the cases in front of `columns`.
+pub(crate) fn with_case<'a, R: 'a, B: Borrow<R> + 'a>(
+    columns: impl IntoIterator<Item = TableColumn<'a, R>>,
+) -> Vec<TableColumn<'a, (&'a str, B)>> {
+    let name = TableColumn::text("case", "case", |(name, _): &(&'a str, B)| *name);
+    let of_row =
+        columns.into_iter().map(|column| column.within(|(_, row): &(_, B)| Some(row.borrow())));
+    std::iter::once(name.flush_left()).chain(of_row).collect()
+}
+
 pub(crate) fn json_object<R: ?Sized>(columns: &[TableColumn<'_, R>], row: &R) -> Value {
     let mut object = Map::new();
     for column in columns.iter().filter(|column| !column.key.is_empty()) {

@@ -6,7 +6,7 @@
 //! be added, but are renamed or removed only in a new major version.
 
 use crate::report::json::rankings;
-use crate::report::study::{KINDS, members};
+use crate::report::study::KINDS;
 use crate::subject::{ColumnSize, Holder, Profile};
 use crate::verify::{CaseOutcome, Exemption, SuiteOutcome};
 use serde_json::{Value, json};
@@ -47,7 +47,7 @@ fn suite(outcome: &SuiteOutcome) -> Value {
 }
 
 pub(crate) fn case(outcome: &CaseOutcome) -> Value {
-    let mut members = members(json!({
+    let mut case = json!({
         "case": outcome.case,
         "subject": outcome.subject,
         "settings": outcome.settings,
@@ -63,9 +63,13 @@ pub(crate) fn case(outcome: &CaseOutcome) -> Value {
         "unmet": outcome.unmet.iter().map(|unmet| unmet.text.as_str()).collect::<Vec<_>>(),
         "codes": outcome.unmet.iter().map(|unmet| unmet.code.name()).collect::<Vec<_>>(),
         "profile": outcome.profile.as_ref().map(profile),
-    }));
-    members.extend(KINDS.iter().flat_map(|kind| kind.json(outcome)));
-    members.into()
+    });
+    for kind in KINDS {
+        if let Value::Object(members) = (kind.json)(outcome) {
+            members.into_iter().for_each(|(key, value)| case[key] = value);
+        }
+    }
+    case
 }
 
 /// Converts the cost of a step to JSON.

@@ -22,7 +22,7 @@ pub fn plotted<'a>(
 
 /// Draws the figures of the kind of study of a suite, and diagrams of error against work.
 pub fn svg(outcome: &SuiteOutcome) -> Vec<Figure> {
-    let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| kind.figures(outcome)).collect();
+    let mut figures: Vec<Figure> = KINDS.iter().flat_map(|kind| (kind.figures)(outcome)).collect();
     let rankings = verify::by_transfers(&outcome.cases);
     let work = "particle-node transfers";
     figures.extend(cost::cost_figures(outcome, &rankings, work, "transfers"));

@@ -25,7 +25,7 @@ pub fn text(outcome: &SuiteOutcome) -> String {
     problem(&mut lines, &outcome.statement);
     in_common(&mut lines, &outcome.cases);
     for kind in KINDS {
-        kind.tables(&mut lines, &outcome.cases);
+        (kind.tables)(&mut lines, &outcome.cases);
     }
     lines.join("\n") + "\n"
 }
@@ -49,7 +49,7 @@ pub fn case(outcome: &CaseOutcome) -> String {
     lines.push(String::new());
     in_common(&mut lines, cases);
     for kind in KINDS {
-        kind.tables(&mut lines, cases);
+        (kind.tables)(&mut lines, cases);
     }
     lines.join("\n") + "\n"
 }

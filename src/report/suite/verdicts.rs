@@ -86,7 +86,7 @@ fn remarks(lines: &mut Vec<String>, cases: &[CaseOutcome]) {
         // Convergence studies have a remark for each failed level.
         let fails = case.convergence().is_none() && case.verdict == Verdict::Failed.name();
         let reason = Some(case.reason.clone()).filter(|_| !case.is_tested() || fails);
-        let remarks = KINDS.iter().flat_map(|kind| kind.remarks(case));
+        let remarks = KINDS.iter().flat_map(|kind| (kind.remarks)(case));
         remarks.chain(reason).collect::<Vec<_>>()
     };
     let all = cases

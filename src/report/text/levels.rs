@@ -2,8 +2,8 @@
 
 use super::prose::{indented, row};
 use super::table::{Table, shared};
-use crate::report::columns::level::{LevelColumn, LevelRow, NamedStudy};
-use crate::report::columns::{TableColumn, decimals, level, short};
+use crate::report::columns::level::{LevelColumn, NamedStudy};
+use crate::report::columns::{TableColumn, decimals, level, short, with_case};
 use crate::verify::{
     Axis, Convergence, EstimateRefusal, LevelOutcome, LimitEstimate, Quantity, StepKind, distinct,
     format_number, grouped,
@@ -189,8 +189,6 @@ fn pair_heading(names: &[String], index: usize) -> String {
 /// Maximum length (characters) of two level names in one heading.
 const LONGEST_PAIR: usize = 9;
 
-type NamedLevel<'a> = (&'a str, LevelRow<'a>);
-
 /// Adds a table of the finest levels below a heading, with one row for each case. Columns that
 /// contain only dashes or only `0` are omitted; if no column remains, nothing is added.
 fn by_case<'a>(
@@ -199,11 +197,8 @@ fn by_case<'a>(
     studies: &[NamedStudy<'a>],
     columns: impl IntoIterator<Item = LevelColumn<'a>>,
 ) {
-    let name = TableColumn::text("case", "case", |(name, _): &NamedLevel<'a>| *name);
-    let figures = columns.into_iter().map(|column| column.within(|(_, row)| Some(row)));
-    let columns: Vec<_> = std::iter::once(name.flush_left()).chain(figures).collect();
     let finest = |(name, study): &NamedStudy<'a>| Some((*name, level::rows(study).last()?));
-    let table = Table::new(&columns, studies.iter().filter_map(finest));
+    let table = Table::new(&with_case(columns), studies.iter().filter_map(finest));
     let table = table.without_columns_of("0").without_empty_columns().merged();
     if table.columns() > 1 {
         heading_lines(lines, heading);

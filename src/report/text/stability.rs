@@ -1,8 +1,8 @@
 //! Tables of a stability study.
 
 use super::table::{Table, merged_blocks};
-use crate::report::columns::TableColumn;
 use crate::report::columns::stability::{self, ledger_text, limit_of, limit_text};
+use crate::report::columns::with_case;
 use crate::report::figure::sweep::swept_map;
 use crate::report::figure::{Map, MapField};
 use crate::subject::{EnergyBalance, LedgerStage};
@@ -54,15 +54,11 @@ type NamedRow<'a> = (&'a str, &'a StabilityRow);
 
 fn trials(lines: &mut Vec<String>, studies: &[NamedSweep<'_>]) {
     let Some((_, first)) = studies.first() else { return };
-    let columns = stability::trials(first);
-    let name = TableColumn::text("case", "case", |(name, _): &NamedRow<'_>| *name);
-    let of_row = columns.into_iter().map(|column| column.within(|(_, row)| Some(*row)));
-    let columns: Vec<_> = std::iter::once(name.flush_left()).chain(of_row).collect();
     let rows =
         studies.iter().flat_map(|(name, study)| study.rows.iter().map(move |row| (*name, row)));
-    let tried = rows.filter(|(_, row)| row.trial.is_some());
+    let tried: Vec<NamedRow<'_>> = rows.filter(|(_, row)| row.trial.is_some()).collect();
     lines.push(String::new());
-    lines.extend(Table::new(&columns, tried).merged().lines());
+    lines.extend(Table::new(&with_case(stability::trials(first)), tried).merged().lines());
 }
 
 /// Adds the energy ledgers: a block of rows for each case, a row for each stage, and a column for
