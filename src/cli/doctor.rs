@@ -4,7 +4,7 @@ use super::arguments::{FormatArgs, SolverArgs};
 use super::output::{CommandError, Status};
 use super::{output, solver};
 use clap::Args;
-use mpm_verify::testing::{DoctorReport, brief_page, doctor as examine, page};
+use mpm_verify::testing::{brief_page, doctor as examine, page};
 
 #[derive(Debug, Args)]
 pub(super) struct DoctorArgs {
@@ -22,7 +22,10 @@ pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
         .ok_or_else(|| CommandError::Message("expected a solver: `--solver COMMAND`".to_owned()))?;
     let report = examine(&program, &|name| output::complain(&format!("examining: {name}")));
     match (args.format.is_json(), args.verbose) {
-        (true, _) => output::print(&json(&report)),
+        // The report contains only names and finite numbers, so the conversion cannot fail.
+        (true, _) => {
+            output::print(&(serde_json::to_string_pretty(&report).unwrap_or_default() + "\n"));
+        }
         (false, true) => output::print(&page(&report)),
         (false, false) => output::print(&brief_page(&report)),
     }
@@ -36,9 +39,4 @@ pub(super) fn doctor(args: &DoctorArgs) -> Result<Status, CommandError> {
         None if report.defects() > 0 => Status::Failed,
         None => Status::Passed,
     })
-}
-
-fn json(report: &DoctorReport) -> String {
-    // The report contains only names and finite numbers, so the conversion to JSON cannot fail.
-    serde_json::to_string_pretty(report).unwrap_or_default() + "\n"
 }

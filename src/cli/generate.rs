@@ -61,7 +61,7 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> 
     let page = match &args.command {
         None => Some(Man::new(cli)),
         Some(name) => cli.find_subcommand(name).map(|command| {
-            Man::new(titled(command, name))
+            Man::new(command.clone().display_name(format!("mpm-verify-{name}")))
                 .source(concat!("mpm-verify ", env!("CARGO_PKG_VERSION")))
         }),
     };
@@ -72,9 +72,4 @@ pub(super) fn man(args: &ManArgs, cli: Command) -> Result<Status, CommandError> 
     };
     output::print_bytes(&text);
     Ok(Status::Passed)
-}
-
-/// Renames a command to the name of its manual page, such as `mpm-verify-run`.
-fn titled(command: &Command, name: &str) -> Command {
-    command.clone().display_name(format!("mpm-verify-{name}"))
 }

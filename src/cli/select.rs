@@ -31,10 +31,11 @@ pub(super) fn unchecked(targets: &[PathBuf]) -> Vec<Found> {
 }
 
 fn load(targets: &[PathBuf], prepare: fn(Source) -> Source) -> Vec<Found> {
-    let sources = if targets.is_empty() {
-        everything()
-    } else {
-        targets.iter().flat_map(|target| sources(target)).collect()
+    let folder = Path::new(FOLDER);
+    let sources = match targets {
+        [] if folder.is_dir() => files_in(folder),
+        [] => embedded::names().filter_map(embedded::source).collect(),
+        _ => targets.iter().flat_map(|target| sources(target)).collect(),
     };
     // Suites are loaded in parallel, because checking an exact solution takes 0.1 s.
     let load = |source: Source| Suite::load(&source).map(|suite| (source, suite));
@@ -45,15 +46,6 @@ fn load(targets: &[PathBuf], prepare: fn(Source) -> Source) -> Vec<Found> {
 pub(super) type Found = Result<(Source, Suite), Diagnostic>;
 
 type Sources = Vec<Result<Source, Diagnostic>>;
-
-fn everything() -> Sources {
-    let folder = Path::new(FOLDER);
-    if folder.is_dir() {
-        files_in(folder)
-    } else {
-        embedded::names().filter_map(embedded::source).collect()
-    }
-}
 
 /// Group of suites for a first look.
 const FIRST: &str = "the-talk";

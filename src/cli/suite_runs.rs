@@ -83,10 +83,6 @@ impl SuiteRuns {
     pub(super) fn suite(&self) -> &Suite {
         &self.parts[0].suite
     }
-
-    fn twice(&self) -> Option<String> {
-        repeated(self.parts.iter().flat_map(|part| part.suite.case_names())).map(str::to_owned)
-    }
 }
 
 /// Returns the first name that occurs a second time.
@@ -100,10 +96,12 @@ pub(super) fn repeated<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<&
 /// # Errors
 /// If a case of a suite has the name of a solver.
 pub(super) fn check_names(runs: &[SuiteRuns]) -> Result<(), CommandError> {
-    let Some((name, suite)) = runs.iter().find_map(|runs| Some((runs.twice()?, runs.suite())))
-    else {
-        return Ok(());
-    };
-    let reason = format!("a case of the suite `{}` has this name", suite.name);
-    Err(CommandError::option("--solver", name, reason))
+    for runs in runs {
+        let names = runs.parts.iter().flat_map(|part| part.suite.case_names());
+        if let Some(name) = repeated(names) {
+            let reason = format!("a case of the suite `{}` has this name", runs.suite().name);
+            return Err(CommandError::option("--solver", name, reason));
+        }
+    }
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Reports as LaTeX tables, for papers.
 
 use crate::report::columns::level::{self, LevelRow, NamedStudy};
-use crate::verify::{Axis, CaseOutcome, Interval, SuiteOutcome, Verdict, grouped};
+use crate::verify::{Axis, CaseOutcome, SuiteOutcome, Verdict, grouped};
 use std::fmt::Write;
 
 /// Maximum number of cases per table, limited by the width of a page.
@@ -84,7 +84,10 @@ fn table(outcome: &SuiteOutcome, label: &str, judged: &str, cases: &[NamedStudy<
     line("    \\midrule");
     let orders = cases.iter().map(|(_, study)| {
         let order = study.judgement.order.filter(|_| study.verdict() == Verdict::Converging);
-        let order = order.map_or_else(|| study.verdict().name().to_owned(), interval);
+        let order = order.map_or_else(
+            || study.verdict().name().to_owned(),
+            |order| format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high),
+        );
         format!(" & \\multicolumn{{2}}{{c}}{{{order}}}")
     });
     line(&format!("    order (95\\,\\%){} \\\\", orders.collect::<String>()));
@@ -92,10 +95,6 @@ fn table(outcome: &SuiteOutcome, label: &str, judged: &str, cases: &[NamedStudy<
     line("  \\end{tabular}");
     line("\\end{table}");
     text
-}
-
-fn interval(order: Interval) -> String {
-    format!("${:.2}$ [${:.2}$, ${:.2}$]", order.value, order.low, order.high)
 }
 
 /// Converts a cell to LaTeX: `1.235e-05` to a power of ten, and `-` (no value) to a dash.

@@ -43,13 +43,12 @@ pub(crate) fn shares(outcomes: &[&SuiteOutcome]) -> [(usize, usize); COLUMNS.len
         let cases = outcomes.iter().flat_map(|outcome| &outcome.cases);
         let cases = cases.filter(|case| case.is_tested() && column_of(case) == column);
         let studies = cases.filter_map(CaseOutcome::convergence).filter(|study| !study.bounded);
-        studies.fold((0, 0), |(kept, all), study| (kept + usize::from(has_order(study)), all + 1))
+        studies.fold((0, 0), |(kept, all), study| {
+            let is_kept = study.accepted.is_some()
+                || matches!(study.judgement.verdict, Verdict::Converging | Verdict::TooGood);
+            (kept + usize::from(is_kept), all + 1)
+        })
     })
-}
-
-fn has_order(study: &Convergence) -> bool {
-    study.accepted.is_some()
-        || matches!(study.judgement.verdict, Verdict::Converging | Verdict::TooGood)
 }
 
 /// Groups items by the group of their suite, with the groups in alphabetical order.

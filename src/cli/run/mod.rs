@@ -43,9 +43,15 @@ pub(super) fn merge(args: &MergeArgs) -> Result<Status, CommandError> {
     threads(args.report.jobs)?;
     let parts = ResultCache::of_parts(&args.from)
         .map_err(|(folder, error)| CommandError::option("--from", folder.display(), error))?;
-    report(&args.report, None, |suites| {
-        Ok((SuiteRuns::of_methods(suites), Judging::of_kept(parts)))
-    })
+    // All results are those of the parts, and no level runs.
+    let kept = Judging {
+        kept: Some(parts),
+        solvers: Vec::new(),
+        repeat: 1,
+        series: None,
+        at_interrupt: None,
+    };
+    report(&args.report, None, |suites| Ok((SuiteRuns::of_methods(suites), kept)))
 }
 
 fn chosen(args: &RunArgs, suites: Vec<Suite>) -> Result<(Vec<SuiteRuns>, Judging), CommandError> {
@@ -320,12 +326,6 @@ struct Judging {
 }
 
 impl Judging {
-    /// Returns settings that take all results from the cache `kept` and run no level.
-    fn of_kept(kept: ResultCache) -> Self {
-        let (solvers, repeat) = (Vec::new(), 1);
-        Self { kept: Some(kept), solvers, repeat, series: None, at_interrupt: None }
-    }
-
     /// Returns the suites whose cases must all be tested for the gates to pass.
     fn required(&self) -> BTreeSet<String> {
         let gates = self.solvers.iter().filter_map(|solver| solver.gate.as_ref());

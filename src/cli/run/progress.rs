@@ -135,6 +135,7 @@ pub(super) fn interrupt_note(kept: bool) -> String {
 }
 
 fn note_of(words: &[String], kept: bool) -> String {
+    let quoted = |word| shlex::try_quote(word).unwrap_or(Cow::Borrowed(word));
     let mut words: Vec<Cow<'_, str>> = words.iter().map(|word| quoted(word)).collect();
     if words.first().is_none_or(|word| word != "run") {
         words.insert(0, "run".into());
@@ -148,10 +149,6 @@ fn note_of(words: &[String], kept: bool) -> String {
              --resume kept`, an interrupted run can be resumed"
         )
     }
-}
-
-fn quoted(word: &str) -> Cow<'_, str> {
-    shlex::try_quote(word).unwrap_or(word.into())
 }
 
 #[cfg(test)]

@@ -12,7 +12,9 @@ pub(crate) fn methods(ranking: &Ranking) -> Vec<MethodColumn<'_>> {
             MethodColumn::text(format!("work for {target:e}"), "work for the error", move |row| {
                 reach_text(row.reaches[k])
             }),
-            MethodColumn::text("x", "times the least work", move |row| row.times[k].map(ratio)),
+            MethodColumn::text("x", "times the least work", move |row| {
+                row.times[k].map(|t| if t < 1000.0 { format!("{t:.2}") } else { short(t) })
+            }),
         ]);
     }
     let best = "smallest error, relative to the size of the solution";
@@ -121,8 +123,4 @@ fn reach_text(reach: Reach) -> String {
         Reach::Already { work, .. } => format!("<={}", short(work)),
         Reach::Never => "-".to_owned(),
     }
-}
-
-fn ratio(times: f64) -> String {
-    if times < 1000.0 { format!("{times:.2}") } else { short(times) }
 }

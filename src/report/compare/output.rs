@@ -37,12 +37,9 @@ pub fn text(comparison: &ReportComparison) -> String {
         lines.extend(Table::new(&targets(), &comparison.cheapest).lines());
     }
     let share = comparison.tolerance;
-    lines.extend([String::new(), equality(share)]);
+    let equality = format!("Values count as equal within a relative difference of {share}.");
+    lines.extend([String::new(), equality]);
     lines.join("\n") + "\n"
-}
-
-fn equality(tolerance: f64) -> String {
-    format!("Values count as equal within a relative difference of {tolerance}.")
 }
 
 /// Maximum number of printed notes of a case. The other notes are only counted.

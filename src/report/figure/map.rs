@@ -187,21 +187,16 @@ pub(crate) fn merged_fields(rows: Vec<(String, Vec<MapField>)>) -> Vec<(String, 
         let name = if is_common { name[common.len()..].trim_start_matches('-') } else { &name };
         let (stem, last) = name.rsplit_once('-').unwrap_or(("", name));
         match kept.last_mut() {
-            Some((known, shown)) if shown_alike(shown, &fields) && stem_of(known) == stem => {
+            Some((known, shown))
+                if known.rsplit_once('-').map_or("", |(stem, _)| stem) == stem
+                    && shown.iter().map(|field| &field.text).eq(fields.iter().map(|f| &f.text)) =>
+            {
                 *known += &format!("/{last}");
             }
             _ => kept.push((name.to_owned(), fields)),
         }
     }
     kept
-}
-
-fn stem_of(name: &str) -> &str {
-    name.rsplit_once('-').map_or("", |(stem, _)| stem)
-}
-
-fn shown_alike(a: &[MapField], b: &[MapField]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.text == b.text)
 }
 
 #[cfg(test)]

@@ -66,7 +66,9 @@ pub fn overview(outcomes: &[SuiteOutcome]) -> String {
     for (group, suites) in groups(outcomes) {
         lines.push(group.to_owned());
         for suite in suites {
-            row_of_width(&mut lines, SUITE, &suite.suite, &by_basis(suite));
+            let named = COLUMNS.iter().zip(findings(suite)).filter(|(_, finding)| finding != "-");
+            let named = named.map(|(basis, finding)| format!("{basis} {finding}"));
+            row_of_width(&mut lines, SUITE, &suite.suite, &named.collect::<Vec<_>>().join(", "));
         }
     }
     lines.join("\n") + "\n"
@@ -91,10 +93,4 @@ fn estimates(cases: &[&CaseOutcome]) -> Option<String> {
 
 fn groups(outcomes: &[SuiteOutcome]) -> Vec<(&str, Vec<&SuiteOutcome>)> {
     by_group(outcomes, |suite| suite)
-}
-
-/// Lists the findings of a suite: `linear 1.96..2.01, FEM floor`.
-fn by_basis(suite: &SuiteOutcome) -> String {
-    let named = COLUMNS.iter().zip(findings(suite)).filter(|(_, finding)| finding != "-");
-    named.map(|(basis, finding)| format!("{basis} {finding}")).collect::<Vec<_>>().join(", ")
 }

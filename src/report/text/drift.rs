@@ -11,7 +11,10 @@ pub const RELATIVE: f64 = 1e-3;
 pub fn same(old: &str, new: &str) -> bool {
     let (old, new) = (old.trim_end(), new.trim_end());
     old.lines().count() == new.lines().count()
-        && old.lines().zip(new.lines()).all(|(old, new)| same_line(old, new))
+        && old.lines().zip(new.lines()).all(|(old, new)| {
+            let (old, new) = (tokens(old), tokens(new));
+            old.len() == new.len() && old.iter().zip(&new).all(|(old, new)| same_token(old, new))
+        })
 }
 
 /// Whether a report equals its stored snapshot, which begins with a header of `insta`.
@@ -22,11 +25,6 @@ pub fn same_as_snapshot(snapshot: &str, report: &str) -> bool {
 /// Returns a snapshot without its header.
 pub fn contents(snapshot: &str) -> &str {
     snapshot.splitn(3, "---\n").last().unwrap_or_default()
-}
-
-fn same_line(old: &str, new: &str) -> bool {
-    let (old, new) = (tokens(old), tokens(new));
-    old.len() == new.len() && old.iter().zip(&new).all(|(old, new)| same_token(old, new))
 }
 
 fn same_token(old: &str, new: &str) -> bool {

@@ -127,13 +127,10 @@ impl Canvas {
         for pair in dots.windows(2) {
             self.line(pair[0].0, pair[1].0);
         }
-        for (dot, counts) in dots {
-            self.mark(*dot, if *counts { letter } else { EXCLUDED });
+        for ([x, y], counts) in dots {
+            let mark = if *counts { letter } else { EXCLUDED };
+            self.marks[y / DOTS[1]][x / DOTS[0]].get_or_insert(mark);
         }
-    }
-
-    fn mark(&mut self, [x, y]: [usize; 2], mark: char) {
-        self.marks[y / DOTS[1]][x / DOTS[0]].get_or_insert(mark);
     }
 
     fn rows(&self) -> Vec<String> {

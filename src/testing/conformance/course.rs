@@ -173,7 +173,9 @@ pub(super) fn counters(problem: &LevelProblem, states: &[RunState]) -> Vec<Breac
             note(format!("`left_domain` of at most {given}"), count.to_string());
         }
         if !now.min_j.is_nan() {
-            smallest = smallest.min(smallest_j(&state.samples)).min(before.min_j);
+            let d = state.samples.dimension;
+            let f = state.samples.deformation_gradient.chunks_exact(d * d);
+            smallest = f.map(|f| det_of_rows(d, f)).fold(smallest, f64::min).min(before.min_j);
             if !(0.0 < now.min_j && now.min_j <= smallest * (1.0 + ROUNDING)) {
                 let wanted = format!("0 < `min_j` <= {smallest:e}, the smallest det F so far");
                 note(wanted, format!("{:e}", now.min_j));
@@ -193,11 +195,4 @@ pub(super) fn totals(problem: &LevelProblem, states: &[RunState]) -> Option<Brea
     let seen = seen.filter(|seen| is_off(*seen))?;
     let wanted = format!("`mass` = {mass:e} kg, or no totals");
     Some(Breach::new("totals", wanted, format!("{seen:e} kg")))
-}
-
-/// Returns the smallest det F of all points; infinite if the solver does not report F.
-fn smallest_j(samples: &Samples) -> f64 {
-    let d = samples.dimension;
-    let all = samples.deformation_gradient.chunks_exact(d * d);
-    all.map(|f| det_of_rows(d, f)).fold(f64::INFINITY, f64::min)
 }

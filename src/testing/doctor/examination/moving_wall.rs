@@ -13,7 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
                rho c v per area, and points next to the wall move with the wall",
     after: &["translation", "transfer", "stress", "vibration", "walls"],
     covers: &["conditions: velocity"],
-    examine,
+    examine: |patient| judge_ends(patient, &[2, 1, 3], &RULES, pushed, measure),
 };
 
 /// Velocity of the wall along its normal and along its tangents, relative to the wave speed.
@@ -57,10 +57,6 @@ const RULES: Rules<4> = Rules {
               time of the step (all components), and the velocity change of particles is \
               interpolated from the change of this value; walls are applied after all loads",
 };
-
-fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    judge_ends(patient, &[2, 1, 3], &RULES, pushed, measure)
-}
 
 /// Returns component `i` of the velocity of the wall (m/s), at high ends at the end of the run.
 fn wall_velocity(scene: &BoxScene, (axis, high): (usize, bool), i: usize) -> f64 {

@@ -264,12 +264,6 @@ fn wrong_entries_of_column(course: &Course, scene: &BoxScene) -> Option<(Vec<usi
     Some(((0..d * d).filter(is_wrong).collect(), has_stress))
 }
 
-fn component_names(components: &[usize], d: usize) -> String {
-    let axis = ["x", "y", "z"];
-    let names = components.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d]));
-    names.collect::<Vec<_>>().join(", ")
-}
-
 fn force_of_deformed_body(force: &str, forces: &Forces) -> SolverFinding {
     SolverFinding::defect(
         "force-of-deformed-body",
@@ -338,7 +332,9 @@ fn cause(course: &Course, scene: &BoxScene, forces: &Forces) -> Option<SolverFin
     // Laws in rate form keep a wrong initial stress in the column.
     let of_column = entries.filter(|(wrong, has_stress)| *has_stress && !wrong.is_empty());
     let of_column = of_column.map(|(wrong, _)| {
-        let names = component_names(&wrong, d);
+        let axis = ["x", "y", "z"];
+        let names = wrong.iter().map(|k| format!("{}{}", axis[k / d], axis[k % d]));
+        let names = names.collect::<Vec<_>>().join(", ");
         format!("after one step, the column `stress` has other components {names}")
     });
     if let Some(wrong) = of_column.or_else(|| forces.wrong_components(scene)) {

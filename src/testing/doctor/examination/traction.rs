@@ -13,7 +13,7 @@ pub(super) const EXAMINATION: Examination = Examination {
     expected: "a free body gains the momentum p A t under a traction p on a face of area A",
     after: &["translation", "transfer", "stress"],
     covers: &["loads: traction"],
-    examine,
+    examine: |patient| judge_ends(patient, &[2, 3, 1], &RULES, loaded, measure),
 };
 
 /// Traction along the normal and along the tangents, relative to Young's modulus.
@@ -60,10 +60,6 @@ const RULES: Rules<4> = Rules {
               the step, times reference area, distributed to nodes with weights that sum to one; \
               all components, and `face` of the load",
 };
-
-fn examine(patient: &Patient<'_>) -> Result<Examined, Hindrance> {
-    judge_ends(patient, &[2, 3, 1], &RULES, loaded, measure)
-}
 
 /// Returns component `i` of the traction (Pa) at the start.
 fn traction(scene: &BoxScene, axis: usize, i: usize) -> f64 {

@@ -23,7 +23,10 @@ pub(super) fn cause(motion: &UniformMotion<'_>) -> Result<SolverFinding, Hindran
     let again = UniformMotion { course, scene: &soft, ..*motion };
     let (way, speed) = again.off();
     let (_, stiff) = motion.off();
-    let (low, high) = first_share(motion);
+    let v = motion.velocity;
+    let scale = v.dot(&v) * motion.course.times[1];
+    // Displacements of points in the first step, relative to v dt.
+    let (low, high) = range(motion.course.points(displacement, 1).map(|(_, u)| u.dot(&v) / scale));
     if is_whole && way.max(speed) <= 1e-3 * stiff.max(motion.patient.rounding()) {
         let [stiff, speed] = [stiff, speed].map(shown);
         return Ok(SolverFinding::defect(
@@ -85,13 +88,6 @@ fn lost(motion: &UniformMotion<'_>, k: usize) -> (f64, f64) {
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-}
-
-/// Returns the smallest and largest displacement of points in the first step, relative to v dt.
-fn first_share(motion: &UniformMotion<'_>) -> (f64, f64) {
-    let v = motion.velocity;
-    let scale = v.dot(&v) * motion.course.times[1];
-    range(motion.course.points(displacement, 1).map(|(_, u)| u.dot(&v) / scale))
 }
 
 /// Returns the finding for weights that do not sum to one. `soft` contains the relative errors of

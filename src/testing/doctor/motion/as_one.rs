@@ -23,17 +23,16 @@ impl UniformMotion<'_> {
             (0..=self.course.last()).map(all).fold(0.0, f64::max) / self.velocity.norm()
         };
         let end = self.course.times[self.course.last()];
-        (most(&|k| self.way_off(k)) / end, most(&|k| self.speed_off(k)))
+        (
+            most(&|k| self.way_off(k)) / end,
+            most(&|k| self.course.farthest(velocity, k, self.velocity)),
+        )
     }
 
     /// Returns the largest error of a displacement (m) in state `k`.
     pub(super) fn way_off(&self, k: usize) -> f64 {
         let wanted = self.course.times[k] * self.velocity;
         self.course.farthest(displacement, k, wanted)
-    }
-
-    fn speed_off(&self, k: usize) -> f64 {
-        self.course.farthest(velocity, k, self.velocity)
     }
 
     /// Whether all points have about the same error.
