@@ -2,11 +2,10 @@
 //!
 //! ```text
 //! course   columns, labels, weights and motion at the start; counters and sums over a few steps
-//! again    repeated sampling, half-length step, repeated run, resumed run
+//!          and repeated sampling, a half-length step and a repeated run
 //! record   recorded runs, and the type of a breach
 //! ```
 
-mod again;
 mod course;
 mod record;
 
@@ -100,7 +99,7 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
         return breaches;
     }
     breaches.extend(course::start(problem, &states[0].samples));
-    breaches.extend(again::sample(subject.as_ref(), &states[0].samples));
+    breaches.extend(course::sample(subject.as_ref(), &states[0].samples));
     let steps = STEPS.min(problem.steps as usize);
     if let Err(failure) = record(subject.as_mut(), steps, problem.dt, &mut states) {
         let wanted = format!("{steps} steps of {:e} s on the coarsest level", problem.dt);
@@ -111,11 +110,11 @@ fn breaches(solver: &dyn SolverFactory, problem: &LevelProblem) -> Vec<Breach> {
     breaches.extend(course::counters(problem, &states));
     breaches.extend(course::totals(problem, &states));
     if breaches.is_empty() {
-        breaches.extend(again::repeat(&make, &states, problem.dt));
+        breaches.extend(course::repeat(&make, &states, problem.dt));
     }
     // This comparison is meaningful only if runs are repeatable.
     if breaches.is_empty() {
-        breaches.extend(again::step_length(&make, &states, problem.dt));
+        breaches.extend(course::step_length(&make, &states, problem.dt));
     }
     breaches.extend(course::work(&states));
     breaches
